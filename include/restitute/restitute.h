@@ -1,0 +1,326 @@
+/** @file restitute.h
+ *  Oblique impact of linear-viscoelastic spheres with friction: the core of `restitute`.
+ *
+ *  A sphere meets a half-space or another sphere; the library returns the restitution pair
+ *
+ *      ez = -(normal velocity after)/(normal velocity before)
+ *      ex = -(tangential velocity of the contact point after)/(before)
+ *
+ *  with its error, and on request the history of the impact and where the energy went. The model is the Method of
+ *  Dimensionality Reduction after Willert, Kusche and Popov, Facta Universitatis Mech. Eng. 15(2), 2017, "the
+ *  paper"; its equation numbers stand in parentheses. It assumes a half-space, quasi-static material, short impact,
+ *  one friction coefficient (Amontons-Coulomb), a constant Poisson ratio and the profile r^2/(2R).
+ *
+ *  Five lines:
+ *
+ *      restitute_material *rubber;
+ *      restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &rubber, NULL);      // G1, G2 in Pa, eta in Pa s
+ *      restitute_scene scene; restitute_scene_init(&scene);
+ *      scene.material = rubber; scene.radius1 = 0.01; scene.mass1 = 4e-3; scene.friction = 0.3;
+ *      scene.normal_speed = 2.0; scene.tangential_speed = 1.0;                      // m/s
+ *      double ez, ex; restitute_scene_pair(&scene, &ez, &ex, NULL);
+ *
+ *  Rules that hold for every function
+ *  - It returns a @ref restitute_status: 0 done, positive done with a remark, negative failed. A failed call leaves
+ *    all its outputs untouched. Nothing is printed, nothing aborts, there is no global state.
+ *  - The last argument is an optional @ref restitute_error that names the offending value and its allowed range.
+ *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which also sets all defaults.
+ *  - An output pointer that is NULL is not wanted, and is not computed.
+ *  - Materials are immutable: any number of threads may share one. A solver belongs to one thread at a time.
+ *  - SI units (m, kg, s, Pa, N, rad) with @ref restitute_scene; dimensionless with @ref restitute_impact.
+ *
+ *  SPDX-License-Identifier: BSD-3-Clause
+ */
+#ifndef RESTITUTE_RESTITUTE_H
+#define RESTITUTE_RESTITUTE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <restitute/status.h>
+
+#if defined(_WIN32)
+#define RESTITUTE_API
+#elif defined(__GNUC__)
+#define RESTITUTE_API __attribute__((visibility("default")))
+#else
+#define RESTITUTE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------------------------------------ errors, version */
+
+/** Optional last argument: what went wrong, in one line, e.g. "friction = -0.1: must be >= 0 (inf: no slip)". */
+typedef struct restitute_error {
+    int status;        /**< the status returned, a @ref restitute_status */
+    char message[256]; /**< names the value, the place and the allowed range; empty when done */
+} restitute_error;
+
+/** Text of a status. Never NULL; unknown values give "unknown status". */
+RESTITUTE_API const char *restitute_status_text(int status);
+
+/** Version of the library in use, "major.minor.patch". */
+RESTITUTE_API const char *restitute_version(void);
+
+/* ------------------------------------------------------------------------------------------------------- materials */
+
+/** A linear-viscoelastic solid, its shear relaxation modulus and Poisson ratio:
+ *
+ *      G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta_inf delta(t)
+ *
+ *  Immutable after creation, shared freely by threads, destroyed by @ref restitute_material_destroy. */
+typedef struct restitute_material restitute_material;
+
+/** General solid: a Prony series, with a dashpot in parallel if wanted (THEORY 1). All the others are cases of it.
+ *
+ *  @param equilibrium_modulus  G_inf, Pa, finite, >= 0
+ *  @param parallel_viscosity   eta_inf, Pa s, finite, >= 0
+ *  @param n_terms              number of terms, any; 0 is allowed
+ *  @param relaxation_time      tau_k, s, finite, > 0, no two alike, any order; n_terms values, copied
+ *  @param modulus              G_k, Pa, finite, > 0; n_terms values, copied
+ *  @param poisson_ratio        nu, in [0, 0.5]
+ *  @param material             the new material
+ *  @param error                optional
+ *  @return ERROR_DOMAIN also if nothing resists at all (G_inf, eta_inf and n_terms all zero); ERROR_NULL; ERROR_MEMORY
+ *
+ *      const double tau[] = {1e-4, 1e-2}, g[] = {5e6, 1e6};
+ *      restitute_material_prony(1e6, 0.0, 2, tau, g, 0.5, &material, &error); */
+RESTITUTE_API int restitute_material_prony(double equilibrium_modulus, double parallel_viscosity, size_t n_terms,
+                                           const double *relaxation_time, const double *modulus, double poisson_ratio,
+                                           restitute_material **material, restitute_error *error);
+
+/** Elastic solid of shear modulus G > 0 (Pa). */
+RESTITUTE_API int restitute_material_elastic(double shear_modulus, double poisson_ratio, restitute_material **material,
+                                             restitute_error *error);
+
+/** Standard solid (1): spring G1 parallel to a spring G2 and a dashpot eta in series; tau = eta/G2.
+ *  @param modulus1   G1, Pa, > 0          @param modulus2  G2, Pa, > 0          @param viscosity  eta, Pa s, > 0 */
+RESTITUTE_API int restitute_material_standard_solid(double modulus1, double modulus2, double viscosity,
+                                                    double poisson_ratio, restitute_material **material,
+                                                    restitute_error *error);
+
+/** Kelvin-Voigt solid (2): spring G1 > 0 (Pa) parallel to a dashpot eta > 0 (Pa s). */
+RESTITUTE_API int restitute_material_kelvin_voigt(double modulus1, double viscosity, double poisson_ratio,
+                                                  restitute_material **material, restitute_error *error);
+
+/** Maxwell body: spring G > 0 (Pa) in series with a dashpot eta > 0 (Pa s); tau = eta/G. It may never rebound. */
+RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, double poisson_ratio,
+                                             restitute_material **material, restitute_error *error);
+
+/** Release a material; NULL is allowed. No solver call that uses it may still run. */
+RESTITUTE_API void restitute_material_destroy(restitute_material *material);
+
+/** G(t), Pa, at time t > 0 (s) after a unit shear step; NaN for a NULL material or t not > 0. */
+RESTITUTE_API double restitute_material_modulus(const restitute_material *material, double time);
+
+/** Poisson ratio nu; NaN for NULL. */
+RESTITUTE_API double restitute_material_poisson_ratio(const restitute_material *material);
+
+/** Number of Prony terms; 0 for NULL. */
+RESTITUTE_API size_t restitute_material_terms(const restitute_material *material);
+
+/* ------------------------------------------------------------------------------------------------ what is to happen */
+
+/** One impact in dimensionless numbers (22),(23). Lengths in d0 = a_el^2/R, times in T = d0/v_z0, a_el by (24).
+ *
+ *      chi    = (1-nu)/(2-nu) (1 + m R^2/J)                 7/6: solid incompressible sphere
+ *      psi    = (2-2nu)/(2-nu) |v_x0 + R w0|/(mu v_z0)      0: no slip (the limit mu -> infinity)
+ *      delta1 = eta sqrt(a_el/(G1 m (1-nu)))                0: elastic
+ *      gamma  = G1/G2                                       0: Kelvin-Voigt, infinity: elastic
+ *
+ *  (25)'s delta2, formed like delta1 with G2 under the root and the same a_el, is delta1 sqrt(gamma). */
+typedef struct restitute_impact {
+    size_t struct_size; /**< set by @ref restitute_impact_init */
+    double chi;         /**< in [1/3, 1e6]; default 7/6 */
+    double psi;         /**< in [0, 1e12]; default 0 */
+    double delta1;      /**< in [0, 1e12]; default 0; not used with `solid` */
+    double gamma;       /**< in [0, infinity]; default infinity; not used with `solid` */
+    const restitute_material *solid; /**< optional, any solid instead of (delta1, gamma): its moduli stand for
+                                        G/G_r, its times for t/T, with a_el formed with G_r; its nu is not used */
+} restitute_impact;
+
+/** Prepare with the defaults named above: an elastic no-slip impact. */
+RESTITUTE_API void restitute_impact_init(restitute_impact *impact);
+
+/** Which bodies deform. With both, they are of the same material, in series: G_eff(t) = G(t)/2. */
+typedef enum restitute_deformable {
+    RESTITUTE_ONE_BODY_DEFORMS = 1,   /**< the partner is rigid */
+    RESTITUTE_BOTH_BODIES_DEFORM = 2  /**< both are of `material` */
+} restitute_deformable;
+
+/** One impact in SI units: sphere 1 against a wall (radius2 and mass2 infinite) or against sphere 2.
+ *
+ *  Signs: the sphere moves with tangential_speed along x; a spin is positive if it moves the sphere's surface at the
+ *  contact along +x relative to the partner's, so that the contact point slides with
+ *  tangential_speed + radius1*spin1 + radius2*spin2. Backspin is negative. All speeds are relative (1 minus 2). */
+typedef struct restitute_scene {
+    size_t struct_size;                 /**< set by @ref restitute_scene_init */
+    const restitute_material *material; /**< required; default NULL */
+    int deformable;                     /**< a @ref restitute_deformable; default ONE_BODY_DEFORMS */
+    double radius1, mass1;              /**< m, kg; > 0, finite; required, default 0 */
+    double radius2, mass2;              /**< m, kg; > 0, infinity allowed; default infinity: a wall */
+    double inertia1, inertia2;          /**< kg m^2, > 0; default 0 stands for a solid sphere, (2/5) m R^2 */
+    int rotation_blocked;               /**< nonzero: the spheres cannot rotate; default 0 */
+    double friction;                    /**< mu, >= 0, infinity allowed (no slip); default 0 */
+    double normal_speed;                /**< m/s, approaching, > 0; required, default 0 */
+    double tangential_speed;            /**< m/s, of the centres; default 0 */
+    double spin1, spin2;                /**< rad/s, see above; default 0. spin2 must be 0 for a wall */
+} restitute_scene;
+
+/** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
+RESTITUTE_API void restitute_scene_init(restitute_scene *scene);
+
+/** What a scene is in dimensionless numbers, and the scales that lead back to SI.
+ *
+ *  The reference modulus G_r of the scales is G_inf of the effective solid if that is > 0 (it is G1 in (24)); with
+ *  G_inf = 0 it is G_inf + sum G_k, and for a mere dashpot the modulus that makes eta/(G_r T) = 1. */
+typedef struct restitute_numbers {
+    size_t struct_size;    /**< set by @ref restitute_numbers_init */
+    double chi, psi;       /**< (22); psi is 0 for mu = infinity or no tangential speed, infinity for mu = 0 */
+    double delta1, gamma;  /**< (23) for elastic, standard, Kelvin-Voigt solids; NaN for any other */
+    double delta2;         /**< delta1 sqrt(gamma); NaN likewise */
+    double radius, mass;   /**< effective R (m) and m (kg) of the pair */
+    double modulus;        /**< G_r, Pa, of the effective solid */
+    double length_z, length_x; /**< d0 and a_el, m (24) */
+    double time;           /**< T = d0/v_z0, s */
+    double force;          /**< m v_z0^2/d0, N */
+} restitute_numbers;
+
+RESTITUTE_API void restitute_numbers_init(restitute_numbers *numbers);
+
+/** Dimensionless numbers and scales of a scene (22)-(24), THEORY 3 and 9. Nothing is solved.
+ *
+ *      restitute_numbers numbers; restitute_numbers_init(&numbers);
+ *      restitute_scene_numbers(&scene, &numbers, &error);              // numbers.delta1, numbers.time, ... */
+RESTITUTE_API int restitute_scene_numbers(const restitute_scene *scene, restitute_numbers *numbers,
+                                          restitute_error *error);
+
+/* ------------------------------------------------------------------------------------------------ how it is solved */
+
+/** A way to solve the impact. Methods of other components come from their headers. */
+typedef struct restitute_method restitute_method;
+
+/** `euler`, the default: the paper's foundation and explicit Euler, first order. */
+RESTITUTE_API const restitute_method *restitute_method_euler(void);
+
+/** Name of a method, e.g. "euler"; "" for NULL. */
+RESTITUTE_API const char *restitute_method_name(const restitute_method *method);
+
+/** How to solve. With the defaults, elements and step are refined until the error estimate meets `tolerance`. */
+typedef struct restitute_options {
+    size_t struct_size;             /**< set by @ref restitute_options_init */
+    const restitute_method *method; /**< default @ref restitute_method_euler */
+    double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default 1e-3 */
+    int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0 (default): chosen */
+    double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), > 0; 0 (default):
+                                       chosen. A step that cannot be stable is refused with the largest that is */
+    int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,
+                                       > 0; default 1e10, about ten seconds. A call that reaches it before the
+                                       tolerance returns its best with TOLERANCE_NOT_REACHED */
+} restitute_options;
+
+RESTITUTE_API void restitute_options_init(restitute_options *options);
+
+/** Options and workspace. After its first calls of a kind a solver does not allocate any more. One thread at a time. */
+typedef struct restitute_solver restitute_solver;
+
+/** @param options NULL for the defaults, else copied */
+RESTITUTE_API int restitute_solver_create(const restitute_options *options, restitute_solver **solver,
+                                          restitute_error *error);
+/** Release a solver; NULL is allowed. */
+RESTITUTE_API void restitute_solver_destroy(restitute_solver *solver);
+
+/* ------------------------------------------------------------------------------------------------------- results */
+
+/** What came out. Units: T, d0, a_el, m v_z0^2/d0 after @ref restitute_solve; SI after @ref restitute_solve_scene. */
+typedef struct restitute_result {
+    size_t struct_size;        /**< set by @ref restitute_result_init */
+    double ez, ex;             /**< restitution pair. Its limits: ex = -1 for mu = 0; psi = 0 gives the no-slip value;
+                                  the sign is that of (26): ex > 0 if the contact point turns back */
+    double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms included */
+    double contact_time;       /**< T or s; infinity with NO_REBOUND */
+    double max_indentation;    /**< d0 or m */
+    double max_contact_radius; /**< a_el or m */
+    double max_normal_force;   /**< m v_z0^2/d0 or N */
+    double merging_bound;      /**< bound on the change of ez and ex by merged relaxation times, docs/theory.md */
+    int64_t terms_merged;      /**< relaxation times that the scene cannot feel and that were merged */
+    int64_t elements, steps;   /**< of the run that gave the pair: elements over the largest radius, time steps */
+    double element_spacing;    /**< dx: a_el or m */
+    double time_step;          /**< T or s */
+    int64_t updates;           /**< element updates spent, all runs together */
+    const char *method;        /**< its name; a string that lives as long as the library */
+} restitute_result;
+
+RESTITUTE_API void restitute_result_init(restitute_result *result);
+
+/** Where the energy went (THEORY 4.8), as fractions of the energy that came in: of (1/2) m v_z0^2 in z, and of the
+ *  energy of the contact point's tangential motion in x. Each account adds up to 1 - residual. */
+typedef struct restitute_ledger {
+    size_t struct_size;                 /**< set by @ref restitute_ledger_init */
+    double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the foundation */
+    double residual_z;                  /**< what the method loses: 1 - the three; of its order of error */
+    double rebound_x, friction_x, viscous_x, left_x;
+    double residual_x;
+} restitute_ledger;
+
+RESTITUTE_API void restitute_ledger_init(restitute_ledger *ledger);
+
+/** Time history, into arrays of the caller; a NULL array is not wanted. Samples are evenly spaced, first touch and the
+ *  end of contact included. Units as in @ref restitute_result; in the dimensionless case the tangential quantities
+ *  are U' and the force over mu. In SI tangential quantities have the sign of the incoming contact-point velocity taken
+ *  as positive. */
+typedef struct restitute_history {
+    size_t struct_size; /**< set by @ref restitute_history_init */
+    size_t capacity;    /**< length of every array given, >= 2 */
+    size_t count;       /**< out: samples written */
+    double *time;
+    double *indentation;
+    double *contact_radius;
+    double *stick_radius; /**< 0 in gross slip; the contact radius if all sticks */
+    double *normal_force;
+    double *tangential_force; /**< on the contact point, braking positive */
+    double *normal_velocity;  /**< positive into the partner */
+    double *tangential_velocity; /**< of the contact point */
+} restitute_history;
+
+RESTITUTE_API void restitute_history_init(restitute_history *history);
+
+/** Solve one dimensionless impact.
+ *
+ *  @param ledger,history,error  optional, NULL: not wanted
+ *  @return OK, NO_REBOUND, TOLERANCE_NOT_REACHED or an error; see @ref RESTITUTE_STATUS_LIST
+ *
+ *      restitute_impact impact; restitute_impact_init(&impact);
+ *      impact.psi = 2; impact.delta1 = 1; impact.gamma = 1;
+ *      restitute_result result; restitute_result_init(&result);
+ *      int status = restitute_solve(solver, &impact, &result, NULL, NULL, &error); */
+RESTITUTE_API int restitute_solve(restitute_solver *solver, const restitute_impact *impact, restitute_result *result,
+                                  restitute_ledger *ledger, restitute_history *history, restitute_error *error);
+
+/** Solve one impact in SI units; otherwise like @ref restitute_solve. */
+RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene,
+                                        restitute_result *result, restitute_ledger *ledger, restitute_history *history,
+                                        restitute_error *error);
+
+/** One call: the pair of a dimensionless impact with default options; allocates and frees a solver.
+ *
+ *      double ez, ex;
+ *      restitute_pair(7.0/6, 2.0, 1.0, 1.0, &ez, &ex, NULL); */
+RESTITUTE_API int restitute_pair(double chi, double psi, double delta1, double gamma, double *ez, double *ex,
+                                 restitute_error *error);
+
+/** One call: the pair of a scene with default options. */
+RESTITUTE_API int restitute_scene_pair(const restitute_scene *scene, double *ez, double *ex, restitute_error *error);
+
+/** psi_c = 2 chi (1 + ez) - ez (1 if 2 chi <= 1): from it on the contact slips to the end (31), exactly (THEORY 4.2), and
+ *  ex = 2 chi (1 + ez)/psi - 1 (27). NaN if chi is not > 0 or ez is not in [0, 1]. */
+RESTITUTE_API double restitute_critical_psi(double chi, double ez);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,318 @@
+/* The method `euler`: the paper's foundation and explicit Euler (9)-(17), refined until its error estimate is met.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "euler.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "kernels.h"
+#include "status.h"
+
+/* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer division
+ * than space for errors of like size (docs/theory.md, "The default method"). */
+static const double steps_per_element = 16;
+static const int64_t first_elements = 8;
+
+/* The estimate is this times the change between levels. The method is of first order: the change is the error itself;
+ * the rest covers what is not yet asymptotic. */
+static const double estimate_slack = 1.25;
+
+/* Of the largest stable step, for the coarsest level. */
+static const double stability_margin = 0.5;
+
+/* Resolution of one run, and what it returned. */
+struct run {
+    int64_t elements;
+    double step;
+    struct euler_state state;
+};
+
+struct layout {
+    double *g, *tau, *decay, *gain, *stress; /* per term */
+    double *x2, *f, *u, *q, *slip, *move, *q_before, *yz, *yx; /* per element, yz and yx per element and term */
+};
+
+struct scout {
+    double depth, time; /* largest indentation and when, about 1 % accurate */
+    int64_t sinks;
+    double stable_step;
+};
+
+static double rest_speed(const struct rst_problem *problem)
+{
+    return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
+}
+
+static int64_t capacity_of(int64_t elements)
+{
+    return 2 * elements + 8; /* the scout may have underrated the depth, a coarse run may overshoot it */
+}
+
+static struct layout lay_out(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t capacity)
+{
+    struct layout l;
+    size_t n = (size_t)capacity, terms = (size_t)problem->solid.n_terms;
+    size_t stride = workspace->terms_size / rst_term_arrays;
+    double *p = workspace->elements;
+    l.g = problem->solid.g;
+    l.tau = problem->solid.tau;
+    l.decay = workspace->terms + 2 * stride;
+    l.gain = workspace->terms + 3 * stride;
+    l.stress = workspace->terms + 4 * stride;
+    double **arrays[] = {&l.x2, &l.f, &l.u, &l.q, &l.slip, &l.move, &l.q_before};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++, p += n) *arrays[i] = p;
+    l.yz = p;
+    l.yx = p + n * terms;
+    return l;
+}
+
+static void look_ahead(const struct rst_problem *problem, struct rst_workspace *workspace, struct scout *scout)
+{
+    const struct rst_solid *s = &problem->solid;
+    struct layout l = lay_out(problem, workspace, 0);
+    rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem), l.stress,
+                          &scout->depth, &scout->time, &scout->sinks);
+    /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
+    double coupling = 15.0 / 8.0 * sqrt(scout->depth);
+    if (problem->mode != RST_FRICTIONLESS) coupling *= fmax(1, 2 * problem->chi);
+    scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);
+}
+
+static int prepare(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+                   const struct run *run, int keep_ledger, struct euler_scene *scene, struct layout *l)
+{
+    const struct rst_solid *s = &problem->solid;
+    size_t capacity = (size_t)capacity_of(run->elements);
+    if (rst_workspace_elements(workspace, capacity * (7 + 2 * (size_t)s->n_terms))) return 1;
+    *l = lay_out(problem, workspace, (int64_t)capacity);
+    *scene = (struct euler_scene){.chi = problem->chi,
+                                  .psi = problem->psi,
+                                  .g_inf = s->g_inf,
+                                  .eta = s->eta,
+                                  .step = run->step,
+                                  .spacing = sqrt(scout->depth) / (double)run->elements,
+                                  .rest_speed = rest_speed(problem),
+                                  .n_terms = s->n_terms,
+                                  .capacity = (int64_t)capacity,
+                                  .can_sink = s->can_sink,
+                                  .keep_ledger = keep_ledger,
+                                  .mode = problem->mode};
+    rst_step_coefficients(run->step, s->n_terms, s->g, s->tau, l->decay, l->gain);
+    return 0;
+}
+
+static void advance(const struct euler_scene *scene, const struct layout *l, int64_t n_steps, struct euler_state *state)
+{
+    rst_advance_impact(scene, l->g, l->tau, l->decay, l->gain, l->x2, l->f, l->yz, l->u, l->yx, l->q, l->slip, l->move,
+                       l->q_before, n_steps, state);
+}
+
+/* One impact at one resolution. */
+static int run_once(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+                    int keep_ledger, int64_t *updates, struct run *run, restitute_error *error)
+{
+    struct euler_scene scene;
+    struct layout l;
+    if (prepare(problem, workspace, scout, run, keep_ledger, &scene, &l))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld elements", (long long)run->elements);
+    rst_start_impact(&scene, &run->state, l.x2);
+    int64_t cost = 1 + problem->solid.n_terms;
+    int64_t affordable = (problem->max_updates - *updates) / cost / run->elements + 1;
+    advance(&scene, &l, affordable, &run->state);
+    *updates += run->state.n_updates * cost;
+    if (run->state.phase == RST_OVERFLOW)
+        return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                          "time_step = %.6g %s: the indentation outgrew the foundation; take a smaller step",
+                          run->step * problem->time_unit, problem->unit_name);
+    if (run->state.phase < RST_DONE)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_updates = %lld: reached after %lld steps of %.3g %s; raise it",
+                          (long long)problem->max_updates, (long long)run->state.n_steps,
+                          run->step * problem->time_unit, problem->unit_name);
+    return RESTITUTE_OK;
+}
+
+static double ez_of(const struct euler_state *state)
+{
+    return state->phase == RST_SUNK ? 0 : -state->velocity;
+}
+
+static double ex_of(const struct rst_problem *problem, const struct euler_state *state)
+{
+    return -state->shear_velocity / problem->psi;
+}
+
+static void change(const struct rst_problem *problem, const struct run *a, const struct run *b, double *ez, double *ex)
+{
+    *ez = fabs(ez_of(&a->state) - ez_of(&b->state));
+    *ex = fabs(ex_of(problem, &a->state) - ex_of(problem, &b->state));
+}
+
+static void fill(const struct rst_problem *problem, const struct scout *scout, const struct run *run, double error_ez,
+                 double error_ex, int64_t updates, struct rst_outcome *outcome)
+{
+    const struct euler_state *s = &run->state;
+    *outcome = (struct rst_outcome){.velocity = s->phase == RST_SUNK ? 0 : s->velocity,
+                                    .shear_velocity = s->shear_velocity,
+                                    .error_ez = error_ez,
+                                    .error_ex = problem->mode == RST_FRICTIONLESS ? 0 : error_ex,
+                                    .contact_time = s->phase == RST_SUNK ? INFINITY : s->time,
+                                    .max_indentation = s->max_depth,
+                                    .max_contact_radius = sqrt(s->max_depth),
+                                    .max_normal_force = 15.0 / 8.0 * s->max_force,
+                                    .spacing = sqrt(scout->depth) / (double)run->elements,
+                                    .step = run->step,
+                                    .elements = run->elements,
+                                    .steps = s->n_steps,
+                                    .updates = updates,
+                                    .ledger = s->ledger,
+                                    .sunk = s->phase == RST_SUNK};
+    if (outcome->sunk && problem->mode == RST_NO_SLIP) outcome->shear_velocity = 0; /* stuck for good */
+}
+
+/* Refine elements and step together until the change between levels meets the tolerance. */
+static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+{
+    struct run last = {.elements = first_elements}, now;
+    double before_ez = 0, before_ex = 0, ez, ex;
+    int64_t updates = 0;
+    int found = 0;
+    last.step = fmin(scout->time / (steps_per_element * (double)first_elements), stability_margin * scout->stable_step);
+    if (scout->sinks) last.step *= 0.25; /* the scout's time is that of the decay, not of the impact */
+    int status = run_once(problem, workspace, scout, keep_ledger, &updates, &last, error);
+    for (int level = 1; !status; level++) {
+        now = (struct run){.elements = 2 * last.elements, .step = last.step / 2};
+        status = run_once(problem, workspace, scout, keep_ledger, &updates, &now, error);
+        if (status) break;
+        change(problem, &now, &last, &ez, &ex);
+        if (level > 1) { /* two changes guard against one that is small by chance */
+            double error_ez = estimate_slack * fmax(ez, 0.5 * before_ez);
+            double error_ex = estimate_slack * fmax(ex, 0.5 * before_ex);
+            fill(problem, scout, &now, error_ez, error_ex, updates, outcome);
+            found = 1;
+            if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
+        }
+        before_ez = ez;
+        before_ex = ex;
+        last = now;
+    }
+    if (!found || status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
+}
+
+static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,
+                             restitute_error *error)
+{
+    if (problem->time_step > scout->stable_step)
+        return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                          "time_step = %.6g %s: cannot be stable here; the largest step that is: %.6g %s",
+                          problem->time_step * problem->time_unit, problem->unit_name,
+                          scout->stable_step * problem->time_unit, problem->unit_name);
+    run->elements = problem->elements;
+    run->step = problem->time_step;
+    if (run->elements <= 0)
+        run->elements = (int64_t)fmin(1e6, fmax(4, ceil(scout->time / run->step / steps_per_element)));
+    if (run->step <= 0)
+        run->step = fmin(scout->time / (steps_per_element * (double)run->elements),
+                         stability_margin * scout->stable_step);
+    return RESTITUTE_OK;
+}
+
+/* Elements or step given: one run with them, and one beside it, coarser if that is stable, for the error. */
+static int solve_as_told(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+                         int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+{
+    struct run told = {0}, beside;
+    double ez, ex;
+    int64_t updates = 0;
+    int status = choose_resolution(problem, scout, &told, error);
+    if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &told, error);
+    if (status) return status;
+    int coarser = 2 * told.step < scout->stable_step;
+    beside = coarser ? (struct run){.elements = (told.elements + 1) / 2, .step = 2 * told.step}
+                     : (struct run){.elements = 2 * told.elements, .step = told.step / 2};
+    status = run_once(problem, workspace, scout, 0, &updates, &beside, error);
+    if (status) return status;
+    change(problem, &told, &beside, &ez, &ex);
+    double factor = coarser ? estimate_slack : 2 * estimate_slack; /* a halved step removes half of the error */
+    fill(problem, scout, &told, factor * ez, factor * ex, updates, outcome);
+    if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+}
+
+static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                       struct rst_outcome *outcome, restitute_error *error)
+{
+    struct scout scout;
+    look_ahead(problem, workspace, &scout);
+    if (problem->elements > 0 || problem->time_step > 0)
+        return solve_as_told(problem, workspace, &scout, keep_ledger, outcome, error);
+    return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
+}
+
+/* Contact radius between the elements: while the contact grows it is sqrt(D); later it is where f, continued linearly
+ * from the two outermost elements, is zero. */
+static double contact_radius(const struct euler_scene *scene, const struct euler_state *state, const double *f)
+{
+    int64_t n = state->n_contact;
+    if (state->phase == RST_COMPRESSION || state->phase == RST_SUNK) return sqrt(fmax(0, state->depth));
+    if (n == 0) return 0;
+    double outermost = ((double)n - 0.5) * scene->spacing;
+    if (n == 1 || f[n - 2] <= f[n - 1]) return outermost;
+    return outermost + scene->spacing * fmin(1, f[n - 1] / (f[n - 2] - f[n - 1]));
+}
+
+/* Radius inside which no element slipped in the last step. */
+static double stick_radius(const struct euler_scene *scene, const struct euler_state *state, const double *slip,
+                           double contact)
+{
+    if (state->mode == RST_NO_SLIP) return contact;
+    if (state->mode != RST_PARTIAL_SLIP) return 0;
+    for (int64_t j = 0; j < state->n_contact; j++)
+        if (slip[j] != 0) return fmin(contact, (double)j * scene->spacing);
+    return contact;
+}
+
+static struct rst_sample sample(const struct rst_problem *problem, const struct euler_scene *scene,
+                                const struct euler_state *state, const struct layout *l)
+{
+    double contact = state->n_steps > 0 ? contact_radius(scene, state, l->f) : 0;
+    int ended = state->phase == RST_DONE;
+    return (struct rst_sample){.time = state->time,
+                               .indentation = state->depth,
+                               .contact_radius = contact,
+                               .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l->slip, contact) : 0,
+                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->force,
+                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->shear_force,
+                               .velocity = state->velocity,
+                               .shear_velocity = state->shear_velocity / problem->psi};
+}
+
+static int euler_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+                        const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    struct scout scout;
+    struct run run = {.elements = outcome->elements, .step = outcome->step};
+    struct euler_scene scene;
+    struct layout l;
+    look_ahead(problem, workspace, &scout);
+    if (prepare(problem, workspace, &scout, &run, 0, &scene, &l))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld elements", (long long)run.elements);
+    rst_start_impact(&scene, &run.state, l.x2);
+    int64_t intervals = (int64_t)history->capacity - 1;
+    int64_t stride = (outcome->steps + intervals - 1) / intervals;
+    history->count = 0;
+    while (history->count < history->capacity) {
+        history->samples[history->count++] = sample(problem, &scene, &run.state, &l);
+        if (run.state.phase >= RST_DONE) break;
+        advance(&scene, &l, stride, &run.state);
+    }
+    return RESTITUTE_OK;
+}
+
+const struct restitute_method rst_method_euler = {.name = "euler", .solve = euler_solve, .record = euler_record};

@@ -1,0 +1,61 @@
+/* The Fortran procedures that C calls, and the twins of their derived types; see fortran/c_interfaces.f90.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_KERNELS_H
+#define RST_KERNELS_H
+
+#include <stdint.h>
+
+/* Phases and modes of fortran/euler.f90. */
+enum rst_phase { RST_COMPRESSION = 0, RST_RESTITUTION = 1, RST_DONE = 2, RST_SUNK = 3, RST_OVERFLOW = 4 };
+enum rst_mode { RST_FRICTIONLESS = 0, RST_GROSS_SLIP = 1, RST_PARTIAL_SLIP = 2, RST_NO_SLIP = 3 };
+
+/* Twin of ledger_type. */
+struct euler_ledger {
+    double viscous_z, left_z;
+    double friction_x, viscous_x, left_x;
+};
+
+/* Twin of scene_type. */
+struct euler_scene {
+    double chi, psi;
+    double g_inf, eta;
+    double step, spacing;
+    double rest_speed;
+    int64_t n_terms, capacity;
+    int64_t can_sink, keep_ledger, mode;
+};
+
+/* Twin of state_type. */
+struct euler_state {
+    double time, depth, velocity, shift, shear_velocity;
+    double force, shear_force, centre_force, leave_time;
+    double max_depth, max_force, max_time;
+    int64_t n_contact, max_contact, phase, mode, n_steps, n_updates;
+    struct euler_ledger ledger;
+};
+
+double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
+void rst_step_coefficients(double h, int64_t n_terms, const double *g, const double *tau, double *decay, double *gain);
+double rst_largest_stable_step(double coupling, double g_inf, double eta, int64_t n_terms, const double *g,
+                               const double *tau);
+
+double rst_elastic_contact_radius(double m, double r, double speed, double g, double nu);
+double rst_tangential_mass_ratio(double m, double inverse_tangential_mass, double nu);
+double rst_sliding_ratio(double sliding_speed, double friction, double normal_speed, double nu);
+double rst_damping_modulus(double m, double r, double speed, double eta, double nu);
+double rst_theta_from_delta1(double delta1);
+double rst_critical_psi(double chi, double ez);
+double rst_plane_profile(double x, double radius);
+
+void rst_merge_terms(double window, double depth, double allowed, double *g_inf, double *eta, int64_t *n_terms,
+                     double *g, double *tau, double *slow_rate, double *fast_bound);
+void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
+                           int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,
+                           int64_t *sinks);
+
+void rst_start_impact(const struct euler_scene *scene, struct euler_state *state, double *x2);
+void rst_advance_impact(const struct euler_scene *scene, const double *g, const double *tau, const double *decay,
+                        const double *gain, const double *x2, double *f, double *yz, double *u, double *yx, double *q,
+                        double *slip, double *move, double *q_before, int64_t n_steps, struct euler_state *state);
+
+#endif

@@ -1,0 +1,16 @@
+/* Inside of a material.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_MATERIAL_H
+#define RST_MATERIAL_H
+
+#include <restitute/restitute.h>
+
+struct restitute_material {
+    double g_inf, eta; /* Pa, Pa s */
+    double nu;
+    size_t n_terms;
+    double *tau, *g; /* s, Pa; sorted by tau */
+    double values[]; /* behind tau and g */
+};
+
+#endif

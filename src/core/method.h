@@ -1,0 +1,19 @@
+/* What a method is to the core.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_METHOD_H
+#define RST_METHOD_H
+
+#include "problem.h"
+#include "workspace.h"
+
+struct restitute_method {
+    const char *name;
+    /* Solve; `outcome` is valid if the status is not negative. keep_ledger: fill outcome->ledger. */
+    int (*solve)(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                 struct rst_outcome *outcome, restitute_error *error);
+    /* Repeat the run that gave `outcome` and sample it evenly into `history`. */
+    int (*record)(const struct rst_problem *problem, struct rst_workspace *workspace,
+                  const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error);
+};
+
+#endif

@@ -1,0 +1,59 @@
+/* One impact as every method sees it: in the units of THEORY 3, with friction, sliding and solid settled.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_PROBLEM_H
+#define RST_PROBLEM_H
+
+#include <restitute/restitute.h>
+
+#include "kernels.h"
+
+/* Dimensionless solid: moduli over G_r, times over T. The arrays live in the solver's workspace. */
+struct rst_solid {
+    double g_inf, eta;
+    int64_t n_terms;
+    double *g, *tau;
+    int can_sink; /* no equilibrium modulus before merging: the sphere may never rebound */
+};
+
+struct rst_problem {
+    double chi;
+    double psi;         /* as the kernel takes it: 1 without slip, where it is only a scale */
+    enum rst_mode mode; /* of the tangential side at first touch */
+    struct rst_solid solid;
+    double tolerance;
+    int64_t elements;      /* 0: chosen by the method */
+    double time_step;      /* in T; 0: chosen by the method */
+    double time_unit;      /* T in the caller's unit, for messages */
+    const char *unit_name; /* of time */
+    int64_t max_updates;
+};
+
+/* What a method returns, in the same units. Velocities are those after the impact. */
+struct rst_outcome {
+    double velocity, shear_velocity;
+    double error_ez, error_ex;
+    double contact_time, max_indentation, max_contact_radius, max_normal_force;
+    double spacing, step;
+    int64_t elements, steps, updates;
+    struct euler_ledger ledger;
+    int sunk;
+};
+
+/* Receives samples of the history in the units of the problem; see restitute_history. */
+struct rst_sample {
+    double time, indentation, contact_radius, stick_radius, normal_force, shear_force, velocity, shear_velocity;
+};
+
+struct rst_history {
+    size_t capacity, count;
+    struct rst_sample *samples;
+};
+
+/* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
+int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
+
+/* Scene -> numbers and problem. */
+int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numbers, struct rst_problem *problem,
+                           restitute_error *error);
+
+#endif
