@@ -134,7 +134,7 @@ RESTITUTE_API size_t restitute_material_terms(const restitute_material *material
  *  (25)'s delta2, formed like delta1 with G2 under the root and the same a_el, is delta1 sqrt(gamma). */
 typedef struct restitute_impact {
     size_t struct_size; /**< set by @ref restitute_impact_init */
-    double chi;         /**< in [1/3, 1e6]; default 7/6 */
+    double chi;         /**< in [1/3, 1000]; default 7/6 */
     double psi;         /**< in [0, 1e12]; default 0 */
     double delta1;      /**< in [0, 1e12]; default 0; not used with `solid` */
     double gamma;       /**< in [0, infinity]; default infinity; not used with `solid` */
@@ -218,7 +218,7 @@ typedef struct restitute_options {
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), > 0; 0 (default):
                                        chosen. A step that cannot be stable is refused with the largest that is */
     int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,
-                                       > 0; default 1e10, about ten seconds. A call that reaches it before the
+                                       > 0; default 1e10, some ten seconds. A call that reaches it before the
                                        tolerance returns its best with TOLERANCE_NOT_REACHED */
 } restitute_options;
 

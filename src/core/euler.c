@@ -17,6 +17,9 @@ static const int64_t first_elements = 8;
  * the rest covers what is not yet asymptotic. */
 static const double estimate_slack = 1.25;
 
+/* Refinement stops when the estimate is below this part of the tolerance: one estimate in a hundred is too small. */
+static const double acceptance = 0.8;
+
 /* Of the largest stable step, for the coarsest level. */
 static const double stability_margin = 0.5;
 
@@ -188,10 +191,11 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         change(problem, &now, &last, &ez, &ex);
         if (level > 1) { /* two changes guard against one that is small by chance */
             double error_ez = estimate_slack * fmax(ez, 0.5 * before_ez);
-            double error_ex = estimate_slack * fmax(ex, 0.5 * before_ex);
+            /* the error of the normal motion reaches e_x too, even where the changes of e_x happen to cancel */
+            double error_ex = fmax(error_ez, estimate_slack * fmax(ex, 0.5 * before_ex));
             fill(problem, scout, &now, error_ez, error_ex, updates, outcome);
             found = 1;
-            if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
+            if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
         }
         before_ez = ez;
         before_ex = ex;
@@ -238,7 +242,7 @@ static int solve_as_told(const struct rst_problem *problem, struct rst_workspace
     if (status) return status;
     change(problem, &told, &beside, &ez, &ex);
     double factor = coarser ? estimate_slack : 2 * estimate_slack; /* a halved step removes half of the error */
-    fill(problem, scout, &told, factor * ez, factor * ex, updates, outcome);
+    fill(problem, scout, &told, factor * ez, factor * fmax(ez, ex), updates, outcome);
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",

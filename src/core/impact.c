@@ -6,8 +6,9 @@
 #include "problem.h"
 #include "status.h"
 
-/* A body with J = 0 would have chi = infinity; 1e6 is a point mass on a stick for all that a sphere can be. */
-static const double largest_chi = 1e6, largest_number = 1e12;
+/* A body with J = 0 would have chi = infinity; no sphere that turns has more than this, and the steps grow with it. */
+const double rst_largest_chi = 1000;
+static const double largest_number = 1e12;
 
 void restitute_impact_init(restitute_impact *impact)
 {
@@ -20,7 +21,7 @@ static int check_impact(const restitute_impact *impact, restitute_error *error)
 {
     int status = rst_check_size(impact->struct_size, sizeof *impact, "restitute_impact", error);
     /* 1/3 is exact physics (nu = 1/2, blocked rotation), but reaches us rounded */
-    if (!status) status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, largest_chi, "chi", error);
+    if (!status) status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, rst_largest_chi, "chi", error);
     if (!status) status = rst_check_range(impact->psi, 0, largest_number, "psi", error);
     if (!status && !impact->solid) status = rst_check_range(impact->delta1, 0, largest_number, "delta1", error);
     if (!status && !impact->solid) status = rst_check_range(impact->gamma, 0, INFINITY, "gamma", error);

@@ -49,6 +49,9 @@ struct rst_history {
     struct rst_sample *samples;
 };
 
+/* Largest chi that is accepted. */
+extern const double rst_largest_chi;
+
 /* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
 

@@ -117,9 +117,9 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "scales d0 = %g m, T = %g s, m v/T = %g N: must lie in the range of a double", n->length_z,
                           n->time, n->force);
-    if (!(n->chi <= 1e6) || isnan(n->psi))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %g, psi = %g: chi must be <= 1e6; check inertia and spin",
-                          n->chi, n->psi);
+    if (!(n->chi <= rst_largest_chi) || isnan(n->psi))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %g, psi = %g: chi must be <= %g, psi a number; check inertia and spin",
+                          n->chi, n->psi, rst_largest_chi);
     return RESTITUTE_OK;
 }
 

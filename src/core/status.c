@@ -5,9 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#ifndef RESTITUTE_VERSION_STRING
-#error "the build defines RESTITUTE_VERSION_STRING from the project version"
-#endif
+#include "version.h"
 
 const char *restitute_status_text(int status)
 {
@@ -24,7 +22,7 @@ const char *restitute_status_text(int status)
 
 const char *restitute_version(void)
 {
-    return RESTITUTE_VERSION_STRING;
+    return RESTITUTE_VERSION_TEXT;
 }
 
 int rst_report(restitute_error *error, int status, const char *format, ...)
