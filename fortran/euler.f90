@@ -37,7 +37,8 @@ module rst_euler
   !> Where the impact stands. Twin of `struct euler_state` in C. Forces are int f dX and int q dX over X > 0.
   type, bind(c) :: state_type
     real(dp) :: time, depth, velocity, shift, shear_velocity
-    real(dp) :: force, shear_force
+    real(dp) :: force, shear_force  !! as they move the sphere
+    real(dp) :: true_edge_force, true_edge_shear  !! integrated to the true edge of contact, to be reported
     real(dp) :: centre_force    !! of the innermost element in the last step: it dates the end of contact
     real(dp) :: leave_time      !! when the latest element left
     real(dp) :: max_depth, max_force, max_time
@@ -61,6 +62,8 @@ contains
     state%shear_velocity = scene%psi
     state%force = 0
     state%shear_force = 0
+    state%true_edge_force = 0
+    state%true_edge_shear = 0
     state%centre_force = 0
     state%leave_time = 0
     state%max_depth = 0
@@ -105,6 +108,7 @@ contains
         call keep_ledger(scene, g, tau, gain, x2, yz, u, yx, q, q_before, slip, move, n_old, n_inside, advance_z, advance_x, &
                          state)
       end if
+      call correct_edge(scene, gain, f, q, n_old, advance_z, advance_x, state)
       call accelerate_sphere(scene, state)
       call start_sticking(scene, x2, yz, u, yx, q, state)
       call judge_phase(scene, g, x2, yz, state)
@@ -194,6 +198,43 @@ contains
     state%shear_force = scene%spacing*total_force(scene%capacity, state%n_contact, q)
   end subroutine tangential_step
 
+  !> The forces as they would be with the contact ending at sqrt(D) and not at the end of a cell: where dashpots make f jump
+  !> at the edge, the whole cells make it ripple by dx times that jump. The sphere's motion averages this out, a
+  !> reported force does not. Elements that entered within the step are replaced by the force at the edge, that of a
+  !> surface just touched.
+  pure subroutine correct_edge(scene, gain, f, q, n_old, advance_z, advance_x, state)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: gain(scene%n_terms), f(scene%capacity), q(scene%capacity)
+    integer(ip), intent(in) :: n_old
+    real(dp), intent(in) :: advance_z, advance_x
+    type(state_type), intent(inout) :: state
+    real(dp) :: stiffness, edge_f, edge_q, missing
+    integer(ip) :: j, k
+
+    state%true_edge_force = state%force
+    state%true_edge_shear = state%shear_force
+    if (state%phase /= phase_compression) return
+    stiffness = scene%eta/scene%step
+    do k = 1, scene%n_terms
+      stiffness = stiffness + gain(k)
+    end do
+    edge_f = stiffness*advance_z
+    edge_q = max(-edge_f, min(edge_f, stiffness*advance_x))
+    missing = sqrt(state%depth) - real(n_old, dp)*scene%spacing
+    state%true_edge_force = state%force + missing*edge_f
+    state%true_edge_shear = state%shear_force + missing*edge_q
+    do j = n_old + 1, state%n_contact
+      state%true_edge_force = state%true_edge_force - scene%spacing*f(j)
+      if (state%mode == mode_partial_slip) state%true_edge_shear = state%true_edge_shear - scene%spacing*q(j)
+    end do
+    select case (state%mode)
+    case (mode_gross_slip)
+      state%true_edge_shear = state%true_edge_force
+    case (mode_frictionless, mode_no_slip)
+      state%true_edge_shear = state%shear_force
+    end select
+  end subroutine correct_edge
+
   pure subroutine accelerate_sphere(scene, state)
     type(scene_type), intent(in) :: scene
     type(state_type), intent(inout) :: state
@@ -229,7 +270,7 @@ contains
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), x2(scene%capacity), yz(scene%capacity, scene%n_terms)
     type(state_type), intent(inout) :: state
-    if (state%force > state%max_force) state%max_force = state%force
+    state%max_force = max(state%max_force, state%true_edge_force)
     if (state%phase /= phase_compression) return
     if (state%velocity <= 0) then
       state%phase = phase_restitution

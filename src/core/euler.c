@@ -173,15 +173,23 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
     if (outcome->sunk && problem->mode == RST_NO_SLIP) outcome->shear_velocity = 0; /* stuck for good */
 }
 
+/* The tangential oscillation in stick is faster than the normal one by sqrt(2 chi) and wants as much more resolution;
+ * the counts are made for solid spheres, chi = 7/6. */
+static int64_t elements_to_start(const struct rst_problem *problem)
+{
+    if (problem->mode == RST_FRICTIONLESS) return first_elements;
+    return llround((double)first_elements * sqrt(fmax(1, problem->chi * 6 / 7)));
+}
+
 /* Refine elements and step together until the change between levels meets the tolerance. */
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                           int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run last = {.elements = first_elements}, now;
+    struct run last = {.elements = elements_to_start(problem)}, now;
     double before_ez = 0, before_ex = 0, ez, ex;
     int64_t updates = 0;
     int found = 0;
-    last.step = fmin(scout->time / (steps_per_element * (double)first_elements), stability_margin * scout->stable_step);
+    last.step = fmin(scout->time / (steps_per_element * (double)last.elements), stability_margin * scout->stable_step);
     if (scout->sinks) last.step *= 0.25; /* the scout's time is that of the decay, not of the impact */
     int status = run_once(problem, workspace, scout, keep_ledger, &updates, &last, error);
     for (int level = 1; !status; level++) {
@@ -259,27 +267,35 @@ static int euler_solve(const struct rst_problem *problem, struct rst_workspace *
     return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
 }
 
-/* Contact radius between the elements: while the contact grows it is sqrt(D); later it is where f, continued linearly
- * from the two outermost elements, is zero. */
+/* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly from the two outermost,
+ * by at most one cell. */
+static double zero_beyond(double spacing, int64_t n, double outermost, double neighbour)
+{
+    double position = ((double)n - 0.5) * spacing;
+    if (n < 2 || neighbour <= outermost) return position;
+    return position + spacing * fmin(1, outermost / (neighbour - outermost));
+}
+
+/* Contact radius: while the contact grows it is sqrt(D); later it is where f vanishes. */
 static double contact_radius(const struct euler_scene *scene, const struct euler_state *state, const double *f)
 {
     int64_t n = state->n_contact;
     if (state->phase == RST_COMPRESSION || state->phase == RST_SUNK) return sqrt(fmax(0, state->depth));
     if (n == 0) return 0;
-    double outermost = ((double)n - 0.5) * scene->spacing;
-    if (n == 1 || f[n - 2] <= f[n - 1]) return outermost;
-    return outermost + scene->spacing * fmin(1, f[n - 1] / (f[n - 2] - f[n - 1]));
+    return fmin(sqrt(state->max_depth), zero_beyond(scene->spacing, n, f[n - 1], n > 1 ? f[n - 2] : 0));
 }
 
-/* Radius inside which no element slipped in the last step. */
-static double stick_radius(const struct euler_scene *scene, const struct euler_state *state, const double *slip,
+/* Radius of the inner part that did not slip in the last step: where f - |q| vanishes. */
+static double stick_radius(const struct euler_scene *scene, const struct euler_state *state, const struct layout *l,
                            double contact)
 {
+    int64_t n = 0;
     if (state->mode == RST_NO_SLIP) return contact;
     if (state->mode != RST_PARTIAL_SLIP) return 0;
-    for (int64_t j = 0; j < state->n_contact; j++)
-        if (slip[j] != 0) return fmin(contact, (double)j * scene->spacing);
-    return contact;
+    while (n < state->n_contact && l->slip[n] == 0) n++;
+    if (n == 0 || n == state->n_contact) return n == 0 ? 0 : contact;
+    double outermost = l->f[n - 1] - fabs(l->q[n - 1]), neighbour = n > 1 ? l->f[n - 2] - fabs(l->q[n - 2]) : 0;
+    return fmin(contact, zero_beyond(scene->spacing, n, outermost, neighbour));
 }
 
 static struct rst_sample sample(const struct rst_problem *problem, const struct euler_scene *scene,
@@ -290,9 +306,9 @@ static struct rst_sample sample(const struct rst_problem *problem, const struct 
     return (struct rst_sample){.time = state->time,
                                .indentation = state->depth,
                                .contact_radius = contact,
-                               .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l->slip, contact) : 0,
-                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->force,
-                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->shear_force,
+                               .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l, contact) : 0,
+                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_force,
+                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_shear,
                                .velocity = state->velocity,
                                .shear_velocity = state->shear_velocity / problem->psi};
 }

@@ -28,7 +28,7 @@ struct euler_scene {
 /* Twin of state_type. */
 struct euler_state {
     double time, depth, velocity, shift, shear_velocity;
-    double force, shear_force, centre_force, leave_time;
+    double force, shear_force, true_edge_force, true_edge_shear, centre_force, leave_time;
     double max_depth, max_force, max_time;
     int64_t n_contact, max_contact, phase, mode, n_steps, n_updates;
     struct euler_ledger ledger;
