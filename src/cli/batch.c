@@ -1,0 +1,205 @@
+/* Many impacts: row after row, into OUT.partial, which becomes OUT at the end.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
+#include "batch.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "figure.h"
+#include "output.h"
+#include "partial.h"
+#include "provenance.h"
+
+/* Set by a signal, looked at between rows. */
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+/* A signal that whoever started us chose to ignore, as nohup and a shell's background jobs do, stays ignored. */
+static void catch_signal(int number)
+{
+    struct sigaction action, before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
+}
+
+struct batch {
+    const struct settings *settings;
+    const char *path; /* of the result; NULL: standard output */
+    struct cases cases;
+    struct materials materials;
+    restitute_solver *solver;
+    json_t *settings_object;
+    struct row *rows;
+    size_t done, failed;
+    struct partial partial;
+    double last_tick;
+};
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* A few times a second: rows to the file, progress to a terminal. */
+static void tick(struct batch *batch, FILE *stream, bool last)
+{
+    const double interval = 0.25, now = seconds_now();
+    if (!last && now - batch->last_tick < interval) return;
+    const bool first = batch->last_tick == 0;
+    batch->last_tick = now;
+    if (stream) fflush(stream);
+    if (isatty(STDERR_FILENO) && !(first && last)) {
+        fprintf(stderr, "\rrestitute: %zu of %zu rows%s", batch->done, batch->cases.rows, last ? "\n" : "");
+        fflush(stderr);
+    }
+}
+
+/* The first few rows that fail are named at once; the rest is in the column status. */
+static void count_failure(struct batch *batch, size_t index)
+{
+    const size_t named = 5;
+    if (batch->rows[index].solved) return;
+    if (batch->failed++ < named && batch->cases.source)
+        complain("%s line %zu (row %zu): %s", batch->cases.source, cases_line(&batch->cases, index), index + 1,
+                 batch->rows[index].status);
+    else if (batch->failed <= named)
+        complain("grid row %zu: %s", index + 1, batch->rows[index].status);
+}
+
+static bool check_options(const struct settings *settings, struct reason *why)
+{
+    const char *const *text = (const char *const *)settings->text;
+    if (text[TEXT_INPUT] && text[TEXT_GRID]) return refuse(why, "--input and --grid are both given: use one");
+    if (text[TEXT_GRID] && values_dimensionless(&settings->values))
+        return refuse(why, "--grid varies a speed: it needs a material and SI units, not dimensionless values");
+    if (settings->format == FORMAT_TEXT)
+        return refuse(why, "--format = \"text\": must be csv or json with --input and --grid");
+    if (text[TEXT_FIGURE] && !text[TEXT_GRID]) return refuse(why, "--figure = %.200s: needs --grid", text[TEXT_FIGURE]);
+    if (settings->resume && output_is_standard(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
+    if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], text[TEXT_OUTPUT], why)) return false;
+    return output_check(text[TEXT_OUTPUT], "--output", why);
+}
+
+/* Everything that can be refused is, before anything is written. */
+static bool prepare(struct batch *batch, struct reason *why)
+{
+    const struct settings *settings = batch->settings;
+    restitute_error error;
+    if (!check_options(settings, why) || !cases_open(settings, &batch->cases, why)) return false;
+    if (!cases_check(&batch->cases, settings, why)) return false;
+    if (settings->values.material && !materials_get(&batch->materials, settings->values.material, why)) return false;
+    if (restitute_solver_create(&settings->solver, &batch->solver, &error) < 0) return refuse(why, "%s", error.message);
+    batch->rows = allocate(batch->cases.rows, sizeof *batch->rows);
+    batch->settings_object = provenance_settings(settings, &batch->cases, &batch->materials);
+    return !batch->path || partial_begin(batch->path, &batch->cases, settings, batch->settings_object, &batch->partial,
+                                         batch->rows, &batch->done, why);
+}
+
+static void solve_rows(struct batch *batch)
+{
+    FILE *stream = batch->path ? batch->partial.stream : batch->settings->format == FORMAT_JSON ? NULL : stdout;
+    for (size_t i = 0; i < batch->done; i++)
+        count_failure(batch, i);
+    if (!batch->path && stream) row_write_header(stream, &batch->cases);
+    for (size_t i = batch->done; i < batch->cases.rows && !interrupted; i++) {
+        row_solve(&batch->cases, batch->settings, &batch->materials, batch->solver, i, &batch->rows[i]);
+        count_failure(batch, i);
+        if (stream) row_write(stream, &batch->cases, i, &batch->rows[i]);
+        batch->done = i + 1;
+        tick(batch, stream, false);
+    }
+    tick(batch, stream, true);
+}
+
+/* What belongs beside or into the result. */
+static json_t *make_record(struct batch *batch)
+{
+    struct values values = batch->settings->values;
+    bool physical = values_physical(&values);
+    for (size_t i = 0; i < batch->cases.columns; i++)
+        physical |= field_of_column(cases_name(&batch->cases, i)) > FIELD_LAST_DIMENSIONLESS;
+    json_t *record =
+        provenance_record(batch->settings, json_incref(batch->settings_object), row_units(&batch->cases, physical));
+    json_object_set_new(record, "rows", json_integer((json_int_t)batch->cases.rows));
+    json_object_set_new(record, "failed", json_integer((json_int_t)batch->failed));
+    return record;
+}
+
+static bool write_json(struct batch *batch, struct reason *why)
+{
+    json_t *rows = json_array();
+    for (size_t i = 0; i < batch->cases.rows; i++)
+        json_array_append_new(rows, row_json(&batch->cases, i, &batch->rows[i]));
+    return provenance_write(batch->path, json_pack("{s:o, s:o}", "meta", make_record(batch), "results", rows), why);
+}
+
+static bool write_result(struct batch *batch, struct reason *why)
+{
+    if (batch->settings->format == FORMAT_JSON) {
+        if (!write_json(batch, why)) return false;
+        if (batch->path) partial_remove(&batch->partial);
+        return true;
+    }
+    if (!batch->path) {
+        struct output standard = {stdout, NULL, NULL};
+        return output_finish(&standard, why);
+    }
+    return provenance_write_beside(batch->path, make_record(batch), why) &&
+           partial_commit(&batch->partial, batch->path, why);
+}
+
+static int finish(struct batch *batch)
+{
+    const struct settings *settings = batch->settings;
+    struct reason why;
+    if (interrupted) {
+        fflush(stdout);
+        complain("interrupted after %zu of %zu rows%s", batch->done, batch->cases.rows,
+                 batch->path ? "; continue with --resume" : "");
+        return EXIT_INTERRUPTED;
+    }
+    if (!write_result(batch, &why)) return complain("%s", why.text);
+    if (settings->text[TEXT_FIGURE] &&
+        !figure_of_grid(settings->text[TEXT_FIGURE], settings, &batch->cases, &batch->materials, batch->rows, &why))
+        return complain("%s", why.text);
+    if (batch->failed == 0) return EXIT_DONE;
+    complain("%zu of %zu rows failed; the column status says why", batch->failed, batch->cases.rows);
+    return EXIT_SOME_FAILED;
+}
+
+int batch_run(const struct settings *settings)
+{
+    struct batch batch = {.settings = settings};
+    struct reason why;
+    int status;
+    batch.path = output_is_standard(settings->text[TEXT_OUTPUT]) ? NULL : settings->text[TEXT_OUTPUT];
+    if (prepare(&batch, &why)) {
+        catch_signal(SIGINT);
+        catch_signal(SIGTERM);
+        solve_rows(&batch);
+        status = finish(&batch);
+    } else {
+        status = complain("%s", why.text);
+    }
+    if (batch.partial.stream) partial_leave(&batch.partial);
+    if (batch.rows) rows_release(batch.rows, batch.cases.rows);
+    json_decref(batch.settings_object);
+    restitute_solver_destroy(batch.solver);
+    materials_release(&batch.materials);
+    cases_release(&batch.cases);
+    return status;
+}

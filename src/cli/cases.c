@@ -1,0 +1,149 @@
+/* Rows of a case file, or points of a grid.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "cases.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "grid.h"
+
+static const char *const grid_names[2] = {"speed_m_s", "angle_deg"};
+
+const char *cases_name(const struct cases *cases, size_t column)
+{
+    return cases->csv ? restitute_csv_name(cases->csv, column) : grid_names[column];
+}
+
+const char *cases_cell(const struct cases *cases, size_t row, size_t column)
+{
+    return cases->csv ? restitute_csv_cell(cases->csv, row, column) : cases->grid[row * 2 + column];
+}
+
+size_t cases_line(const struct cases *cases, size_t row)
+{
+    return cases->csv ? restitute_csv_line(cases->csv, row) : row + 1;
+}
+
+static bool open_grid(const char *text, struct cases *cases, struct reason *why)
+{
+    struct grid grid;
+    if (!grid_read(text, &grid, why)) return false;
+    cases->axis[0] = grid.axis[0].count;
+    cases->axis[1] = grid.axis[1].count;
+    cases->columns = 2;
+    cases->rows = cases->axis[0] * cases->axis[1];
+    cases->grid = allocate(cases->rows * 2, sizeof *cases->grid);
+    for (size_t i = 0; i < cases->rows; i++) {
+        cases->grid[2 * i] = copy_of(number_text(grid_point(&grid.axis[0], i / cases->axis[1])).text);
+        cases->grid[2 * i + 1] = copy_of(number_text(grid_point(&grid.axis[1], i % cases->axis[1])).text);
+    }
+    return true;
+}
+
+bool cases_open(const struct settings *settings, struct cases *cases, struct reason *why)
+{
+    const char *path = settings->text[TEXT_INPUT];
+    restitute_error error;
+    memset(cases, 0, sizeof *cases);
+    if (settings->text[TEXT_GRID]) return open_grid(settings->text[TEXT_GRID], cases, why);
+    if (restitute_csv_read(path, &cases->csv, &error) < 0) return refuse(why, "%s", error.message);
+    cases->source = strcmp(path, "-") == 0 ? "standard input" : path;
+    cases->rows = restitute_csv_rows(cases->csv);
+    cases->columns = restitute_csv_columns(cases->csv);
+    if (cases->rows == 0) {
+        cases_release(cases);
+        return refuse(why, "%.200s: has column names but no rows", cases->source);
+    }
+    return true;
+}
+
+void cases_release(struct cases *cases)
+{
+    restitute_csv_destroy(cases->csv);
+    cases->csv = NULL;
+    for (size_t i = 0; cases->grid && i < 2 * cases->rows; i++)
+        free(cases->grid[i]);
+    free(cases->grid);
+    cases->grid = NULL;
+}
+
+static const char known_columns[] =
+    "known are chi, psi, delta1, gamma, delta2, radius1_m, density1_kg_m3, mass1_kg, inertia1_kg_m2, radius2_m, "
+    "density2_kg_m3, mass2_kg, inertia2_kg_m2, speed_m_s, angle_deg, spin_rad_s, spin2_rad_s, friction, material, "
+    "partner, rotation_blocked";
+
+static const char *place_of(const struct cases *cases)
+{
+    return cases->source ? cases->source : "--grid";
+}
+
+/* Mark what a column gives in `present`; refuse it if an option gives it too. */
+static bool check_column(const struct cases *cases, const char *name, const struct settings *settings,
+                         struct values *present, struct reason *why)
+{
+    const enum field field = field_of_column(name);
+    const char *option = name;
+    bool twice;
+    if (field < FIELD_COUNT) {
+        twice = settings->values.given[field];
+        option = field_rules[field].option;
+        present->given[field] = true;
+    } else if (strcmp(name, "material") == 0) {
+        twice = settings->values.material != NULL;
+        present->material = name;
+    } else if (strcmp(name, "partner") == 0) {
+        twice = settings->values.deformable != 0;
+        present->deformable = RESTITUTE_ONE_BODY_DEFORMS;
+    } else if (strcmp(name, "rotation_blocked") == 0) {
+        twice = settings->values.rotation_blocked >= 0;
+        option = "rotation-blocked";
+        present->rotation_blocked = 1;
+    } else {
+        return refuse(why, "%.60s: unknown column \"%.40s\"; %s", place_of(cases), name, known_columns);
+    }
+    if (twice)
+        return refuse(why, "%.200s: column %s and option --%s both give the value", place_of(cases), name, option);
+    return true;
+}
+
+bool cases_check(const struct cases *cases, const struct settings *settings, struct reason *why)
+{
+    struct values present = settings->values;
+    struct reason inner;
+    for (size_t i = 0; i < cases->columns; i++)
+        if (!check_column(cases, cases_name(cases, i), settings, &present, why)) return false;
+    /* A file may have both a mass and a density column, of which each row fills one. */
+    const enum field alternatives[][2] = {{FIELD_MASS1, FIELD_DENSITY1}, {FIELD_MASS2, FIELD_DENSITY2}};
+    for (int i = 0; i < 2; i++)
+        if (!settings->values.given[alternatives[i][0]] && !settings->values.given[alternatives[i][1]])
+            present.given[alternatives[i][0]] = false;
+    if (!values_check(&present, NAME_COLUMNS, &inner)) return refuse(why, "%.100s: %s", place_of(cases), inner.text);
+    return true;
+}
+
+/* One cell into the values; an empty one counts as not given where that makes sense. */
+static bool take_cell(const char *name, const char *cell, struct values *values, struct reason *why)
+{
+    const enum field field = field_of_column(name);
+    if (field < FIELD_COUNT) {
+        if (!*cell && field_rules[field].may_be_empty) return true;
+        if (!*cell) return refuse(why, "%s is empty: %s", name, field_rules[field].range);
+        values->given[field] = true;
+        return field_read(field, cell, name, &values->number[field], why);
+    }
+    if (!*cell) return refuse(why, "%s is empty", name);
+    if (strcmp(name, "partner") == 0) return partner_read(cell, name, &values->deformable, why);
+    if (strcmp(name, "rotation_blocked") == 0) return switch_read(cell, name, &values->rotation_blocked, why);
+    values->material = cell;
+    return true;
+}
+
+bool cases_values(const struct cases *cases, const struct settings *settings, size_t row, struct values *values,
+                  struct reason *why)
+{
+    *values = settings->values;
+    for (size_t i = 0; i < cases->columns; i++)
+        if (!take_cell(cases_name(cases, i), cases_cell(cases, row, i), values, why)) return false;
+    return true;
+}

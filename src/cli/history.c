@@ -1,0 +1,116 @@
+/* The time history of one impact as CSV, and as a figure.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "history.h"
+
+#include <stdlib.h>
+
+#include "figure.h"
+#include "output.h"
+#include "provenance.h"
+
+enum { HISTORY_COLUMNS = 8 };
+
+/* Names of the columns in SI units and dimensionless. F0 = m v_z0^2/d0, v0 = v_z0, V0 = mu v_z0 (2-nu)/(2-2nu). */
+static const struct {
+    const char *physical, *physical_unit, *dimensionless, *dimensionless_unit;
+} columns[HISTORY_COLUMNS] = {
+    {"time_s", "s", "time_T", "T"},
+    {"indentation_m", "m", "indentation_d0", "d0"},
+    {"contact_radius_m", "m", "contact_radius_a_el", "a_el"},
+    {"stick_radius_m", "m", "stick_radius_a_el", "a_el"},
+    {"normal_force_N", "N", "normal_force_F0", "F0 = m v_z0^2/d0"},
+    {"tangential_force_N", "N", "tangential_force_mu_F0", "friction F0"},
+    {"normal_velocity_m_s", "m/s", "normal_velocity_v0", "v0 = v_z0"},
+    {"tangential_velocity_m_s", "m/s", "tangential_velocity_V0", "V0 = friction v_z0 (2-nu)/(2-2nu)"},
+};
+
+static const char *column_name(int column, bool physical)
+{
+    return physical ? columns[column].physical : columns[column].dimensionless;
+}
+
+/* Room for all columns in one piece, which starts at history->time. */
+static void allocate_history(size_t samples, restitute_history *history)
+{
+    restitute_history_init(history);
+    history->capacity = samples;
+    history->time = allocate(HISTORY_COLUMNS * samples, sizeof(double));
+    double **const arrays[] = {&history->indentation,        &history->contact_radius,   &history->stick_radius,
+                               &history->normal_force,       &history->tangential_force, &history->normal_velocity,
+                               &history->tangential_velocity};
+    for (size_t i = 0; i < HISTORY_COLUMNS - 1; i++)
+        *arrays[i] = history->time + (i + 1) * samples;
+}
+
+static void write_rows(FILE *stream, const restitute_history *history, bool physical)
+{
+    for (int column = 0; column < HISTORY_COLUMNS; column++)
+        fprintf(stream, "%s%c", column_name(column, physical), column + 1 < HISTORY_COLUMNS ? ',' : '\n');
+    for (size_t i = 0; i < history->count; i++)
+        for (size_t column = 0; column < HISTORY_COLUMNS; column++)
+            fprintf(stream, "%s%c", number_text(history->time[column * history->capacity + i]).text,
+                    column + 1 < HISTORY_COLUMNS ? ',' : '\n');
+}
+
+static json_t *make_record(const struct settings *settings, struct materials *materials, bool physical, int status)
+{
+    json_t *units = json_object();
+    for (int column = 0; column < HISTORY_COLUMNS; column++)
+        json_object_set_new(units, column_name(column, physical),
+                            json_string(physical ? columns[column].physical_unit : columns[column].dimensionless_unit));
+    json_t *record = provenance_record(settings, provenance_settings(settings, NULL, materials), units);
+    json_object_set_new(record, "status", json_string(status == RESTITUTE_OK ? "" : restitute_status_text(status)));
+    return record;
+}
+
+static bool check_options(const struct settings *settings, struct reason *why)
+{
+    const char *figure = settings->text[TEXT_FIGURE], *output = settings->text[TEXT_OUTPUT];
+    if (figure && !figure_check(figure, output, why)) return false;
+    return output_check(output, "--output", why);
+}
+
+static bool solve(const struct settings *settings, const struct problem *problem, restitute_history *history,
+                  int *status, struct reason *why)
+{
+    restitute_solver *solver;
+    restitute_result result;
+    restitute_error error;
+    restitute_result_init(&result);
+    if (restitute_solver_create(&settings->solver, &solver, &error) < 0) return refuse(why, "%s", error.message);
+    *status = problem_solve(solver, problem, &result, NULL, history, &error);
+    restitute_solver_destroy(solver);
+    if (*status < 0) return refuse(why, "%s", error.message);
+    if (*status != RESTITUTE_OK) complain("remark: %s", restitute_status_text(*status));
+    return true;
+}
+
+static bool write_result(const struct settings *settings, const struct problem *problem, struct materials *materials,
+                         const restitute_history *history, int status, struct reason *why)
+{
+    const char *path = settings->text[TEXT_OUTPUT], *figure = settings->text[TEXT_FIGURE];
+    struct output output;
+    if (!provenance_write_beside(path, make_record(settings, materials, problem->physical, status), why) ||
+        !output_open(path, &output, why))
+        return false;
+    write_rows(output.stream, history, problem->physical);
+    if (!output_finish(&output, why)) return false;
+    return !figure || figure_of_history(figure, settings, problem, history, why);
+}
+
+int history_run(const struct settings *settings)
+{
+    struct materials materials = {NULL};
+    struct problem problem;
+    struct reason why;
+    restitute_history history;
+    int status = RESTITUTE_OK;
+    allocate_history(settings->samples, &history);
+    const bool done = check_options(settings, &why) &&
+                      problem_build(&settings->values, NAME_OPTIONS, &materials, &problem, &why) &&
+                      solve(settings, &problem, &history, &status, &why) &&
+                      write_result(settings, &problem, &materials, &history, status, &why);
+    free(history.time);
+    materials_release(&materials);
+    return done ? EXIT_DONE : complain("%s", why.text);
+}

@@ -1,0 +1,48 @@
+/* restitute: the command. It reads the command line, calls the library and writes what comes back.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdio.h>
+#include <string.h>
+
+#include "batch.h"
+#include "history.h"
+#include "single.h"
+
+static const char usage[] =
+    "Usage: restitute pair [OPTION...]       the restitution pair (ez, ex) of one impact or of many\n"
+    "       restitute history [OPTION...]    forces, radii and velocities during one impact\n"
+    "       restitute pair --help, restitute history --help, restitute --version\n"
+    "\n"
+    "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
+
+static int run_subcommand(int count, char **arguments)
+{
+    struct settings settings;
+    int status = EXIT_DONE;
+    const enum reading reading = options_read(count, arguments, &settings);
+    if (reading == READING_FAILED)
+        status = EXIT_USAGE;
+    else if (reading == READING_GO_ON && settings.command == COMMAND_HISTORY)
+        status = history_run(&settings);
+    else if (reading == READING_GO_ON)
+        status = settings.text[TEXT_INPUT] || settings.text[TEXT_GRID] ? batch_run(&settings) : single_run(&settings);
+    options_release(&settings);
+    return status;
+}
+
+/* No setlocale anywhere: numbers have a point in every country. */
+int main(int count, char **arguments)
+{
+    const char *word = count > 1 ? arguments[1] : "";
+    int status = EXIT_DONE;
+    if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0)
+        status = run_subcommand(count, arguments);
+    else if (strcmp(word, "--help") == 0)
+        fputs(usage, stdout);
+    else if (strcmp(word, "--version") == 0)
+        printf("restitute %s\n", restitute_version());
+    else
+        status = *word ? complain("unknown command \"%.64s\": must be pair or history; see restitute --help", word)
+                       : complain("a command is missing: pair or history; see restitute --help");
+    if (fflush(stdout) != 0 && status == EXIT_DONE) status = complain("standard output cannot be written");
+    return status;
+}

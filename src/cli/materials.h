@@ -1,0 +1,27 @@
+/* Materials read once and kept, so that a case file may name the same one in every row.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef CLI_MATERIALS_H
+#define CLI_MATERIALS_H
+
+#include <restitute/files.h>
+
+#include "message.h"
+
+struct material_entry {
+    struct material_entry *next;
+    char *path;
+    restitute_material *material; /* NULL: could not be read, and `why` tells the reason */
+    restitute_material_info info;
+    struct reason why;
+};
+
+struct materials {
+    struct material_entry *first;
+};
+
+/* The material of this file, read on first use. NULL if it cannot be read. It belongs to `materials`. */
+const struct material_entry *materials_get(struct materials *materials, const char *path, struct reason *why);
+
+void materials_release(struct materials *materials);
+
+#endif

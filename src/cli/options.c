@@ -1,0 +1,264 @@
+/* The command line, read with popt. All numbers are read by our own strict reader, so popt sees only text.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "options.h"
+
+#include <math.h>
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <restitute/files.h>
+
+/* What popt returns for an option: a field, a text, or one of these. */
+enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
+
+#define ENTRY(name, code, argument, help)                                                                              \
+    {                                                                                                                  \
+        (name), '\0', POPT_ARG_STRING, NULL, (code), (help), (argument)                                                \
+    }
+#define FLAG(name, code, help)                                                                                         \
+    {                                                                                                                  \
+        (name), '\0', POPT_ARG_NONE, NULL, (code), (help), NULL                                                        \
+    }
+#define GROUP(table, title)                                                                                            \
+    {                                                                                                                  \
+        NULL, '\0', POPT_ARG_INCLUDE_TABLE, (table), 0, (title), NULL                                                  \
+    }
+
+static const char *const text_names[TEXT_COUNT] = {
+    [TEXT_MATERIAL] = "material",       [TEXT_PARTNER] = "partner",   [TEXT_METHOD] = "method",
+    [TEXT_TOLERANCE] = "tolerance",     [TEXT_ELEMENTS] = "elements", [TEXT_TIME_STEP] = "time-step",
+    [TEXT_MAX_UPDATES] = "max-updates", [TEXT_FORMAT] = "format",     [TEXT_INPUT] = "input",
+    [TEXT_OUTPUT] = "output",           [TEXT_GRID] = "grid",         [TEXT_FIGURE] = "figure",
+    [TEXT_SAMPLES] = "samples",
+};
+
+static struct poptOption more_scene_options[] = {
+    ENTRY("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
+          "what deforms: a material file, .json, or .csv with tau_s,G_Pa; required"),
+    ENTRY("partner", CODE_TEXT + TEXT_PARTNER, "rigid|same",
+          "rigid: one of the two bodies deforms (default); same: both do, and are of the material"),
+    FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"), POPT_TABLEEND};
+
+static struct poptOption solution_options[] = {
+    ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME", "euler (default)"),
+    ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
+          "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
+    ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
+          "elements over the largest contact radius, 4 to 1000000; default chosen"),
+    ENTRY("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP", "in T, or in s with a material; > 0; default chosen"),
+    ENTRY("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
+    POPT_TABLEEND};
+
+static struct poptOption pair_output_options[] = {
+    ENTRY("format", CODE_TEXT + TEXT_FORMAT, "text|csv|json", "default text for one impact, csv for many"),
+    ENTRY("input", CODE_TEXT + TEXT_INPUT, "CASES.csv", "one impact a row, columns by name; -: standard input"),
+    ENTRY("grid", CODE_TEXT + TEXT_GRID, "AXES",
+          "speed=FROM:TO:N[:log],angle=FROM:TO:N[:log] (m/s, degrees): all impacts of the grid"),
+    ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write here and not to standard output"),
+    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "with --grid: a figure of it, .svg or .png; needs gnuplot"),
+    FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
+    FLAG("help", CODE_HELP, "show this and stop"),
+    POPT_TABLEEND};
+
+static struct poptOption history_output_options[] = {
+    ENTRY("samples", CODE_TEXT + TEXT_SAMPLES, "N",
+          "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
+    ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
+    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
+    FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND};
+
+static const char pair_footer[] =
+    "\nOne impact:\n"
+    "  restitute pair --chi 1.1667 --psi 2 --delta1 1 --gamma 1\n"
+    "  restitute pair --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --velocity 1 "
+    "--angle 30\n"
+    "Many, from a file or a grid:\n"
+    "  restitute pair --input cases.csv --output results.csv\n"
+    "  restitute pair --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
+    "      --grid speed=0.1:10:9:log,angle=5:85:9 --output grid.csv --figure grid.svg\n"
+    "\nColumns of CASES.csv: chi, psi, delta1, gamma, delta2, or radius1_m, density1_kg_m3, mass1_kg, inertia1_kg_m2,\n"
+    "radius2_m, density2_kg_m3, mass2_kg, inertia2_kg_m2, speed_m_s, angle_deg, spin_rad_s, spin2_rad_s, friction,\n"
+    "material, partner, rotation_blocked (0 or 1). Options give the values of columns that are absent. A result row "
+    "holds\n"
+    "the input columns, then ez, ex, contact_time, max_indentation (s and m; T and d0 if dimensionless), error_ez,\n"
+    "error_ex, method and status, which is empty or tells why the row failed. Provenance goes into FILE.meta.json.\n"
+    "\nez, ex: minus the velocity after over the velocity before, normal and tangential, of the contact point.\n"
+    "Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written, 130 interrupted.\n";
+
+static const char history_footer[] =
+    "\nExample:\n"
+    "  restitute history --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --velocity 1 \\\n"
+    "      --angle 30 --output impact.csv --figure impact.svg\n"
+    "\nThe CSV has the columns time_s, indentation_m, contact_radius_m, stick_radius_m, normal_force_N,\n"
+    "tangential_force_N, normal_velocity_m_s, tangential_velocity_m_s; for a dimensionless impact their names end in "
+    "the\n"
+    "scales instead: _T, _d0, _a_el, _F0, _mu_F0, _v0 and _V0 (see the manual page). Exit status: 0 done, 2 failed.\n";
+
+/* The options of the fields from `first` to `last`, their aliases hidden, then those of `more`. */
+static struct poptOption *field_options(enum field first, enum field last, const struct poptOption *more)
+{
+    struct poptOption *table = allocate(2 * FIELD_COUNT + 8, sizeof *table), *entry = table;
+    for (enum field field = first; field <= last; field++) {
+        const struct field_rule *rule = &field_rules[field];
+        *entry = (struct poptOption)ENTRY(rule->option, CODE_FIELD + (int)field, "NUMBER", rule->help);
+        entry++;
+        if (rule->alias) {
+            *entry = (struct poptOption)ENTRY(rule->alias, CODE_FIELD + (int)field, "NUMBER", rule->help);
+            entry->argInfo |= POPT_ARGFLAG_DOC_HIDDEN;
+            entry++;
+        }
+    }
+    for (; more && more->longName; more++)
+        *entry++ = *more;
+    return table;
+}
+
+/* Keep the text of an option; each may be given once. */
+static bool keep_text(const char *name, char **place, char *text, struct reason *why)
+{
+    if (*place) {
+        free(text);
+        return refuse(why, "--%s is given twice", name);
+    }
+    *place = text;
+    return true;
+}
+
+static bool take_option(struct settings *settings, int code, poptContext context, struct reason *why)
+{
+    if (code == CODE_RESUME)
+        settings->resume = true;
+    else if (code == CODE_BLOCKED)
+        settings->values.rotation_blocked = 1;
+    else if (code >= CODE_TEXT)
+        return keep_text(text_names[code - CODE_TEXT], &settings->text[code - CODE_TEXT], poptGetOptArg(context), why);
+    else
+        return keep_text(field_rules[code - CODE_FIELD].option, &settings->field[code - CODE_FIELD],
+                         poptGetOptArg(context), why);
+    return true;
+}
+
+static bool read_fields(struct settings *settings, struct reason *why)
+{
+    for (enum field field = 0; field < FIELD_COUNT; field++) {
+        char place[40];
+        if (!settings->field[field]) continue;
+        snprintf(place, sizeof place, "--%s", field_rules[field].option);
+        if (!field_read(field, settings->field[field], place, &settings->values.number[field], why)) return false;
+        settings->values.given[field] = true;
+    }
+    return true;
+}
+
+/* A number of a text option within [low, high]; integers only if so wanted. Not given: left as it is. */
+static bool read_bounded(const struct settings *settings, enum text_option option, double low, double high, bool whole,
+                         double *value, struct reason *why)
+{
+    const char *text = settings->text[option];
+    double number;
+    if (!text) return true;
+    if (restitute_number_read(text, &number) != RESTITUTE_OK || !(number >= low && number <= high) ||
+        (whole && number != floor(number)))
+        return refuse(why, "--%s = \"%.64s\": must be %s in [%g, %g]", text_names[option], text,
+                      whole ? "a whole number" : "a number", low, high);
+    *value = number;
+    return true;
+}
+
+static bool read_solver(struct settings *settings, struct reason *why)
+{
+    restitute_options *solver = &settings->solver;
+    double elements = 0, samples = 500, updates;
+    double step = 0;
+    restitute_options_init(solver);
+    updates = (double)solver->max_updates;
+    if (!read_bounded(settings, TEXT_TOLERANCE, 1e-8, 0.1, false, &solver->tolerance, why) ||
+        !read_bounded(settings, TEXT_ELEMENTS, 4, 1e6, true, &elements, why) ||
+        !read_bounded(settings, TEXT_TIME_STEP, 1e-300, 1e300, false, &step, why) ||
+        !read_bounded(settings, TEXT_MAX_UPDATES, 1, 1e18, true, &updates, why) ||
+        !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why))
+        return false;
+    solver->elements = (int64_t)elements;
+    solver->time_step = step;
+    solver->max_updates = (int64_t)updates;
+    settings->samples = (size_t)samples;
+    return true;
+}
+
+static bool read_words(struct settings *settings, struct reason *why)
+{
+    static const char *const formats[] = {"text", "csv", "json"};
+    char *const *text = settings->text;
+    if (text[TEXT_PARTNER] && !partner_read(text[TEXT_PARTNER], "--partner", &settings->values.deformable, why))
+        return false;
+    settings->values.material = text[TEXT_MATERIAL];
+    for (int i = 0; i < 3 && text[TEXT_FORMAT]; i++)
+        if (strcmp(text[TEXT_FORMAT], formats[i]) == 0) settings->format = FORMAT_TEXT + i;
+    if (text[TEXT_FORMAT] && settings->format == FORMAT_DEFAULT)
+        return refuse(why, "--format = \"%.64s\": must be text, csv or json", text[TEXT_FORMAT]);
+    const char *method = restitute_method_name(settings->solver.method);
+    if (text[TEXT_METHOD] && strcmp(text[TEXT_METHOD], method) != 0)
+        return refuse(why, "--method = \"%.64s\": is not in this build; must be %s", text[TEXT_METHOD], method);
+    return true;
+}
+
+static bool read_arguments(poptContext context, struct settings *settings, bool *help, struct reason *why)
+{
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0) {
+        if (code == CODE_HELP) {
+            *help = true;
+            return true;
+        }
+        if (!take_option(settings, code, context, why)) return false;
+    }
+    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
+    const char *extra = poptGetArg(context);
+    if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
+    return read_solver(settings, why) && read_fields(settings, why) && read_words(settings, why);
+}
+
+enum reading options_read(int count, char **arguments, struct settings *settings)
+{
+    const bool history = strcmp(arguments[1], "history") == 0;
+    struct poptOption *dimensionless = field_options(0, FIELD_LAST_DIMENSIONLESS, NULL);
+    struct poptOption *physical = field_options(FIELD_LAST_DIMENSIONLESS + 1, FIELD_COUNT - 1, more_scene_options);
+    struct poptOption all[] = {GROUP(dimensionless, "An impact in dimensionless numbers:"),
+                               GROUP(physical, "or in SI units, a sphere against a wall or a second sphere:"),
+                               GROUP(solution_options, "How it is solved:"),
+                               GROUP(history ? history_output_options : pair_output_options, "Input and output:"),
+                               POPT_TABLEEND};
+    memset(settings, 0, sizeof *settings);
+    settings->command = history ? COMMAND_HISTORY : COMMAND_PAIR;
+    settings->values = values_none();
+    settings->argument_count = count;
+    settings->arguments = (const char *const *)arguments;
+    /* popt shows its first word as the name of the program. */
+    const char **words = allocate((size_t)count, sizeof *words);
+    words[0] = history ? "restitute history" : "restitute pair";
+    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
+    poptContext context = poptGetContext("restitute", count - 1, words, all, 0);
+    struct reason why;
+    bool help = false;
+    const bool good = read_arguments(context, settings, &help, &why);
+    if (help) {
+        poptPrintHelp(context, stdout, 0);
+        fputs(history ? history_footer : pair_footer, stdout);
+    }
+    if (!good) complain("%s", why.text);
+    poptFreeContext(context);
+    free(words);
+    free(dimensionless);
+    free(physical);
+    return help ? READING_STOP : good ? READING_GO_ON : READING_FAILED;
+}
+
+void options_release(struct settings *settings)
+{
+    for (int i = 0; i < TEXT_COUNT; i++)
+        free(settings->text[i]);
+    for (int i = 0; i < FIELD_COUNT; i++)
+        free(settings->field[i]);
+}

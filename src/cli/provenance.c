@@ -1,0 +1,115 @@
+/* The record of how a result was made.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "provenance.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "output.h"
+
+json_t *json_of_number(double value)
+{
+    if (isnan(value)) return json_null();
+    return isinf(value) ? json_string(number_text(value).text) : json_real(value);
+}
+
+static json_t *json_of_fingerprint(uint64_t fingerprint)
+{
+    char text[40];
+    snprintf(text, sizeof text, "fnv1a64:%016" PRIx64, fingerprint);
+    return json_string(text);
+}
+
+/* What the options gave: under the name of the column that says the same. */
+static json_t *given_values(const struct values *values)
+{
+    json_t *object = json_object();
+    for (enum field field = 0; field < FIELD_COUNT; field++)
+        if (values->given[field])
+            json_object_set_new(object, field_rules[field].column, json_of_number(values->number[field]));
+    if (values->material) json_object_set_new(object, "material", json_string(values->material));
+    if (values->deformable)
+        json_object_set_new(object, "partner",
+                            json_string(values->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? "same" : "rigid"));
+    if (values->rotation_blocked >= 0)
+        json_object_set_new(object, "rotation_blocked", json_integer(values->rotation_blocked));
+    return object;
+}
+
+/* The materials that were read; those of a column are named by the rows. */
+static json_t *given_material(const struct settings *settings, struct materials *materials)
+{
+    struct reason why;
+    const struct material_entry *entry =
+        settings->values.material ? materials_get(materials, settings->values.material, &why) : NULL;
+    if (!entry) return json_null();
+    return json_pack("{s:s, s:s, s:s, s:o, s:o}", "name", entry->info.name, "source", entry->info.source, "model",
+                     entry->info.model, "density_kg_m3", json_of_number(entry->info.density), "fingerprint",
+                     json_of_fingerprint(entry->info.fingerprint));
+}
+
+static json_t *given_input(const struct settings *settings, const struct cases *cases)
+{
+    if (!cases) return json_null();
+    if (!cases->csv) return json_pack("{s:s}", "grid", settings->text[TEXT_GRID]);
+    return json_pack("{s:s, s:I, s:o}", "file", cases->source, "rows", (json_int_t)cases->rows, "fingerprint",
+                     json_of_fingerprint(restitute_csv_fingerprint(cases->csv)));
+}
+
+json_t *provenance_settings(const struct settings *settings, const struct cases *cases, struct materials *materials)
+{
+    const restitute_options *solver = &settings->solver;
+    json_t *object = json_object();
+    json_object_set_new(object, "version", json_string(restitute_version()));
+    json_object_set_new(object, "method", json_string(restitute_method_name(solver->method)));
+    json_object_set_new(object, "tolerance", json_real(solver->tolerance));
+    json_object_set_new(object, "elements", solver->elements ? json_integer(solver->elements) : json_string("chosen"));
+    json_object_set_new(object, "time_step",
+                        solver->time_step > 0 ? json_real(solver->time_step) : json_string("chosen"));
+    json_object_set_new(object, "max_updates", json_integer(solver->max_updates));
+    json_object_set_new(object, "values", given_values(&settings->values));
+    json_object_set_new(object, "material", given_material(settings, materials));
+    json_object_set_new(object, "input", given_input(settings, cases));
+    return object;
+}
+
+json_t *provenance_record(const struct settings *settings, json_t *settings_object, json_t *units)
+{
+    json_t *command = json_array();
+    for (int i = 0; i < settings->argument_count; i++) {
+        json_t *word = json_string(settings->arguments[i]);
+        json_array_append_new(command, word ? word : json_string("(not UTF-8)"));
+    }
+    return json_pack("{s:s, s:s, s:o, s:o, s:o}", "program", "restitute", "version", restitute_version(), "command",
+                     command, "settings", settings_object, "units", units);
+}
+
+bool provenance_write(const char *path, json_t *document, struct reason *why)
+{
+    struct output output;
+    if (!output_open(path, &output, why)) {
+        json_decref(document);
+        return false;
+    }
+    const int failed = json_dumpf(document, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    json_decref(document);
+    if (failed) {
+        output_abandon(&output);
+        return refuse(why, "%.200s: cannot be written as JSON", path ? path : "standard output");
+    }
+    fputc('\n', output.stream);
+    return output_finish(&output, why);
+}
+
+bool provenance_write_beside(const char *path, json_t *record, struct reason *why)
+{
+    if (output_is_standard(path)) {
+        json_decref(record);
+        return true;
+    }
+    char *beside = path_with_suffix(path, ".meta.json");
+    const bool done = provenance_write(beside, record, why);
+    free(beside);
+    return done;
+}

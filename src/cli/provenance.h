@@ -1,0 +1,26 @@
+/* How a result was made, as JSON: version, command line, settings, inputs, units. It holds no date, so that the same
+ * command writes the same bytes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef CLI_PROVENANCE_H
+#define CLI_PROVENANCE_H
+
+#include <jansson.h>
+
+#include "cases.h"
+
+/* All that the numbers depend on; two runs with equal settings give equal rows. cases may be NULL. */
+json_t *provenance_settings(const struct settings *settings, const struct cases *cases, struct materials *materials);
+
+/* The whole record; takes over `settings_object` and `units`. */
+json_t *provenance_record(const struct settings *settings, json_t *settings_object, json_t *units);
+
+/* Write a JSON document to a file, atomically, or to standard output. Releases the document. */
+bool provenance_write(const char *path, json_t *document, struct reason *why);
+
+/* Write the record of a result file beside it, as PATH.meta.json; nothing for standard output. Releases the record. */
+bool provenance_write_beside(const char *path, json_t *record, struct reason *why);
+
+/* A number; infinity as the text "inf", not-a-number as null, for which JSON has no numbers. */
+json_t *json_of_number(double value);
+
+#endif

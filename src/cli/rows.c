@@ -1,0 +1,147 @@
+/* Result rows.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "provenance.h"
+
+static const char *const result_names[ROW_NUMBERS] = {"ez",       "ex",      "contact_time", "max_indentation",
+                                                      "error_ez", "error_ex"};
+
+void rows_release(struct row *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        free(rows[i].status);
+    free(rows);
+}
+
+void row_from_result(int status, const restitute_result *result, struct row *row)
+{
+    const double number[ROW_NUMBERS] = {
+        result->ez, result->ex, result->contact_time, result->max_indentation, result->error_ez, result->error_ex};
+    row->solved = true;
+    memcpy(row->number, number, sizeof number);
+    row->method = result->method;
+    row->status = copy_of(status == RESTITUTE_OK ? "" : restitute_status_text(status));
+}
+
+void row_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,
+               restitute_solver *solver, size_t index, struct row *row)
+{
+    struct values values;
+    struct problem problem;
+    struct reason why;
+    restitute_result result;
+    restitute_error error;
+    memset(row, 0, sizeof *row);
+    restitute_result_init(&result);
+    if (!cases_values(cases, settings, index, &values, &why) ||
+        !problem_build(&values, NAME_COLUMNS, materials, &problem, &why)) {
+        row->status = copy_of(why.text);
+        return;
+    }
+    const int status = problem_solve(solver, &problem, &result, NULL, NULL, &error);
+    if (status < 0)
+        row->status = copy_of(error.message);
+    else
+        row_from_result(status, &result, row);
+}
+
+void cell_write(FILE *stream, const char *cell)
+{
+    const size_t length = strlen(cell);
+    const bool spaced = length && (strchr(" \t", cell[0]) || strchr(" \t", cell[length - 1]));
+    if (!spaced && cell[0] != '#' && !strpbrk(cell, ",\"\r\n")) {
+        fputs(cell, stream);
+        return;
+    }
+    fputc('"', stream);
+    for (; *cell; cell++) {
+        if (*cell == '"') fputc('"', stream);
+        fputc(*cell, stream);
+    }
+    fputc('"', stream);
+}
+
+void row_write_result_names(FILE *stream)
+{
+    for (int i = 0; i < ROW_NUMBERS; i++)
+        fprintf(stream, "%s,", result_names[i]);
+    fputs("method,status\n", stream);
+}
+
+void row_write_result(FILE *stream, const struct row *row)
+{
+    for (int i = 0; i < ROW_NUMBERS; i++)
+        fprintf(stream, "%s,", row->solved ? number_text(row->number[i]).text : "");
+    fprintf(stream, "%s,", row->solved ? row->method : "");
+    cell_write(stream, row->status);
+    fputc('\n', stream);
+}
+
+void row_write_header(FILE *stream, const struct cases *cases)
+{
+    for (size_t i = 0; i < cases->columns; i++) {
+        cell_write(stream, cases_name(cases, i));
+        fputc(',', stream);
+    }
+    row_write_result_names(stream);
+}
+
+void row_write(FILE *stream, const struct cases *cases, size_t index, const struct row *row)
+{
+    for (size_t i = 0; i < cases->columns; i++) {
+        cell_write(stream, cases_cell(cases, index, i));
+        fputc(',', stream);
+    }
+    row_write_result(stream, row);
+}
+
+bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row)
+{
+    const char *method_cell = restitute_csv_cell(csv, index, first + ROW_NUMBERS);
+    const char *status = restitute_csv_cell(csv, index, first + ROW_NUMBERS + 1);
+    if (!method_cell || !status) return false;
+    row->solved = *method_cell != '\0';
+    row->method = restitute_method_name(method);
+    for (int i = 0; i < ROW_NUMBERS && row->solved; i++) {
+        const char *cell = restitute_csv_cell(csv, index, first + (size_t)i);
+        if (restitute_number_read(cell, &row->number[i]) != RESTITUTE_OK) return false;
+    }
+    row->status = copy_of(status);
+    return true;
+}
+
+json_t *row_json(const struct cases *cases, size_t index, const struct row *row)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < cases->columns; i++) {
+        const char *cell = cases_cell(cases, index, i);
+        double number;
+        json_t *value =
+            restitute_number_read(cell, &number) == RESTITUTE_OK ? json_of_number(number) : json_string(cell);
+        json_object_set_new(object, cases_name(cases, i), value ? value : json_null());
+    }
+    for (int i = 0; i < ROW_NUMBERS; i++)
+        json_object_set_new(object, result_names[i], row->solved ? json_of_number(row->number[i]) : json_null());
+    json_object_set_new(object, "method", row->solved ? json_string(row->method) : json_null());
+    json_t *status = json_string(row->status);
+    json_object_set_new(object, "status", status ? status : json_string("failed"));
+    return object;
+}
+
+json_t *row_units(const struct cases *cases, bool physical)
+{
+    json_t *units = json_object();
+    for (size_t i = 0; cases && i < cases->columns; i++) {
+        const enum field field = field_of_column(cases_name(cases, i));
+        if (field < FIELD_COUNT) json_object_set_new(units, cases_name(cases, i), json_string(field_rules[field].unit));
+    }
+    for (int i = 0; i < ROW_NUMBERS; i++)
+        json_object_set_new(units, result_names[i], json_string("1"));
+    json_object_set_new(units, result_names[ROW_CONTACT_TIME], json_string(physical ? "s" : "T"));
+    json_object_set_new(units, result_names[ROW_MAX_INDENTATION], json_string(physical ? "m" : "d0"));
+    return units;
+}

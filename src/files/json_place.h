@@ -1,0 +1,14 @@
+/* Where a key stands in a JSON text. Jansson tells the line of a syntax error, but not of a wrong value.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RESTITUTE_JSON_PLACE_H
+#define RESTITUTE_JSON_PLACE_H
+
+#include <stddef.h>
+
+/* The line, from 1, of `key` in the outermost object; 0 if it is not there. The text is valid JSON. */
+size_t json_line_of_key(const char *text, const char *key);
+
+/* The line on which the object number `index`, from 0, of the array `key` of the outermost object begins. */
+size_t json_line_of_item(const char *text, const char *key, size_t index);
+
+#endif

@@ -1,0 +1,338 @@
+/* Materials from .json and .csv files: what the file must hold, checked key by key, then handed to the core.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "file_text.h"
+#include "json_place.h"
+#include "prony_terms.h"
+
+/* A JSON material file while it is read. */
+struct material_file {
+    const char *path, *name; /* name: the path as it appears in messages */
+    const char *text;
+    json_t *root;
+    uint64_t fingerprint;
+    restitute_error *error;
+};
+
+/* What a file says, before it becomes a material. */
+struct material_content {
+    restitute_material_info info;
+    double poisson_ratio;
+    double number[6]; /* indexed by enum number_key */
+};
+
+enum number_key { MODULUS, MODULUS1, MODULUS2, VISCOSITY, EQUILIBRIUM_MODULUS, PARALLEL_VISCOSITY };
+
+static const struct {
+    const char *key;
+    int zero_allowed;
+} number_keys[] = {{"modulus_pa", 0},
+                   {"modulus1_pa", 0},
+                   {"modulus2_pa", 0},
+                   {"viscosity_pa_s", 0},
+                   {"equilibrium_modulus_pa", 1},
+                   {"parallel_viscosity_pa_s", 1}};
+
+#define BIT(key) (1u << (key))
+static const struct model {
+    const char *name;
+    unsigned required, optional; /* bits of enum number_key */
+    int has_terms;
+} models[] = {
+    {"elastic", BIT(MODULUS), 0, 0},
+    {"standard_solid", BIT(MODULUS1) | BIT(MODULUS2) | BIT(VISCOSITY), 0, 0},
+    {"kelvin_voigt", BIT(MODULUS1) | BIT(VISCOSITY), 0, 0},
+    {"maxwell", BIT(MODULUS) | BIT(VISCOSITY), 0, 0},
+    {"prony", 0, BIT(EQUILIBRIUM_MODULUS) | BIT(PARALLEL_VISCOSITY), 1},
+};
+enum { MODEL_COUNT = sizeof models / sizeof models[0], NUMBER_COUNT = sizeof number_keys / sizeof number_keys[0] };
+
+void restitute_material_info_init(restitute_material_info *info)
+{
+    if (!info) return;
+    memset(info, 0, sizeof *info);
+    info->struct_size = sizeof *info;
+    info->density = NAN;
+}
+
+/* Copy a text that is to fit into `size` bytes. */
+static int copy_text(const struct material_file *file, const char *key, int required, char *target, size_t size)
+{
+    const json_t *value = json_object_get(file->root, key);
+    if (!value && !required) return RESTITUTE_OK;
+    if (!value) return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
+    const size_t line = json_line_of_key(file->text, key);
+    if (!json_is_string(value))
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
+                         key);
+    const size_t length = json_string_length(value);
+    if (length == 0 || length >= size || strlen(json_string_value(value)) != length)
+        return file_fail(file->error, RESTITUTE_ERROR_DOMAIN,
+                         "%s line %zu: \"%s\" has %zu bytes: must have 1 to %zu, "
+                         "none of them zero",
+                         file->name, line, key, length, size - 1);
+    memcpy(target, json_string_value(value), length + 1);
+    return RESTITUTE_OK;
+}
+
+/* Read a number from an object; a missing one leaves `number` as it is, unless it is required. */
+static int read_number(const struct material_file *file, const json_t *object, const char *key, size_t line,
+                       int required, double *number)
+{
+    const json_t *value = json_object_get(object, key);
+    if (!value && !required) return RESTITUTE_OK;
+    if (!value)
+        return line
+                   ? file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line, key)
+                   : file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
+    if (!json_is_number(value))
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
+                         line ? line : json_line_of_key(file->text, key), key);
+    *number = json_number_value(value);
+    return RESTITUTE_OK;
+}
+
+/* A number of the outermost object that must be finite and > 0, or >= 0. */
+static int read_positive(const struct material_file *file, const char *key, int required, int zero_allowed,
+                         double *number)
+{
+    const int status = read_number(file, file->root, key, 0, required, number);
+    if (status != RESTITUTE_OK || !json_object_get(file->root, key)) return status;
+    if (isfinite(*number) && (*number > 0 || (zero_allowed && *number == 0))) return RESTITUTE_OK;
+    return file_fail(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
+                     file->name, json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
+}
+
+static int read_poisson_ratio(const struct material_file *file, double *poisson_ratio)
+{
+    const int status = read_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
+    if (status != RESTITUTE_OK || (*poisson_ratio >= 0 && *poisson_ratio <= 0.5)) return status;
+    return file_fail(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
+                     file->name, json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
+}
+
+static const struct model *find_model(const struct material_file *file, const char *name)
+{
+    for (int i = 0; i < MODEL_COUNT; i++)
+        if (strcmp(models[i].name, name) == 0) return &models[i];
+    file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+              "%s line %zu: model = \"%s\": must be elastic, standard_solid, "
+              "kelvin_voigt, maxwell or prony",
+              file->name, json_line_of_key(file->text, "model"), name);
+    return NULL;
+}
+
+static int is_allowed(const struct model *model, const char *key)
+{
+    static const char *const common[] = {"name", "source", "model", "poisson_ratio", "density_kg_m3"};
+    for (size_t i = 0; i < sizeof common / sizeof common[0]; i++)
+        if (strcmp(key, common[i]) == 0) return 1;
+    for (int i = 0; i < NUMBER_COUNT; i++)
+        if (strcmp(key, number_keys[i].key) == 0) return ((model->required | model->optional) & BIT(i)) != 0;
+    return model->has_terms && (strcmp(key, "terms") == 0 || strcmp(key, "prony_csv") == 0);
+}
+
+static int refuse_unknown_keys(const struct material_file *file, const struct model *model)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(file->root, key, value)
+    {
+        if (!is_allowed(model, key))
+            return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
+                             file->name, json_line_of_key(file->text, key), key, model->name);
+    }
+    return RESTITUTE_OK;
+}
+
+/* One object of "terms": exactly tau_s and modulus_pa. */
+static int read_term(const struct material_file *file, const json_t *term, size_t line, double *time, double *modulus)
+{
+    if (!json_is_object(term))
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+                         "%s line %zu: each of \"terms\" must be an object "
+                         "{\"tau_s\": .., \"modulus_pa\": ..}",
+                         file->name, line);
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)term, key, value)
+    {
+        if (strcmp(key, "tau_s") != 0 && strcmp(key, "modulus_pa") != 0)
+            return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" in a term",
+                             file->name, line, key);
+    }
+    const int status = read_number(file, term, "tau_s", line, 1, time);
+    return status == RESTITUTE_OK ? read_number(file, term, "modulus_pa", line, 1, modulus) : status;
+}
+
+static int read_term_list(const struct material_file *file, const json_t *list, struct prony_terms *terms)
+{
+    const size_t line = json_line_of_key(file->text, "terms");
+    if (!json_is_array(list) || json_array_size(list) == 0)
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+                         "%s line %zu: \"terms\" must be an array of at least one "
+                         "{\"tau_s\": .., \"modulus_pa\": ..}",
+                         file->name, line);
+    int status = prony_terms_allocate(json_array_size(list), terms, file->error);
+    if (status != RESTITUTE_OK) return status;
+    for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++) {
+        const size_t item_line = json_line_of_item(file->text, "terms", i);
+        terms->line[i] = item_line ? item_line : line;
+        status =
+            read_term(file, json_array_get(list, i), terms->line[i], &terms->relaxation_time[i], &terms->modulus[i]);
+    }
+    if (status == RESTITUTE_OK) status = prony_terms_check(terms, file->name, "tau_s", "modulus_pa", file->error);
+    if (status != RESTITUTE_OK) prony_terms_release(terms);
+    return status;
+}
+
+/* The CSV beside the JSON file: its folder, then the name given. */
+static char *path_beside(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
+    char *joined = malloc(folder + strlen(name) + 1);
+    if (joined) {
+        memcpy(joined, path, folder);
+        strcpy(joined + folder, name);
+    }
+    return joined;
+}
+
+static int read_terms(struct material_file *file, struct prony_terms *terms)
+{
+    const json_t *list = json_object_get(file->root, "terms");
+    if (!list == !json_object_get(file->root, "prony_csv"))
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+                         "%s: model prony needs either \"terms\" or \"prony_csv\"%s", file->name,
+                         list ? ", not both" : "");
+    if (list) return read_term_list(file, list, terms);
+    char name[1024];
+    int status = copy_text(file, "prony_csv", 1, name, sizeof name);
+    if (status != RESTITUTE_OK) return status;
+    char *path = path_beside(file->path, name);
+    if (!path) return file_fail(file->error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file->name);
+    uint64_t fingerprint;
+    status = prony_terms_read_csv(path, terms, &fingerprint, file->error);
+    if (status == RESTITUTE_OK) file->fingerprint ^= fingerprint;
+    free(path);
+    return status;
+}
+
+static int read_content(const struct material_file *file, struct material_content *content, const struct model **model)
+{
+    restitute_material_info *info = &content->info;
+    int status = copy_text(file, "model", 1, info->model, sizeof info->model);
+    if (status == RESTITUTE_OK && !(*model = find_model(file, info->model))) status = RESTITUTE_ERROR_FORMAT;
+    if (status == RESTITUTE_OK) status = refuse_unknown_keys(file, *model);
+    if (status == RESTITUTE_OK) status = copy_text(file, "name", 1, info->name, sizeof info->name);
+    if (status == RESTITUTE_OK) status = copy_text(file, "source", 0, info->source, sizeof info->source);
+    if (status == RESTITUTE_OK) status = read_poisson_ratio(file, &content->poisson_ratio);
+    if (status == RESTITUTE_OK) status = read_positive(file, "density_kg_m3", 0, 0, &info->density);
+    for (int i = 0; i < NUMBER_COUNT && status == RESTITUTE_OK; i++)
+        status = read_positive(file, number_keys[i].key, ((*model)->required & BIT(i)) != 0,
+                               number_keys[i].zero_allowed, &content->number[i]);
+    return status;
+}
+
+static int create_material(struct material_file *file, const struct model *model,
+                           const struct material_content *content, restitute_material **material)
+{
+    const double *number = content->number, nu = content->poisson_ratio;
+    if (model->has_terms) {
+        struct prony_terms terms;
+        int status = read_terms(file, &terms);
+        if (status != RESTITUTE_OK) return status;
+        status = restitute_material_prony(number[EQUILIBRIUM_MODULUS], number[PARALLEL_VISCOSITY], terms.count,
+                                          terms.relaxation_time, terms.modulus, nu, material, file->error);
+        prony_terms_release(&terms);
+        return status;
+    }
+    if (strcmp(model->name, "elastic") == 0)
+        return restitute_material_elastic(number[MODULUS], nu, material, file->error);
+    if (strcmp(model->name, "standard_solid") == 0)
+        return restitute_material_standard_solid(number[MODULUS1], number[MODULUS2], number[VISCOSITY], nu, material,
+                                                 file->error);
+    if (strcmp(model->name, "kelvin_voigt") == 0)
+        return restitute_material_kelvin_voigt(number[MODULUS1], number[VISCOSITY], nu, material, file->error);
+    return restitute_material_maxwell(number[MODULUS], number[VISCOSITY], nu, material, file->error);
+}
+
+static int material_from_root(struct material_file *file, restitute_material **material, restitute_material_info *info)
+{
+    if (!json_is_object(file->root))
+        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: must be one JSON object, { .. }", file->name);
+    struct material_content content = {.poisson_ratio = NAN};
+    restitute_material_info_init(&content.info);
+    const struct model *model = NULL;
+    int status = read_content(file, &content, &model);
+    if (status == RESTITUTE_OK) status = create_material(file, model, &content, material);
+    if (status == RESTITUTE_OK && info) {
+        content.info.fingerprint = file->fingerprint;
+        *info = content.info;
+    }
+    return status;
+}
+
+static int read_json_material(const char *path, restitute_material **material, restitute_material_info *info,
+                              restitute_error *error)
+{
+    struct file_text text;
+    int status = file_text_read(path, &text, error);
+    if (status != RESTITUTE_OK) return status;
+    json_error_t reason;
+    struct material_file file = {path, file_name_for_message(path), text.bytes, NULL, 0, error};
+    file.fingerprint = file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+    file.root = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
+    if (file.root)
+        status = material_from_root(&file, material, info);
+    else
+        status = file_fail(error, RESTITUTE_ERROR_FORMAT, "%s line %d column %d: not JSON: %.120s", file.name,
+                           reason.line, reason.column, reason.text);
+    json_decref(file.root);
+    free(text.bytes);
+    return status;
+}
+
+static int read_csv_material(const char *path, restitute_material **material, restitute_material_info *info,
+                             restitute_error *error)
+{
+    struct prony_terms terms;
+    uint64_t fingerprint;
+    int status = prony_terms_read_csv(path, &terms, &fingerprint, error);
+    if (status != RESTITUTE_OK) return status;
+    status =
+        restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, error);
+    prony_terms_release(&terms);
+    if (status != RESTITUTE_OK || !info) return status;
+    const char *slash = strrchr(path, '/');
+    restitute_material_info_init(info);
+    snprintf(info->name, sizeof info->name, "%.127s", slash ? slash + 1 : path);
+    snprintf(info->model, sizeof info->model, "prony");
+    info->fingerprint = fingerprint;
+    return status;
+}
+
+int restitute_material_read_info(const char *path, restitute_material **material, restitute_material_info *info,
+                                 restitute_error *error)
+{
+    if (!path || !material) return file_fail(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "material" : "path");
+    if (info && info->struct_size != sizeof *info)
+        return file_fail(error, RESTITUTE_ERROR_STRUCT_SIZE, "info was not prepared by restitute_material_info_init");
+    const char *extension = strrchr(path, '.');
+    if (extension && strcasecmp(extension, ".json") == 0) return read_json_material(path, material, info, error);
+    if (extension && strcasecmp(extension, ".csv") == 0) return read_csv_material(path, material, info, error);
+    return file_fail(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
+                     file_name_for_message(path));
+}
+
+int restitute_material_read(const char *path, restitute_material **material, restitute_error *error)
+{
+    return restitute_material_read_info(path, material, NULL, error);
+}

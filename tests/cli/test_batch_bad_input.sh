@@ -1,0 +1,44 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Case files that are no case files: refused with exit status 2 and the line, and nothing is written.
+. "$(dirname -- "$0")/common.sh"
+
+bad() {
+    printf "$1" >cases.csv
+    shift
+    refused "$@" pair --input cases.csv --output out.csv
+    absent out.csv out.csv.meta.json out.csv.partial out.csv.partial.json
+}
+bad '' 'cases.csv: is empty'
+bad '\n\n' 'cases.csv: is empty'
+bad '# only a comment\n' 'cases.csv: is empty'
+bad 'psi,delta1\n' 'has column names but no rows'
+bad 'psi,delta1\n1,0\n1\n' 'cases.csv line 3: 1 cells, but the header has 2 columns'
+bad 'psi,delta1\n1,0,5\n' 'cases.csv line 2: 3 cells, but the header has 2 columns'
+bad 'psi,colour\n1,0\n' 'unknown column "colour"'
+bad 'psi,psi\n1,0\n' 'column psi appears twice'
+bad 'psi,\n1,0\n' 'column 2 has no name'
+bad 'psi,delta1\n1,"0\n' 'never closed'
+bad 'psi,delta1\n1,0"\n' 'cases.csv line 2'
+bad 'psi,radius1_m\n1,1\n' 'use one kind'
+bad 'delta1,gamma\n1,1\n' 'psi is missing'
+bad 'psi,delta1,gamma,delta2\n1,1,1,1\n' 'two of them determine the third'
+bad 'radius1_m,speed_m_s,friction\n1,1,1\n' 'material is missing'
+
+refused 'no-such-file.csv: cannot be read' pair --input no-such-file.csv --output out.csv
+mkdir folder
+refused 'folder: cannot be read' pair --input folder --output out.csv
+printf 'psi\n1\n' >cases.csv
+refused 'cannot be written' pair --input cases.csv --output missing/out.csv
+refused 'is not a regular file' pair --input cases.csv --output folder
+printf 'radius1_m,speed_m_s,friction,density1_kg_m3\n1,1,1,1\n' >cases.csv
+refused 'none.json: cannot be read' pair --input cases.csv --output out.csv --material none.json
+if [ -d /proc/self ]; then
+    refused 'cannot be written' pair --input cases.csv --output /proc/out.csv --material $materials/steel.json
+fi
+if [ -c /dev/full ]; then
+    printf 'psi\n1\n' >cases.csv
+    "$RESTITUTE" pair --input cases.csv >/dev/full 2>err
+    [ $? -eq 2 ] || fail "a full standard output is not noticed"
+fi
+absent out.csv out.csv.meta.json out.csv.partial out.csv.partial.json
