@@ -12,7 +12,7 @@
 #define FINITE -INFINITY, INFINITY, false, false
 
 const struct field_rule field_rules[FIELD_COUNT] = {
-    [FIELD_CHI] = {"chi", NULL, "chi", "1", 1.0 / 3.0, 1e6, true, true, false, "must be in [1/3, 1000]",
+    [FIELD_CHI] = {"chi", NULL, "chi", "1", 1.0 / 3.0, 1000, true, true, false, "must be in [1/3, 1000]",
                    "(1-nu)/(2-nu) (1 + m R^2/J), in [1/3, 1000]; default 7/6, a solid incompressible sphere"},
     [FIELD_PSI] = {"psi", NULL, "psi", "1", 0.0, 1e12, true, true, false, "must be in [0, 1e12]",
                    "(2-2nu)/(2-nu) |tangential velocity of the contact point| / (friction * normal velocity), in "

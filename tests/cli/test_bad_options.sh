@@ -6,7 +6,7 @@
 for bad in nan -nan NaN '' ' 1' '1 ' 1.0x 0x10 1,5 1e 1e999 --psi; do
     refused '--psi' pair --psi "$bad"
 done
-refused '--chi = 0.2: must be in [1/3, 1e6]' pair --psi 1 --chi 0.2
+refused '--chi = 0.2: must be in [1/3, 1000]' pair --psi 1 --chi 0.2
 refused '--psi = -1: must be in [0, 1e12]' pair --psi -1
 refused '--psi = inf: must be in [0, 1e12]' pair --psi inf
 refused '--delta1 = -1: must be in [0, 1e12]' pair --psi 1 --delta1 -1 --gamma 1
