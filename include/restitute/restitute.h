@@ -133,11 +133,11 @@ RESTITUTE_API size_t restitute_material_terms(const restitute_material *material
  *
  *  (25)'s delta2, formed like delta1 with G2 under the root and the same a_el, is delta1 sqrt(gamma). */
 typedef struct restitute_impact {
-    size_t struct_size; /**< set by @ref restitute_impact_init */
-    double chi;         /**< in [1/3, 1000]; default 7/6 */
-    double psi;         /**< in [0, 1e12]; default 0 */
-    double delta1;      /**< in [0, 1e12]; default 0; not used with `solid` */
-    double gamma;       /**< in [0, infinity]; default infinity; not used with `solid` */
+    size_t struct_size;              /**< set by @ref restitute_impact_init */
+    double chi;                      /**< in [1/3, 1000]; default 7/6 */
+    double psi;                      /**< in [0, 1e12]; default 0 */
+    double delta1;                   /**< in [0, 1e12]; default 0; not used with `solid` */
+    double gamma;                    /**< in [0, infinity]; default infinity; not used with `solid` */
     const restitute_material *solid; /**< optional, any solid instead of (delta1, gamma): its moduli stand for
                                         G/G_r, its times for t/T, with a_el formed with G_r; its nu is not used */
 } restitute_impact;
@@ -147,8 +147,8 @@ RESTITUTE_API void restitute_impact_init(restitute_impact *impact);
 
 /** Which bodies deform. With both, they are of the same material, in series: G_eff(t) = G(t)/2. */
 typedef enum restitute_deformable {
-    RESTITUTE_ONE_BODY_DEFORMS = 1,   /**< the partner is rigid */
-    RESTITUTE_BOTH_BODIES_DEFORM = 2  /**< both are of `material` */
+    RESTITUTE_ONE_BODY_DEFORMS = 1,  /**< the partner is rigid */
+    RESTITUTE_BOTH_BODIES_DEFORM = 2 /**< both are of `material` */
 } restitute_deformable;
 
 /** One impact in SI units: sphere 1 against a wall (radius2 and mass2 infinite) or against sphere 2.
@@ -178,15 +178,15 @@ RESTITUTE_API void restitute_scene_init(restitute_scene *scene);
  *  The reference modulus G_r of the scales is G_inf of the effective solid if that is > 0 (it is G1 in (24)); with
  *  G_inf = 0 it is G_inf + sum G_k, and for a mere dashpot the modulus that makes eta/(G_r T) = 1. */
 typedef struct restitute_numbers {
-    size_t struct_size;    /**< set by @ref restitute_numbers_init */
-    double chi, psi;       /**< (22); psi is 0 for mu = infinity or no tangential speed, infinity for mu = 0 */
-    double delta1, gamma;  /**< (23) for elastic, standard, Kelvin-Voigt solids; NaN for any other */
-    double delta2;         /**< delta1 sqrt(gamma); NaN likewise */
-    double radius, mass;   /**< effective R (m) and m (kg) of the pair */
-    double modulus;        /**< G_r, Pa, of the effective solid */
+    size_t struct_size;        /**< set by @ref restitute_numbers_init */
+    double chi, psi;           /**< (22); psi is 0 for mu = infinity or no tangential speed, infinity for mu = 0 */
+    double delta1, gamma;      /**< (23) for elastic, standard, Kelvin-Voigt solids; NaN for any other */
+    double delta2;             /**< delta1 sqrt(gamma); NaN likewise */
+    double radius, mass;       /**< effective R (m) and m (kg) of the pair */
+    double modulus;            /**< G_r, Pa, of the effective solid */
     double length_z, length_x; /**< d0 and a_el, m (24) */
-    double time;           /**< T = d0/v_z0, s */
-    double force;          /**< m v_z0^2/d0, N */
+    double time;               /**< T = d0/v_z0, s */
+    double force;              /**< m v_z0^2/d0, N */
 } restitute_numbers;
 
 RESTITUTE_API void restitute_numbers_init(restitute_numbers *numbers);
@@ -259,9 +259,9 @@ RESTITUTE_API void restitute_result_init(restitute_result *result);
 /** Where the energy went (THEORY 4.8), as fractions of the energy that came in: of (1/2) m v_z0^2 in z, and of the
  *  energy of the contact point's tangential motion in x. Each account adds up to 1 - residual. */
 typedef struct restitute_ledger {
-    size_t struct_size;                 /**< set by @ref restitute_ledger_init */
+    size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the foundation */
-    double residual_z;                  /**< what the method loses: 1 - the three; of its order of error */
+    double residual_z;                   /**< what the method loses: 1 - the three; of its order of error */
     double rebound_x, friction_x, viscous_x, left_x;
     double residual_x;
 } restitute_ledger;
@@ -281,8 +281,8 @@ typedef struct restitute_history {
     double *contact_radius;
     double *stick_radius; /**< 0 in gross slip; the contact radius if all sticks */
     double *normal_force;
-    double *tangential_force; /**< on the contact point, braking positive */
-    double *normal_velocity;  /**< positive into the partner */
+    double *tangential_force;    /**< on the contact point, braking positive */
+    double *normal_velocity;     /**< positive into the partner */
     double *tangential_velocity; /**< of the contact point */
 } restitute_history;
 

@@ -31,7 +31,7 @@ struct run {
 };
 
 struct layout {
-    double *g, *tau, *decay, *gain, *stress; /* per term */
+    double *g, *tau, *decay, *gain, *stress;                   /* per term */
     double *x2, *f, *u, *q, *slip, *move, *q_before, *yz, *yx; /* per element, yz and yx per element and term */
 };
 
@@ -63,7 +63,8 @@ static struct layout lay_out(const struct rst_problem *problem, struct rst_works
     l.gain = workspace->terms + 3 * stride;
     l.stress = workspace->terms + 4 * stride;
     double **arrays[] = {&l.x2, &l.f, &l.u, &l.q, &l.slip, &l.move, &l.q_before};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++, p += n) *arrays[i] = p;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++, p += n)
+        *arrays[i] = p;
     l.yz = p;
     l.yx = p + n * terms;
     return l;
@@ -228,8 +229,8 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
     if (run->elements <= 0)
         run->elements = (int64_t)fmin(1e6, fmax(4, ceil(scout->time / run->step / steps_per_element)));
     if (run->step <= 0)
-        run->step = fmin(scout->time / (steps_per_element * (double)run->elements),
-                         stability_margin * scout->stable_step);
+        run->step =
+            fmin(scout->time / (steps_per_element * (double)run->elements), stability_margin * scout->stable_step);
     return RESTITUTE_OK;
 }
 
@@ -292,7 +293,8 @@ static double stick_radius(const struct euler_scene *scene, const struct euler_s
     int64_t n = 0;
     if (state->mode == RST_NO_SLIP) return contact;
     if (state->mode != RST_PARTIAL_SLIP) return 0;
-    while (n < state->n_contact && l->slip[n] == 0) n++;
+    while (n < state->n_contact && l->slip[n] == 0)
+        n++;
     if (n == 0 || n == state->n_contact) return n == 0 ? 0 : contact;
     double outermost = l->f[n - 1] - fabs(l->q[n - 1]), neighbour = n > 1 ? l->f[n - 2] - fabs(l->q[n - 2]) : 0;
     return fmin(contact, zero_beyond(scene->spacing, n, outermost, neighbour));

@@ -15,10 +15,11 @@ static int check_terms(size_t n_terms, const double *tau, const double *g, resti
                           tau ? "modulus" : "relaxation_time", n_terms);
     for (size_t k = 0; k < n_terms; k++) {
         if (!(tau[k] > 0) || isinf(tau[k]))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "relaxation_time[%zu] = %.17g s: must be > 0 and finite", k,
-                              tau[k]);
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "relaxation_time[%zu] = %.17g s: must be > 0 and finite",
+                              k, tau[k]);
         if (!(g[k] > 0) || isinf(g[k]))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "modulus[%zu] = %.17g Pa: must be > 0 and finite", k, g[k]);
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "modulus[%zu] = %.17g Pa: must be > 0 and finite", k,
+                              g[k]);
     }
     return RESTITUTE_OK;
 }
@@ -39,16 +40,17 @@ static int sort_terms(restitute_material *m, const double *tau, const double *g,
     if (m->n_terms == 0) return RESTITUTE_OK;
     struct term *terms = malloc(m->n_terms * sizeof *terms);
     if (!terms) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", m->n_terms);
-    for (size_t k = 0; k < m->n_terms; k++) terms[k] = (struct term){tau[k], g[k]};
+    for (size_t k = 0; k < m->n_terms; k++)
+        terms[k] = (struct term){tau[k], g[k]};
     qsort(terms, m->n_terms, sizeof *terms, by_time);
     int status = RESTITUTE_OK;
     for (size_t k = 0; k < m->n_terms; k++) {
         m->tau[k] = terms[k].tau;
         m->g[k] = terms[k].g;
         if (k > 0 && m->tau[k - 1] == m->tau[k])
-            status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                                "relaxation_time = %.17g s appears twice: times must differ, add the two moduli",
-                                m->tau[k]);
+            status =
+                rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                           "relaxation_time = %.17g s appears twice: times must differ, add the two moduli", m->tau[k]);
     }
     free(terms);
     return status;

@@ -12,8 +12,8 @@ struct restitute_method {
     int (*solve)(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                  struct rst_outcome *outcome, restitute_error *error);
     /* Repeat the run that gave `outcome` and sample it evenly into `history`. */
-    int (*record)(const struct rst_problem *problem, struct rst_workspace *workspace,
-                  const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error);
+    int (*record)(const struct rst_problem *problem, struct rst_workspace *workspace, const struct rst_outcome *outcome,
+                  struct rst_history *history, restitute_error *error);
 };
 
 #endif

@@ -78,7 +78,8 @@ static double reference_modulus(const restitute_scene *s, double m, double r)
     const restitute_material *material = s->material;
     double sum = material->g_inf;
     if (sum <= 0)
-        for (size_t k = 0; k < material->n_terms; k++) sum += material->g[k];
+        for (size_t k = 0; k < material->n_terms; k++)
+            sum += material->g[k];
     if (sum > 0) return pair_factor(s) * sum;
     return rst_damping_modulus(m, r, s->normal_speed, pair_factor(s) * material->eta, material->nu);
 }
@@ -104,11 +105,10 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
     n->length_z = n->length_x * (n->length_x / n->radius);
     n->time = n->length_z / s->normal_speed;
     n->force = n->mass * s->normal_speed / n->time;
-    n->chi = rst_tangential_mass_ratio(
-        n->mass,
-        tangential_mobility(s->mass1, s->radius1, s->inertia1, s->rotation_blocked) +
-            tangential_mobility(s->mass2, s->radius2, s->inertia2, s->rotation_blocked),
-        nu);
+    n->chi = rst_tangential_mass_ratio(n->mass,
+                                       tangential_mobility(s->mass1, s->radius1, s->inertia1, s->rotation_blocked) +
+                                           tangential_mobility(s->mass2, s->radius2, s->inertia2, s->rotation_blocked),
+                                       nu);
     double sliding = s->tangential_speed + s->radius1 * s->spin1 + (isinf(s->radius2) ? 0 : s->radius2 * s->spin2);
     n->psi = s->friction <= 0 ? INFINITY : rst_sliding_ratio(sliding, s->friction, s->normal_speed, nu);
     standard_numbers(s->material, pair_factor(s), n);
@@ -118,8 +118,9 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
                           "scales d0 = %g m, T = %g s, m v/T = %g N: must lie in the range of a double", n->length_z,
                           n->time, n->force);
     if (!(n->chi <= rst_largest_chi) || isnan(n->psi))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %g, psi = %g: chi must be <= %g, psi a number; check inertia and spin",
-                          n->chi, n->psi, rst_largest_chi);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "chi = %g, psi = %g: chi must be <= %g, psi a number; check inertia and spin", n->chi, n->psi,
+                          rst_largest_chi);
     return RESTITUTE_OK;
 }
 

@@ -36,10 +36,8 @@ const char *restitute_method_name(const restitute_method *method)
 void restitute_options_init(restitute_options *options)
 {
     if (!options) return;
-    *options = (restitute_options){.struct_size = sizeof *options,
-                                   .method = &rst_method_euler,
-                                   .tolerance = 1e-3,
-                                   .max_updates = 10000000000};
+    *options = (restitute_options){
+        .struct_size = sizeof *options, .method = &rst_method_euler, .tolerance = 1e-3, .max_updates = 10000000000};
 }
 
 static int check_options(const restitute_options *options, restitute_error *error)
@@ -157,8 +155,8 @@ static int record(restitute_solver *solver, const struct rst_problem *problem, c
     return solver->options.method->record(problem, &solver->workspace, outcome, history, error);
 }
 
-static int check_outputs(const restitute_solver *solver, const restitute_result *result,
-                         const restitute_ledger *ledger, const restitute_history *history, restitute_error *error)
+static int check_outputs(const restitute_solver *solver, const restitute_result *result, const restitute_ledger *ledger,
+                         const restitute_history *history, restitute_error *error)
 {
     if (!solver) return rst_report(error, RESTITUTE_ERROR_NULL, "solver is NULL");
     int status = RESTITUTE_OK;
@@ -166,8 +164,8 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
     if (!status && ledger) status = rst_check_size(ledger->struct_size, sizeof *ledger, "restitute_ledger", error);
     if (!status && history) status = rst_check_size(history->struct_size, sizeof *history, "restitute_history", error);
     if (!status && history && (history->capacity < 2 || history->capacity > 1000000000))
-        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "history.capacity = %zu: must be in [2, 1e9]",
-                            history->capacity);
+        status =
+            rst_report(error, RESTITUTE_ERROR_DOMAIN, "history.capacity = %zu: must be in [2, 1e9]", history->capacity);
     return status;
 }
 

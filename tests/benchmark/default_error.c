@@ -97,8 +97,8 @@ int main(int argc, char **argv)
         compare(&impact, &result, &finer, out, &summary);
         fflush(out);
         if ((n + 1) % 50 == 0)
-            fprintf(stderr, "%ld of %ld: worst ez %.2e, ex %.2e; %d above 1e-3; %d above their estimate\n", n + 1, cases,
-                    summary.worst_ez, summary.worst_ex, summary.above, summary.underestimated);
+            fprintf(stderr, "%ld of %ld: worst ez %.2e, ex %.2e; %d above 1e-3; %d above their estimate\n", n + 1,
+                    cases, summary.worst_ez, summary.worst_ex, summary.above, summary.underestimated);
     }
     restitute_solver_destroy(standard);
     restitute_solver_destroy(fine);

@@ -121,7 +121,8 @@ static void omission(const char *scene, struct variant full, struct variant lean
         for (int v = 0; v < 2; v++)
             samples[v][r] = time_once(variants[v].solid, variants[v].psi, variants[v].mode, 64, 1e-3,
                                       variants[v].ledger, &timing[v].outcome);
-    for (int v = 0; v < 2; v++) summarise(samples[v], repeats, &timing[v]);
+    for (int v = 0; v < 2; v++)
+        summarise(samples[v], repeats, &timing[v]);
     for (int v = 0; v < 2; v++)
         print_row("omission", scene, variants[v].name, &timing[v], timing[0].median / timing[v].median);
 }

@@ -10,9 +10,9 @@ int main(void)
     restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL); /* G1, G2 (Pa), eta (Pa s), nu */
     restitute_scene_init(&scene);                                           /* a rigid ball on a wall that deforms */
     scene.material = rubber;
-    scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3;  /* m, kg */
-    scene.normal_speed = 1.0, scene.tangential_speed = 0.8;            /* m/s */
-    if (restitute_scene_pair(&scene, &ez, &ex, NULL) < 0) return 1;    /* the last argument could say why */
+    scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3; /* m, kg */
+    scene.normal_speed = 1.0, scene.tangential_speed = 0.8;           /* m/s */
+    if (restitute_scene_pair(&scene, &ez, &ex, NULL) < 0) return 1;   /* the last argument could say why */
     printf("ez = %.3f, ex = %.3f\n", ez, ex);
     restitute_material_destroy(rubber);
 }

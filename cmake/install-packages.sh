@@ -1,0 +1,61 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|docs]
+#   run   what building and running the command needs (the default)
+#   test  run, and what the tests need
+#   ci    test, and a second compiler
+#   docs  what checking the man page and turning figures into other formats needs
+# Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
+set -eu
+
+run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev gnuplot-nox"
+test_packages="g++ libcmocka-dev mandoc python3 valgrind"
+case "${1-run}" in
+run) packages=$run_packages ;;
+test) packages="$run_packages $test_packages" ;;
+ci) packages="$run_packages $test_packages clang" ;;
+docs) packages="mandoc librsvg2-bin" ;;
+*)
+    echo "install-packages: unknown kind '$1': must be run, test, ci or docs" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "install-packages: no dpkg and apt-get here; what Debian calls these is needed: $packages" >&2
+    exit 0 # they may be there under other names; if not, CMake says what is missing
+fi
+
+missing=""
+for package in $packages; do
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || state=none
+    [ "$state" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+    as_root="env"
+elif command -v sudo >/dev/null; then
+    as_root="sudo env"
+else
+    echo "install-packages: neither root nor sudo here; let root run: apt-get install$missing" >&2
+    exit 1
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+# Runs apt-get quietly; its output is shown only if it fails.
+apt_get() {
+    if ! $as_root DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 -o Acquire::Retries=3 "$@" \
+        >"$log" 2>&1; then
+        cat "$log" >&2
+        echo "install-packages: apt-get $* failed, see above" >&2
+        exit 1
+    fi
+}
+
+echo "== Installing packages:$missing"
+apt_get update
+# shellcheck disable=SC2086 # a list of words
+apt_get install --no-install-recommends $missing
+echo "== Packages installed"

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What every target of the project has in common: language standards, warnings, sanitizers, what leaves a library.
+include(CheckCompilerFlag)
+include(CheckLinkerFlag)
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+  message(STATUS "restitute: no build type given, Release taken")
+endif()
+
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+
+# CMake would link every target that holds Fortran objects with the Fortran run-time libraries. The kernel calls none
+# of them (a test proves it), and a C program must not come to need them.
+set(CMAKE_Fortran_IMPLICIT_LINK_LIBRARIES "")
+set(CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES "")
+
+# Sets `result` to those of the flags that the compiler of `language` accepts.
+function(restitute_accepted_flags language result)
+  set(accepted "")
+  foreach(flag IN LISTS ARGN)
+    string(MAKE_C_IDENTIFIER "RESTITUTE_${language}_ACCEPTS${flag}" known)
+    check_compiler_flag(${language} ${flag} ${known})
+    if(${known})
+      list(APPEND accepted ${flag})
+    endif()
+  endforeach()
+  set(${result} ${accepted} PARENT_SCOPE)
+endfunction()
+
+# No contraction to fused multiply-add: the same numbers on every machine that has IEEE arithmetic.
+restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off)
+restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextra -ffp-contract=off -fopenmp-simd)
+
+# gfortran reads a header of the C library that lets it take vector versions of exp and the like. Those are a library
+# more to link, and their last digits depend on the processor; without the system's headers it takes libm's.
+if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
+  list(APPEND RESTITUTE_FORTRAN_FLAGS -nostdinc)
+endif()
+
+if(RESTITUTE_SANITIZE)
+  set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  list(APPEND RESTITUTE_C_FLAGS ${sanitizers})
+  list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
+  add_link_options(${sanitizers})
+endif()
+
+# Flags of our own code for a target, whatever its languages.
+function(restitute_common_flags target)
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:C>:${RESTITUTE_C_FLAGS}>"
+                                           "$<$<COMPILE_LANGUAGE:Fortran>:${RESTITUTE_FORTRAN_FLAGS}>")
+endfunction()
+
+set(RESTITUTE_EXPORT_MAP "${PROJECT_SOURCE_DIR}/cmake/restitute.map")
+check_linker_flag(C "-Wl,--version-script=${RESTITUTE_EXPORT_MAP}" RESTITUTE_LINKER_HAS_VERSION_SCRIPTS)
+
+# Lets only restitute_* out of a shared library. Where the linker knows no version scripts, hidden visibility still
+# keeps our C helpers in, and the Fortran kernel's rst_* remain visible, which harms nobody.
+function(restitute_limit_exports target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND RESTITUTE_LINKER_HAS_VERSION_SCRIPTS)
+    target_link_options(${target} PRIVATE "-Wl,--version-script=${RESTITUTE_EXPORT_MAP}")
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${RESTITUTE_EXPORT_MAP}")
+  endif()
+endfunction()

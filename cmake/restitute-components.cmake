@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Decides which optional parts are built, and says by name and package what is missing for those that are not.
+# Sets RESTITUTE_WITH_FILES and RESTITUTE_WITH_COMMAND.
+
+# The packages that the wanted parts need. Each leaves <name>_FOUND.
+macro(restitute_find_pkg_config_library prefix module)
+  find_package(PkgConfig QUIET)
+  if(PKG_CONFIG_FOUND)
+    pkg_check_modules(${prefix} QUIET IMPORTED_TARGET ${module})
+  endif()
+endmacro()
+
+# restitute_decide(<option> <title> <result> [<found> <what is missing if not found>]...)
+function(restitute_decide option title result)
+  set(${result} OFF PARENT_SCOPE)
+  if(NOT "${${option}}" STREQUAL "AUTO" AND NOT "${${option}}")
+    return()
+  endif()
+  set(missing "")
+  set(needs ${ARGN})
+  while(needs)
+    list(POP_FRONT needs found name)
+    if(NOT ${found})
+      list(APPEND missing "${name}")
+    endif()
+  endwhile()
+  list(JOIN missing ", " missing)
+  if(NOT missing)
+    set(${result} ON PARENT_SCOPE)
+  elseif("${${option}}" STREQUAL "AUTO")
+    message(STATUS "restitute: not built: ${title}; missing: ${missing}")
+  else()
+    message(FATAL_ERROR "restitute: ${option}=${${option}}, but ${title} cannot be built; missing: ${missing}")
+  endif()
+endfunction()
+
+foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND)
+  if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
+    message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
+  endif()
+endforeach()
+
+if(RESTITUTE_FILES)
+  restitute_find_pkg_config_library(JANSSON jansson)
+  find_package(Libcsv QUIET)
+endif()
+restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
+                 JANSSON_FOUND "Jansson (Debian: libjansson-dev, found by pkg-config)" #
+                 Libcsv_FOUND "libcsv (Debian: libcsv-dev)")
+
+if(RESTITUTE_COMMAND)
+  restitute_find_pkg_config_library(POPT popt)
+endif()
+restitute_decide(RESTITUTE_COMMAND "the command restitute" RESTITUTE_WITH_COMMAND #
+                 RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
+                 POPT_FOUND "popt (Debian: libpopt-dev, found by pkg-config)")
+
+if(RESTITUTE_TESTS)
+  restitute_find_pkg_config_library(CMOCKA cmocka)
+  if(NOT CMOCKA_FOUND)
+    message(FATAL_ERROR "restitute: RESTITUTE_TESTS=${RESTITUTE_TESTS}, but the tests cannot be built; missing: cmocka "
+                        "(Debian: libcmocka-dev, found by pkg-config)")
+  endif()
+endif()
+
+message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
+               "command ${RESTITUTE_WITH_COMMAND}, tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

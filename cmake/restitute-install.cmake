@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installation: libraries, headers, command, man page, and what CMake and pkg-config need to find them. All paths in
+# the installed files are relative to those files, so the tree may be moved.
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/restitute")
+
+# restitute_install_component(<component> <header>...)
+function(restitute_install_component component)
+  install(
+    TARGETS restitute_${component}
+    EXPORT restitute-${component}
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(
+    EXPORT restitute-${component}
+    FILE restitute-${component}.cmake
+    NAMESPACE restitute::
+    DESTINATION "${package_dir}")
+  install(FILES ${ARGN} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/restitute")
+endfunction()
+
+# restitute_install_pkg_config(<file.pc>): from cmake/<file.pc>.in
+function(restitute_install_pkg_config file)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${file}.in" "${PROJECT_BINARY_DIR}/cmake/${file}" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/cmake/${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+file(RELATIVE_PATH prefix_to_lib "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+file(RELATIVE_PATH prefix_to_include "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+
+set(headers "${PROJECT_SOURCE_DIR}/include/restitute")
+restitute_install_component(core "${headers}/restitute.h" "${headers}/status.h")
+restitute_install_pkg_config(restitute.pc)
+if(RESTITUTE_WITH_FILES)
+  restitute_install_component(files "${headers}/files.h")
+  restitute_install_pkg_config(restitute-files.pc)
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake" DESTINATION "${package_dir}")
+endif()
+if(RESTITUTE_WITH_COMMAND)
+  install(TARGETS restitute_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(FILES "${PROJECT_SOURCE_DIR}/docs/restitute.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+endif()
+
+configure_package_config_file(cmake/restitute-config.cmake.in cmake/restitute-config.cmake
+                              INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/cmake/restitute-config-version.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/cmake/restitute-config.cmake"
+              "${PROJECT_BINARY_DIR}/cmake/restitute-config-version.cmake" DESTINATION "${package_dir}")

@@ -1,0 +1,89 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES SANITIZED
+# The working directory is used up.
+set -eu
+
+kind=$1
+if [ "$SANITIZED" = ON ]; then
+    echo "skipped: an instrumented library binds its users to the sanitizers"
+    exit 77
+fi
+
+fail() {
+    echo "consume/$kind: $*" >&2
+    exit 1
+}
+
+case $kind in
+shared) wanted=ON ;;
+static) wanted=OFF ;;
+*) fail "'$kind' must be shared or static" ;;
+esac
+case $SHARED_LIBS in ON | TRUE | YES | 1) built=ON ;; *) built=OFF ;; esac
+
+rm -rf other first second user user-all missing
+work=$(pwd)
+
+# The build under test is installed where it is of the wanted kind; else another one is made.
+if [ "$built" = "$wanted" ]; then
+    installed_from=$BUILD_DIR
+else
+    installed_from=$work/other
+    "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
+        -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
+        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_EXAMPLES=OFF
+    "$CMAKE" --build other
+fi
+"$CMAKE" --install "$installed_from" --prefix "$work/first"
+mv first second # whatever still points to the first place fails from here on
+! grep -rIl "$work/first" second || fail "the files named above hold the path that the tree was installed to"
+prefix=$work/second
+
+echo "== find_package"
+components=core
+[ "$WITH_FILES" = OFF ] || components="core;files"
+"$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
+"$CMAKE" --build user
+user/consumer
+user/consumer_cxx
+[ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+
+echo "== find_package without components takes all that are installed"
+"$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS=
+[ "$WITH_FILES" = OFF ] || "$CMAKE" --build user-all --target consumer_files
+
+echo "== a component that is not there is missed by its name"
+if "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B missing -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$CC" "-DCONSUMER_COMPONENTS=core;nowhere" >missing.log 2>&1; then
+    fail "find_package found the component nowhere"
+fi
+grep "component not installed: nowhere" missing.log || { cat missing.log; fail "the message does not name it"; }
+
+echo "== pkg-config"
+if ! command -v pkg-config >/dev/null; then
+    echo "no pkg-config here: left out"
+    exit 0
+fi
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name restitute.pc)")
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH")
+export PKG_CONFIG_PATH LD_LIBRARY_PATH
+static=""
+[ "$kind" = shared ] || static=--static
+# shellcheck disable=SC2046 # lists of words
+"$CC" -o user/by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer.c" \
+    $(pkg-config --cflags --libs $static restitute) -lm
+user/by_pkg_config
+if [ "$WITH_FILES" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$CC" -o user/files_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_files.c" \
+        $(pkg-config --cflags --libs $static restitute-files)
+    user/files_by_pkg_config "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+
+    echo "== the installed command finds its libraries"
+    unset LD_LIBRARY_PATH
+    second/bin/restitute --version
+fi

@@ -1,0 +1,37 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh LIBRARY [PROGRAM]
+#   - it defines nothing but restitute_*
+#   - it calls nothing of a Fortran run-time library
+#   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
+#     on the processor
+# NM and READELF come from the environment.
+set -eu
+library=$1
+wrong=0
+
+complain() {
+    echo "symbols: $*" >&2
+    wrong=1
+}
+
+defined=$("$NM" -D --defined-only "$library" | awk '{ print $NF }')
+[ -n "$defined" ] || complain "$library defines nothing"
+# Names that begin with a double underscore are the sanitizers' own.
+foreign=$(echo "$defined" | grep -v -e '^restitute_' -e '^__' || true)
+[ -z "$foreign" ] || complain "$library defines other names than restitute_*:" $foreign
+
+undefined=$("$NM" -D --undefined-only "$library" | awk '{ print $NF }')
+fortran=$(echo "$undefined" | grep -E '^(_gfortran|_FortranA|for_)|quad' || true)
+[ -z "$fortran" ] || complain "$library calls the Fortran run-time library:" $fortran
+
+for file in "$@"; do
+    needed=$("$READELF" --dynamic "$file" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
+    [ -n "$needed" ] || complain "$file needs no library at all: not what this test expects"
+    runtime=$(echo "$needed" | grep -E 'gfortran|quadmath|flang|FortranRuntime|libifcore' || true)
+    [ -z "$runtime" ] || complain "$file needs a Fortran run-time library:" $runtime
+    ! echo "$needed" | grep -q mvec || complain "$file needs the vector mathematics library libmvec"
+    echo "$file needs:" $needed
+done
+echo "$library defines:" $defined
+exit $wrong

@@ -1,0 +1,12 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Shows that check.sh can fail: all its complaints must come for a library that deserves them.  counter_check.sh LIBRARY
+set -eu
+if sh "$(dirname -- "$0")/check.sh" "$1" >complaints 2>&1; then
+    echo "check.sh finds nothing wrong with $1" >&2
+    exit 1
+fi
+for complaint in "other names than restitute_\*: leaky_name" "calls the Fortran run-time library: _gfortran" \
+    "needs a Fortran run-time library: libgfortran"; do
+    grep "$complaint" complaints || { cat complaints; echo "no complaint '$complaint'" >&2; exit 1; }
+done
