@@ -14,37 +14,40 @@ module rst_merging
 
 contains
 
-  !> Merge in place what costs at most `allowed` all together; the terms kept move to the front, n_terms is their number.
-  !> slow_rate: bound from slow terms per unit of contact time, so that it can be stated for the contact time found.
+  !> Merge in place, cheapest first, what costs at most `allowed` all together. Terms come in ascending order of tau; those
+  !> kept move to the front, n_terms is their number. slow_rate: bound from slow terms per unit of contact time, so
+  !> that it can be stated for the contact time found.
   pure subroutine merge_terms(window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
     real(dp), intent(in) :: window, depth, allowed
     real(dp), intent(inout) :: g_inf, eta
     integer(ip), intent(inout) :: n_terms
     real(dp), intent(inout) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: slow_rate, fast_bound
-    integer(ip) :: k, kept
-    real(dp) :: share, slow, fast
+    integer(ip) :: first, last, k
+    real(dp) :: slow, fast
 
     slow_rate = 0
     fast_bound = 0
-    kept = 0
-    if (n_terms == 0) return
-    share = allowed/real(n_terms, dp)
-    do k = 1, n_terms
-      slow = 4*depth*depth*sqrt(depth)*g(k)/tau(k)
-      fast = 11.25_dp*sqrt(depth)*g(k)*tau(k)*tau(k)
-      if (slow*window <= share) then
-        g_inf = g_inf + g(k)
+    first = 1
+    last = n_terms
+    do while (first <= last)
+      slow = 4*depth*depth*sqrt(depth)*g(last)/tau(last)
+      fast = 11.25_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
+      if (slow_rate*window + fast_bound + min(slow*window, fast) > allowed) exit
+      if (slow*window <= fast) then
+        g_inf = g_inf + g(last)
         slow_rate = slow_rate + slow
-      else if (fast <= share) then
-        eta = eta + g(k)*tau(k)
-        fast_bound = fast_bound + fast
+        last = last - 1
       else
-        kept = kept + 1
-        g(kept) = g(k)
-        tau(kept) = tau(k)
+        eta = eta + g(first)*tau(first)
+        fast_bound = fast_bound + fast
+        first = first + 1
       end if
     end do
-    n_terms = kept
+    do k = first, last
+      g(k - first + 1) = g(k)
+      tau(k - first + 1) = tau(k)
+    end do
+    n_terms = last - first + 1
   end subroutine merge_terms
 end module rst_merging

@@ -18,7 +18,7 @@ struct restitute_solver {
 };
 
 /* Merged terms may change the pair by this part of the tolerance. */
-static const double merging_share = 0.02;
+static const double merging_share = 0.1;
 
 /* How many compression times a contact may last before slow terms are looked at again. */
 static const double contact_in_compressions = 6;
