@@ -1,0 +1,107 @@
+/* Short ways to one solved impact.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TEST_SOLVE_H
+#define TEST_SOLVE_H
+
+#include <restitute/restitute.h>
+
+#include "check.h"
+
+/* sqrt(32/15): theta = this times delta1 (23). */
+#define THETA_OF_DELTA1 1.4605934866804429
+
+struct solution {
+    int status;
+    restitute_result result;
+    restitute_ledger ledger;
+};
+
+static inline restitute_impact impact_of(double chi, double psi, double delta1, double gamma)
+{
+    restitute_impact impact;
+    restitute_impact_init(&impact);
+    impact.chi = chi;
+    impact.psi = psi;
+    impact.delta1 = delta1;
+    impact.gamma = gamma;
+    return impact;
+}
+
+/* An impact on any solid, in units of its reference modulus and time. */
+static inline restitute_impact impact_on(const restitute_material *solid, double chi, double psi)
+{
+    restitute_impact impact = impact_of(chi, psi, 0, INFINITY);
+    impact.solid = solid;
+    return impact;
+}
+
+static inline restitute_options default_options(void)
+{
+    restitute_options options;
+    restitute_options_init(&options);
+    return options;
+}
+
+static inline restitute_options to_tolerance(double tolerance)
+{
+    restitute_options options = default_options();
+    options.tolerance = tolerance;
+    return options;
+}
+
+/* Given numbers of elements and step; the tolerance then only decides about the merging of relaxation times. */
+static inline restitute_options as_told(int64_t elements, double time_step)
+{
+    restitute_options options = default_options();
+    options.elements = elements;
+    options.time_step = time_step;
+    return options;
+}
+
+/* Solve; it must not fail. Keeping the ledger does not change the pair. */
+static inline struct solution solve_impact(restitute_options options, restitute_impact impact)
+{
+    restitute_solver *solver;
+    restitute_error error;
+    struct solution s;
+    restitute_result_init(&s.result);
+    restitute_ledger_init(&s.ledger);
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    s.status = restitute_solve(solver, &impact, &s.result, &s.ledger, NULL, &error);
+    restitute_solver_destroy(solver);
+    CHECK(s.status >= 0, "chi %.17g psi %.17g delta1 %.17g gamma %.17g: %s", impact.chi, impact.psi, impact.delta1,
+          impact.gamma, error.message);
+    return s;
+}
+
+static inline struct solution solve_scene(restitute_options options, const restitute_scene *scene)
+{
+    restitute_solver *solver;
+    restitute_error error;
+    struct solution s;
+    restitute_result_init(&s.result);
+    restitute_ledger_init(&s.ledger);
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    s.status = restitute_solve_scene(solver, scene, &s.result, &s.ledger, NULL, &error);
+    restitute_solver_destroy(solver);
+    CHECK(s.status >= 0, "v %.17g m/s: %s", scene->normal_speed, error.message);
+    return s;
+}
+
+/* A Prony solid that must be valid. */
+static inline restitute_material *solid_of(double g_inf, double eta, size_t n_terms, const double *tau, const double *g)
+{
+    restitute_material *material;
+    restitute_error error;
+    CHECK(restitute_material_prony(g_inf, eta, n_terms, tau, g, 0.5, &material, &error) == RESTITUTE_OK, "%s",
+          error.message);
+    return material;
+}
+
+/* Like `result`, with elements and step `factor` times finer. */
+static inline restitute_options finer(const restitute_result *result, double factor)
+{
+    return as_told((int64_t)lround((double)result->elements * factor), result->time_step / factor);
+}
+
+#endif
