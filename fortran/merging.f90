@@ -5,7 +5,8 @@
 !>   slow: the modulus changes by at most g t/tau; over loading and unloading that is worth 2 D_max^(5/2) of it
 !>   fast: the stress changes by g tau^2 u'' and, after entry, g tau u' exp(-t/tau); together at most
 !>         (3/2) g tau^2 an element, (15/4) of it integrated over the contact radius A_max
-!> Both act twice, in z and, through the friction limit, in x: the bound on e_z and e_x is twice the sum.
+!> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on e_z and e_x is
+!> 2 max(1, chi) times the sum.
 module rst_merging
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -17,22 +18,23 @@ contains
   !> Merge in place, cheapest first, what costs at most `allowed` all together. Terms come in ascending order of tau; those
   !> kept move to the front, n_terms is their number. slow_rate: bound from slow terms per unit of contact time, so
   !> that it can be stated for the contact time found.
-  pure subroutine merge_terms(window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
-    real(dp), intent(in) :: window, depth, allowed
+  pure subroutine merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
+    real(dp), intent(in) :: chi, window, depth, allowed
     real(dp), intent(inout) :: g_inf, eta
     integer(ip), intent(inout) :: n_terms
     real(dp), intent(inout) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: slow_rate, fast_bound
     integer(ip) :: first, last, k
-    real(dp) :: slow, fast
+    real(dp) :: weight, slow, fast
 
+    weight = 2*max(1.0_dp, chi)
     slow_rate = 0
     fast_bound = 0
     first = 1
     last = n_terms
     do while (first <= last)
-      slow = 4*depth*depth*sqrt(depth)*g(last)/tau(last)
-      fast = 11.25_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
+      slow = weight*2*depth*depth*sqrt(depth)*g(last)/tau(last)
+      fast = weight*5.625_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
       if (slow_rate*window + fast_bound + min(slow*window, fast) > allowed) exit
       if (slow*window <= fast) then
         g_inf = g_inf + g(last)

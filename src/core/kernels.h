@@ -47,8 +47,8 @@ double rst_theta_from_delta1(double delta1);
 double rst_critical_psi(double chi, double ez);
 double rst_plane_profile(double x, double radius);
 
-void rst_merge_terms(double window, double depth, double allowed, double *g_inf, double *eta, int64_t *n_terms,
-                     double *g, double *tau, double *slow_rate, double *fast_bound);
+void rst_merge_terms(double chi, double window, double depth, double allowed, double *g_inf, double *eta,
+                     int64_t *n_terms, double *g, double *tau, double *slow_rate, double *fast_bound);
 void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                            int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,
                            int64_t *sinks);

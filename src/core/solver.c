@@ -96,8 +96,9 @@ static struct merged merge(struct rst_problem *problem, struct rst_workspace *wo
     if (before == 0) return merged;
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance, stress,
                           &depth, &time, &sinks);
-    rst_merge_terms(window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta, &s->n_terms,
-                    s->g, s->tau, &merged.slow_rate, &merged.fast_bound);
+    double chi = problem->mode == RST_FRICTIONLESS ? 0 : problem->chi;
+    rst_merge_terms(chi, window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta,
+                    &s->n_terms, s->g, s->tau, &merged.slow_rate, &merged.fast_bound);
     merged.terms = before - s->n_terms;
     return merged;
 }

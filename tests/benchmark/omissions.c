@@ -143,7 +143,7 @@ static struct solid merged(const struct solid *solid)
     struct solid s = *solid;
     double slow_rate, fast_bound;
     s.name = "Prony 30 terms merged";
-    rst_merge_terms(6, 1, 1e-4, &s.g_inf, &s.eta, &s.n_terms, s.g, s.tau, &slow_rate, &fast_bound);
+    rst_merge_terms(7.0 / 6.0, 6, 1, 1e-4, &s.g_inf, &s.eta, &s.n_terms, s.g, s.tau, &slow_rate, &fast_bound);
     return s;
 }
 

@@ -17,15 +17,15 @@ struct si_scene {
     int n_terms;
     double g[si_terms], tau[si_terms];
     double friction;
-    double speed, sliding;  /* m/s */
-    double spacing, step;   /* m, s */
+    double speed, sliding; /* m/s */
+    double spacing, step;  /* m, s */
 };
 
 struct si_element {
-    double profile;                     /* x^2/R */
+    double profile; /* x^2/R */
     int touching, gone;
-    double shift;                       /* u_x */
-    double wz[si_terms], wx[si_terms];  /* elongations of the Maxwell springs (10) */
+    double shift;                      /* u_x */
+    double wz[si_terms], wx[si_terms]; /* elongations of the Maxwell springs (10) */
 };
 
 struct si_result {
@@ -36,14 +36,16 @@ struct si_result {
 /* (12): backward Euler of w' = u' - w/tau. */
 static void si_relax(const struct si_scene *s, double move, double w[si_terms])
 {
-    for (int k = 0; k < s->n_terms; k++) w[k] = (w[k] + move) / (1 + s->step / s->tau[k]);
+    for (int k = 0; k < s->n_terms; k++)
+        w[k] = (w[k] + move) / (1 + s->step / s->tau[k]);
 }
 
 /* (9) without its factor: stress of displacement, dashpot and springs. */
 static double si_stress(const struct si_scene *s, double displacement, double move, const double w[si_terms])
 {
     double stress = s->g_inf * displacement + s->eta * move / s->step;
-    for (int k = 0; k < s->n_terms; k++) stress += s->g[k] * w[k];
+    for (int k = 0; k < s->n_terms; k++)
+        stress += s->g[k] * w[k];
     return stress;
 }
 
@@ -52,10 +54,12 @@ static double si_friction(const struct si_scene *s, double factor, double trial,
 {
     if (fabs(trial) <= bound) return trial;
     double stiffness = s->g_inf + s->eta / s->step;
-    for (int k = 0; k < s->n_terms; k++) stiffness += s->g[k] / (1 + s->step / s->tau[k]);
+    for (int k = 0; k < s->n_terms; k++)
+        stiffness += s->g[k] / (1 + s->step / s->tau[k]);
     double held = copysign(bound, trial), slip = (trial - held) / (factor * stiffness);
     e->shift -= slip;
-    for (int k = 0; k < s->n_terms; k++) e->wx[k] -= slip / (1 + s->step / s->tau[k]);
+    for (int k = 0; k < s->n_terms; k++)
+        e->wx[k] -= slip / (1 + s->step / s->tau[k]);
     return held;
 }
 

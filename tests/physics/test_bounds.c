@@ -52,14 +52,16 @@ static void random_impacts_keep_the_bounds(void **state)
 
 static void corners_of_the_domain_keep_the_bounds(void **state)
 {
-    const double chis[] = {1.0 / 3, 4}, psis[] = {0.05, 1, 10}, deltas[] = {0, 1e-3, 100}, gammas[] = {0, 1e-3, 1e3, INFINITY};
+    const double chis[] = {1.0 / 3, 4}, psis[] = {0.05, 1, 10}, deltas[] = {0, 1e-3, 100},
+                 gammas[] = {0, 1e-3, 1e3, INFINITY};
     (void)state;
     int number = 0;
     worst_ez = worst_ex = 0;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++)
-                for (int l = 0; l < 4; l++) check_impact(impact_of(chis[i], psis[j], deltas[k], gammas[l]), "corner", number++);
+                for (int l = 0; l < 4; l++)
+                    check_impact(impact_of(chis[i], psis[j], deltas[k], gammas[l]), "corner", number++);
     print_message("largest change with four times the resolution: ez %.1e, ex %.1e\n", worst_ez, worst_ex);
 }
 

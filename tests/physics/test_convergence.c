@@ -16,8 +16,8 @@ static struct errors errors[truth_rows];
 /* Elastic rows and rows whose only relaxation time is merged have no first-order error in z. */
 static int is_viscous(const struct truth *t)
 {
-    return t->delta1 > 0 && solve_impact(default_options(), impact_of(t->chi, t->psi, t->delta1, t->gamma))
-                                    .result.terms_merged == 0;
+    return t->delta1 > 0 &&
+           solve_impact(default_options(), impact_of(t->chi, t->psi, t->delta1, t->gamma)).result.terms_merged == 0;
 }
 
 static int solve_all(void **state)

@@ -123,8 +123,8 @@ static void little_damping_has_the_first_order_coefficient_1_891706(void **state
         double delta1 = 0.01 / (1 << i), theta = THETA_OF_DELTA1 * delta1;
         struct restitute_result r = solve_impact(to_tolerance(1e-6), impact_of(7.0 / 6, 10, delta1, 0)).result;
         remainder[i] = 1 - r.ez - 1.891706 * theta;
-        CHECK(fabs(remainder[i]) > 20 * r.error_ez, "delta1 %g: remainder %g hides in the error %g", delta1, remainder[i],
-              r.error_ez);
+        CHECK(fabs(remainder[i]) > 20 * r.error_ez, "delta1 %g: remainder %g hides in the error %g", delta1,
+              remainder[i], r.error_ez);
     }
     CHECK_NEAR(remainder[0] / remainder[1], 4, 0.4, "remainders %g, %g", remainder[0], remainder[1]);
 }

@@ -82,7 +82,8 @@ static void dissipation_is_never_negative(void **state)
               l.friction_x, l.viscous_x, l.left_x, l.rebound_x);
         CHECK_NEAR(l.rebound_z + l.viscous_z + l.left_z + l.residual_z, 1, 1e-14, "row %d", i);
         CHECK_NEAR(l.rebound_x + l.friction_x + l.viscous_x + l.left_x + l.residual_x, 1, 1e-14, "row %d", i);
-        if (t->delta1 <= 0) CHECK(l.viscous_z == 0 && l.viscous_x == 0, "row %d: elastic, viscous work %g", i, l.viscous_z);
+        if (t->delta1 <= 0)
+            CHECK(l.viscous_z == 0 && l.viscous_x == 0, "row %d: elastic, viscous work %g", i, l.viscous_z);
     }
 }
 
@@ -117,8 +118,10 @@ static void friction_takes_what_full_slip_loses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_accounts_close_to_first_order), cmocka_unit_test(residuals_shrink_with_elements_and_step),
-        cmocka_unit_test(dissipation_is_never_negative),      cmocka_unit_test(rebound_energy_is_the_square_of_the_pair),
+        cmocka_unit_test(both_accounts_close_to_first_order),
+        cmocka_unit_test(residuals_shrink_with_elements_and_step),
+        cmocka_unit_test(dissipation_is_never_negative),
+        cmocka_unit_test(rebound_energy_is_the_square_of_the_pair),
         cmocka_unit_test(friction_takes_what_full_slip_loses),
     };
     return cmocka_run_group_tests(tests, read_rows, NULL);

@@ -50,7 +50,8 @@ static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **s
         CHECK_NEAR(r.ez, 1, r.error_ez + damping, "gamma %g", gamma);
         CHECK_NEAR(r.max_indentation / scale, 1, r.error_ez + damping + r.time_step * r.time_step / scale / scale,
                    "gamma %g", gamma);
-        CHECK_NEAR(r.contact_time, elastic_contact_time * scale, contact_time_error(&r) + damping * scale, "gamma %g", gamma);
+        CHECK_NEAR(r.contact_time, elastic_contact_time * scale, contact_time_error(&r) + damping * scale, "gamma %g",
+                   gamma);
     }
 }
 
@@ -92,10 +93,12 @@ static void normal_problem_does_not_feel_the_tangential_one(void **state)
     const double chis[] = {1.0 / 3, 0.5, 7.0 / 6, 4}, psis[] = {0, 0.05, 0.7, 1, 1.3, 3, 10};
     const double solids[][2] = {{0, 1}, {1, 1}, {0.3, 0}, {30, 0.02}}; /* delta1, gamma */
     for (size_t k = 0; k < 4; k++) {
-        struct solution first = solve_impact(as_told(40, 2e-4), impact_of(chis[0], psis[0], solids[k][0], solids[k][1]));
+        struct solution first =
+            solve_impact(as_told(40, 2e-4), impact_of(chis[0], psis[0], solids[k][0], solids[k][1]));
         for (size_t i = 0; i < 4; i++)
             for (size_t j = 0; j < sizeof psis / sizeof *psis; j++) {
-                struct solution s = solve_impact(as_told(40, 2e-4), impact_of(chis[i], psis[j], solids[k][0], solids[k][1]));
+                struct solution s =
+                    solve_impact(as_told(40, 2e-4), impact_of(chis[i], psis[j], solids[k][0], solids[k][1]));
                 CHECK(s.result.ez == first.result.ez && s.result.contact_time == first.result.contact_time &&
                           s.result.max_indentation == first.result.max_indentation &&
                           s.result.max_normal_force == first.result.max_normal_force &&
@@ -132,7 +135,8 @@ static void strong_friction_approaches_no_slip(void **state)
             double limit = solve_impact(as_told(128, 0), impact_of(chis[i], 0, viscous, 1)).result.ex;
             double before = INFINITY;
             for (double psi = 0.1; psi > 1e-7; psi /= 10) {
-                double distance = fabs(solve_impact(as_told(128, 0), impact_of(chis[i], psi, viscous, 1)).result.ex - limit);
+                double distance =
+                    fabs(solve_impact(as_told(128, 0), impact_of(chis[i], psi, viscous, 1)).result.ex - limit);
                 CHECK(distance <= 2 * psi, "chi %g, psi %g: %g from the limit", chis[i], psi, distance);
                 CHECK(distance <= before + 1e-12, /* rounding of some 4000 steps */
                       "chi %g, psi %g: %g after %g", chis[i], psi, distance, before);

@@ -92,7 +92,8 @@ static struct drawn draw(uint64_t *random)
     double factor = scene->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? 0.5 : 1;
     d.si.g_inf *= factor;
     d.si.eta *= factor;
-    for (int k = 0; k < d.si.n_terms; k++) d.si.g[k] *= factor;
+    for (int k = 0; k < d.si.n_terms; k++)
+        d.si.g[k] *= factor;
     d.si.mass = isinf(scene->mass2) ? scene->mass1 : scene->mass1 * scene->mass2 / (scene->mass1 + scene->mass2);
     d.si.radius = isinf(scene->radius2) ? radius : radius * scene->radius2 / (radius + scene->radius2);
     d.si.mobility = mobility(scene->mass1, radius, scene->inertia1, scene->rotation_blocked) +

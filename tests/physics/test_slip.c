@@ -14,8 +14,8 @@ struct solid {
 enum { n_solids = 6, capacity = 200000 };
 
 static struct solid solids[n_solids] = {
-    {"elastic", 0, INFINITY, NULL},  {"Kelvin-Voigt", 0.3, 0, NULL}, {"stiff Kelvin-Voigt", 10, 0, NULL},
-    {"standard solid", 1, 1, NULL},  {"Maxwell", 0, 0, NULL},        {"Prony with dashpot", 0, 0, NULL},
+    {"elastic", 0, INFINITY, NULL}, {"Kelvin-Voigt", 0.3, 0, NULL}, {"stiff Kelvin-Voigt", 10, 0, NULL},
+    {"standard solid", 1, 1, NULL}, {"Maxwell", 0, 0, NULL},        {"Prony with dashpot", 0, 0, NULL},
 };
 
 static const double chis[] = {1.0 / 3, 0.45, 0.5, 0.6, 7.0 / 6, 2, 4};
@@ -32,7 +32,8 @@ static int make_solids(void **state)
 static int destroy_solids(void **state)
 {
     (void)state;
-    for (int i = 0; i < n_solids; i++) restitute_material_destroy(solids[i].prony);
+    for (int i = 0; i < n_solids; i++)
+        restitute_material_destroy(solids[i].prony);
     return 0;
 }
 
@@ -111,10 +112,11 @@ static void full_slip_has_ex_of_27(void **state)
             double critical = restitute_critical_psi(chis[i], ez_by(&solids[k]));
             for (double factor = 1.05; factor < 50; factor *= 3) {
                 double psi = critical * factor;
-                struct restitute_result r = solve_impact(default_options(), impact_with(&solids[k], chis[i], psi)).result;
+                struct restitute_result r =
+                    solve_impact(default_options(), impact_with(&solids[k], chis[i], psi)).result;
                 double cut = r.ez >= 1 ? 2 * chis[i] / psi * r.error_ez : 0;
-                CHECK_NEAR(r.ex, 2 * chis[i] * (1 + r.ez) / psi - 1, cut + 1.2e-16 * (double)r.steps, "%s, chi %g, psi %g",
-                           solids[k].name, chis[i], psi);
+                CHECK_NEAR(r.ex, 2 * chis[i] * (1 + r.ez) / psi - 1, cut + 1.2e-16 * (double)r.steps,
+                           "%s, chi %g, psi %g", solids[k].name, chis[i], psi);
             }
         }
 }
@@ -167,7 +169,8 @@ static void gross_slip_ends_everywhere_at_once(void **state)
     (void)state;
     for (int k = 0; k < n_solids; k++)
         for (int i = 0; i < n_chis; i++) {
-            double chi = chis[i], critical = restitute_critical_psi(chi, ez_by(&solids[k])), psi = 1 + 0.4 * (critical - 1);
+            double chi = chis[i], critical = restitute_critical_psi(chi, ez_by(&solids[k])),
+                   psi = 1 + 0.4 * (critical - 1);
             if (critical <= 1.01) continue;
             restitute_options options = as_told(48, 0);
             restitute_impact impact = impact_with(&solids[k], chi, psi);
@@ -185,13 +188,14 @@ static void gross_slip_ends_everywhere_at_once(void **state)
             assert_true(restitute_solve(solver, &impact, &result, NULL, &history, NULL) >= 0);
             restitute_solver_destroy(solver);
             size_t first = 1;
-            while (first < history.count && stick[first] <= 0) first++;
+            while (first < history.count && stick[first] <= 0)
+                first++;
             CHECK(first < history.count, "%s, chi %g: never sticks", solids[k].name, chi);
-            CHECK(stick[first] == contact[first], "%s, chi %g: %g of %g sticks at first", solids[k].name, chi, stick[first],
-                  contact[first]);
+            CHECK(stick[first] == contact[first], "%s, chi %g: %g of %g sticks at first", solids[k].name, chi,
+                  stick[first], contact[first]);
             /* the switch is made at the end of a step and seen in the next one */
-            CHECK_NEAR(velocity[first - 1], (2 * chi - psi) / (2 * chi - 1), result.max_normal_force * result.time_step * 1.01,
-                       "%s, chi %g", solids[k].name, chi);
+            CHECK_NEAR(velocity[first - 1], (2 * chi - psi) / (2 * chi - 1),
+                       result.max_normal_force * result.time_step * 1.01, "%s, chi %g", solids[k].name, chi);
         }
 }
 

@@ -72,7 +72,8 @@ static void estimated_error_covers_the_true_one(void **state)
                   "row %d, tolerance %g: errors %g, %g; estimates %g, %g", i, tolerances[k], z, x, s.result.error_ez,
                   s.result.error_ex);
         }
-        CHECK(low <= truth_rows * 5 / 100 || tolerances[k] > 1e-3, "tolerance %g: %d of %d estimates are too low", tolerances[k], low, truth_rows);
+        CHECK(low <= truth_rows * 5 / 100 || tolerances[k] > 1e-3, "tolerance %g: %d of %d estimates are too low",
+              tolerances[k], low, truth_rows);
     }
 }
 
@@ -97,7 +98,8 @@ static void largest_indentation_and_contact_time_are_right(void **state)
         struct restitute_result coarsest = solve_impact(finer(&fine, 0.25), impact).result;
         double h = fine.time_step;
         CHECK_NEAR(fine.max_indentation, t->max_indentation,
-                   estimate(coarsest.max_indentation, coarser.max_indentation, fine.max_indentation) + h * h, "row %d", i);
+                   estimate(coarsest.max_indentation, coarser.max_indentation, fine.max_indentation) + h * h, "row %d",
+                   i);
         CHECK_NEAR(fine.contact_time, t->contact_time,
                    estimate(coarsest.contact_time, coarser.contact_time, fine.contact_time) + 2 * h, "row %d", i);
         /* the contact radius is the square root of the indentation in these units */

@@ -1,0 +1,287 @@
+/* What the header promises of a solver: statuses, overrides, extreme scenes, reuse, threads, scaling.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../support/random.h"
+#include "../support/solve.h"
+
+static restitute_scene ball(const restitute_material *material, double radius, double density, double speed)
+{
+    restitute_scene scene;
+    restitute_scene_init(&scene);
+    scene.material = material;
+    scene.radius1 = radius;
+    scene.mass1 = density * 4.18879 * radius * radius * radius;
+    scene.friction = 0.3;
+    scene.normal_speed = speed;
+    scene.tangential_speed = speed;
+    return scene;
+}
+
+/* "the largest step that is: X": X works, a thousandth more is refused. */
+static void unstable_step_is_refused_with_the_largest_stable_one(void **state)
+{
+    (void)state;
+    const double delta1[] = {0, 0.5, 50}, gamma[] = {INFINITY, 0.1, 0};
+    for (int i = 0; i < 3; i++) {
+        restitute_impact impact = impact_of(2, 0.7, delta1[i], gamma[i]);
+        restitute_options options = as_told(16, 1e3);
+        restitute_result result;
+        restitute_solver *solver;
+        restitute_error error;
+        restitute_result_init(&result);
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        int status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
+        restitute_solver_destroy(solver);
+        CHECK(status == RESTITUTE_ERROR_UNSTABLE_STEP, "case %d: status %d", i, status);
+        const char *largest = strstr(error.message, "the largest step that is: ");
+        CHECK(largest != NULL, "%s", error.message);
+        double step = strtod(largest + strlen("the largest step that is: "), NULL);
+
+        options.time_step = 0.999 * step; /* six digits are printed */
+        struct solution s = solve_impact(options, impact);
+        CHECK(s.result.ez >= 0 && s.result.ez <= 1, "case %d: ez %g at the largest step", i, s.result.ez);
+        options.time_step = 1.001 * step;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
+        restitute_solver_destroy(solver);
+        CHECK(status == RESTITUTE_ERROR_UNSTABLE_STEP, "case %d: status %d just above", i, status);
+    }
+}
+
+static void too_little_work_allowed_is_told(void **state)
+{
+    (void)state;
+    restitute_impact impact = impact_of(7.0 / 6, 0.5, 0.3, 1);
+    restitute_options options = to_tolerance(1e-6);
+    options.max_updates = 3000000;
+    struct solution s = solve_impact(options, impact);
+    CHECK(s.status == RESTITUTE_TOLERANCE_NOT_REACHED, "status %d", s.status);
+    CHECK(s.result.error_ez > 1e-6 && s.result.error_ez < 1e-2, "estimate %g is not honest", s.result.error_ez);
+    CHECK(s.result.updates <= 2 * options.max_updates, "%lld updates", (long long)s.result.updates);
+
+    restitute_solver *solver;
+    restitute_error error;
+    restitute_result result, before;
+    options.max_updates = 100;
+    restitute_result_init(&result);
+    before = result;
+    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+    CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, &error) == RESTITUTE_ERROR_TOO_MUCH_WORK,
+          "100 updates");
+    CHECK(strstr(error.message, "max_updates = 100"), "%s", error.message);
+    CHECK(memcmp(&result, &before, sizeof result) == 0, "the result was touched");
+    restitute_solver_destroy(solver);
+}
+
+static void coarse_override_tells_that_the_tolerance_is_missed(void **state)
+{
+    (void)state;
+    struct solution s = solve_impact(as_told(4, 0), impact_of(7.0 / 6, 0.5, 0.3, 1));
+    CHECK(s.status == RESTITUTE_TOLERANCE_NOT_REACHED && s.result.elements == 4, "status %d", s.status);
+    CHECK(s.result.error_ez > 1e-3 || s.result.error_ex > 1e-3, "%g %g", s.result.error_ez, s.result.error_ex);
+}
+
+static void tighter_tolerances_are_met(void **state)
+{
+    (void)state;
+    restitute_impact impact = impact_of(1.4, 1.3, 0.4, 0.3);
+    struct restitute_result best = solve_impact(to_tolerance(1e-5), impact).result;
+    for (double tolerance = 1e-1; tolerance > 5e-5; tolerance /= 10) {
+        struct restitute_result r = solve_impact(to_tolerance(tolerance), impact).result;
+        CHECK_NEAR(r.ez, best.ez, tolerance + 1e-5, "tolerance %g", tolerance);
+        CHECK_NEAR(r.ex, best.ex, tolerance + 1e-5, "tolerance %g", tolerance);
+        CHECK(fmax(r.error_ez, r.error_ex) <= tolerance, "estimate %g at %g", r.error_ez, tolerance);
+    }
+}
+
+static void extreme_scenes_work(void **state)
+{
+    (void)state;
+    double tau[41], g[41];
+    for (int k = 0; k < 41; k++) { /* twenty decades, 1e-12 to 1e8 s */
+        tau[k] = pow(10, -12 + 0.5 * k);
+        g[k] = 1e6 * pow(10, -0.1 * k);
+    }
+    restitute_material *decades = solid_of(1e4, 0, 41, tau, g), *hard = solid_of(1e12, 0, 0, NULL, NULL),
+                       *soft = solid_of(1e-3, 0, 0, NULL, NULL);
+    const restitute_material *materials[] = {decades, hard, soft};
+    const double radii[] = {1e-9, 1e-3, 1e3}, speeds[] = {1e-9, 1, 1e4};
+    for (int m = 0; m < 3; m++)
+        for (int i = 0; i < 9; i++) {
+            restitute_scene scene = ball(materials[m], radii[i / 3], 2000, speeds[i % 3]);
+            struct solution s = solve_scene(default_options(), &scene);
+            CHECK(s.status == RESTITUTE_OK && s.result.ez > 0 && s.result.ez <= 1 && fabs(s.result.ex) <= 1,
+                  "material %d, R %g, v %g: status %d, ez %g", m, scene.radius1, scene.normal_speed, s.status,
+                  s.result.ez);
+            CHECK(s.result.contact_time > 0 && s.result.max_indentation > 0 && s.result.max_normal_force > 0,
+                  "material %d, R %g, v %g", m, scene.radius1, scene.normal_speed);
+        }
+    restitute_material_destroy(decades);
+    restitute_material_destroy(hard);
+    restitute_material_destroy(soft);
+}
+
+static void a_thousand_terms_work(void **state)
+{
+    (void)state;
+    static double tau[1000], g[1000];
+    for (int k = 0; k < 1000; k++) {
+        tau[k] = pow(10, -10 + 0.02 * k);
+        g[k] = 1;
+    }
+    restitute_material *solid = solid_of(100, 0, 1000, tau, g);
+    struct solution s = solve_impact(default_options(), impact_on(solid, 7.0 / 6, 0.5));
+    CHECK(s.status == RESTITUTE_OK && s.result.terms_merged > 500, "%d merged", (int)s.result.terms_merged);
+    restitute_material_destroy(solid);
+}
+
+/* The same impact in other units is the same pair; factors of two are exact, but powers of them are not: rounding of
+ * a_el, amplified over some 1e3 steps. */
+static void units_do_not_matter(void **state)
+{
+    (void)state;
+    const double tau = 1e-3, g = 2e6, long_tau = tau * 64, scaled_g = g * 1024 / 64 / 64;
+    restitute_material *a = solid_of(1e6, 0, 1, &tau, &g),
+                       *b = solid_of(1e6 * 1024 / 64 / 64, 0, 1, &long_tau, &scaled_g);
+    restitute_scene scene = ball(a, 0.01, 3000, 2), other = scene;
+    /* kg -> 1024 kg/... : mass x 1024, time x 64, length x 1: G = mass/(length time^2) */
+    other.material = b;
+    other.mass1 *= 1024;
+    other.normal_speed /= 64;
+    other.tangential_speed /= 64;
+    struct restitute_result x = solve_scene(default_options(), &scene).result;
+    struct restitute_result y = solve_scene(default_options(), &other).result;
+    CHECK_NEAR(x.ez, y.ez, 1e-12, "ez");
+    CHECK_NEAR(x.ex, y.ex, 1e-12, "ex");
+    CHECK_NEAR(y.contact_time, 64 * x.contact_time, 1e-12 * y.contact_time, "time");
+    CHECK_NEAR(y.max_normal_force, x.max_normal_force / 4, 1e-12 * x.max_normal_force, "force");
+    restitute_material_destroy(a);
+    restitute_material_destroy(b);
+}
+
+/* Swapping the spheres, or giving the motion to spins instead of translation, is the same impact. */
+static void partners_and_kinds_of_motion_can_be_swapped(void **state)
+{
+    (void)state;
+    restitute_material *rubber = solid_of(1e6, 200, 0, NULL, NULL);
+    restitute_scene a = ball(rubber, 0.01, 1200, 1.5);
+    a.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    a.radius2 = 0.02;
+    a.mass2 = 0.07;
+    a.inertia2 = 2e-5;
+    a.spin2 = -11;
+    restitute_scene b = a;
+    b.radius1 = a.radius2, b.radius2 = a.radius1;
+    b.mass1 = a.mass2, b.mass2 = a.mass1;
+    b.inertia1 = a.inertia2, b.inertia2 = 0;
+    b.spin1 = a.spin2, b.spin2 = 0;
+    restitute_scene c = a;
+    c.tangential_speed = 0;
+    c.spin1 = (a.tangential_speed + a.radius2 * a.spin2) / a.radius1;
+    c.spin2 = 0;
+    struct restitute_result x = solve_scene(default_options(), &a).result;
+    struct restitute_result y = solve_scene(default_options(), &b).result;
+    struct restitute_result z = solve_scene(default_options(), &c).result;
+    CHECK_NEAR(x.ez, y.ez, 1e-12, "swapped"); /* rounding of the effective mass and radius */
+    CHECK_NEAR(x.ex, y.ex, 1e-12, "swapped");
+    CHECK_NEAR(x.ex, z.ex, 1e-12, "spin for translation");
+    restitute_material_destroy(rubber);
+}
+
+static void a_used_solver_gives_the_bits_of_a_fresh_one(void **state)
+{
+    (void)state;
+    const double tau[] = {0.1, 1, 10}, g[] = {1, 2, 1};
+    restitute_material *solid = solid_of(1, 0.1, 3, tau, g);
+    restitute_solver *used;
+    uint64_t random = 5;
+    CHECK(restitute_solver_create(NULL, &used, NULL) == RESTITUTE_OK, "solver");
+    for (int i = 0; i < 40; i++) {
+        restitute_impact impact = impact_of(random_in(&random, 0.4, 4), random_log(&random, 0.05, 10),
+                                            random_log(&random, 1e-3, 100), random_log(&random, 1e-3, 1e3));
+        if (i % 3 == 0) impact.solid = solid;
+        restitute_result again;
+        restitute_result_init(&again);
+        CHECK(restitute_solve(used, &impact, &again, NULL, NULL, NULL) == RESTITUTE_OK, "impact %d", i);
+        struct restitute_result fresh = solve_impact(default_options(), impact).result;
+        CHECK(memcmp(&again.ez, &fresh.ez, sizeof again.ez) == 0 &&
+                  memcmp(&again.ex, &fresh.ex, sizeof again.ex) == 0 && again.steps == fresh.steps &&
+                  again.contact_time == fresh.contact_time,
+              "impact %d differs", i);
+    }
+    restitute_solver_destroy(used);
+    restitute_material_destroy(solid);
+}
+
+struct job {
+    const restitute_material *solid;
+    double ez[20], ex[20];
+};
+
+static void *work(void *argument)
+{
+    struct job *job = argument;
+    restitute_solver *solver;
+    if (restitute_solver_create(NULL, &solver, NULL)) return NULL;
+    for (int i = 0; i < 20; i++) {
+        restitute_impact impact = impact_on(job->solid, 7.0 / 6, 0.1 + 0.2 * i);
+        restitute_result result;
+        restitute_result_init(&result);
+        restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
+        job->ez[i] = result.ez;
+        job->ex[i] = result.ex;
+    }
+    restitute_solver_destroy(solver);
+    return NULL;
+}
+
+static void threads_share_a_material(void **state)
+{
+    (void)state;
+    const double tau[] = {0.1, 1, 10}, g[] = {1, 2, 1};
+    restitute_material *solid = solid_of(1, 0, 3, tau, g);
+    struct job jobs[4];
+    pthread_t threads[4];
+    for (int i = 0; i < 4; i++) {
+        memset(&jobs[i], 0, sizeof jobs[i]);
+        jobs[i].solid = solid;
+        CHECK(pthread_create(&threads[i], NULL, work, &jobs[i]) == 0, "thread %d", i);
+    }
+    for (int i = 0; i < 4; i++)
+        pthread_join(threads[i], NULL);
+    CHECK(jobs[0].ez[0] > 0 && jobs[0].ez[0] < 1, "ez %g", jobs[0].ez[0]);
+    for (int i = 1; i < 4; i++)
+        CHECK(memcmp(&jobs[0], &jobs[i], sizeof jobs[0]) == 0, "thread %d differs", i);
+    restitute_material_destroy(solid);
+}
+
+static void versions_and_texts_are_there(void **state)
+{
+    (void)state;
+    CHECK(strchr(restitute_version(), '.') != NULL, "version %s", restitute_version());
+    for (int status = -9; status <= 2; status++)
+        CHECK(strcmp(restitute_status_text(status), "unknown status") != 0, "status %d has no text", status);
+    CHECK(strcmp(restitute_status_text(12345), "unknown status") == 0, "12345");
+    CHECK(strcmp(restitute_method_name(restitute_method_euler()), "euler") == 0, "euler");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unstable_step_is_refused_with_the_largest_stable_one),
+        cmocka_unit_test(too_little_work_allowed_is_told),
+        cmocka_unit_test(coarse_override_tells_that_the_tolerance_is_missed),
+        cmocka_unit_test(tighter_tolerances_are_met),
+        cmocka_unit_test(extreme_scenes_work),
+        cmocka_unit_test(a_thousand_terms_work),
+        cmocka_unit_test(units_do_not_matter),
+        cmocka_unit_test(partners_and_kinds_of_motion_can_be_swapped),
+        cmocka_unit_test(a_used_solver_gives_the_bits_of_a_fresh_one),
+        cmocka_unit_test(threads_share_a_material),
+        cmocka_unit_test(versions_and_texts_are_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
