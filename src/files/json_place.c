@@ -59,12 +59,23 @@ size_t json_line_of_key(const char *text, const char *key)
     return walk_to_key(&walk, key) ? walk.line : 0;
 }
 
-size_t json_line_of_item(const char *text, const char *key, size_t index)
+/* Step over white space, counting lines. */
+static void skip_space(struct walk *walk)
+{
+    for (; *walk->at == ' ' || *walk->at == '\t' || *walk->at == '\r' || *walk->at == '\n'; walk->at++)
+        if (*walk->at == '\n') walk->line++;
+}
+
+void json_lines_of_items(const char *text, const char *key, size_t *line, size_t count)
 {
     struct walk walk = {text, 1, 0, NULL, 0};
-    if (!walk_to_key(&walk, key)) return 0;
-    size_t count = 0;
-    for (char token = next_token(&walk); token && walk.depth > 1; token = next_token(&walk))
-        if (token == '{' && walk.depth == 3 && count++ == index) return walk.line;
-    return 0;
+    size_t found = 0;
+    walk_to_key(&walk, key);
+    for (char token = next_token(&walk); token && walk.depth > 1 && found < count; token = next_token(&walk))
+        if (walk.depth == 2 && (token == '[' || token == ',')) {
+            skip_space(&walk);
+            line[found++] = walk.line;
+        }
+    while (found < count)
+        line[found++] = walk.line;
 }

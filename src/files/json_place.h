@@ -8,7 +8,7 @@
 /* The line, from 1, of `key` in the outermost object; 0 if it is not there. The text is valid JSON. */
 size_t json_line_of_key(const char *text, const char *key);
 
-/* The line on which the object number `index`, from 0, of the array `key` of the outermost object begins. */
-size_t json_line_of_item(const char *text, const char *key, size_t index);
+/* Lines on which the first `count` items of the array `key` of the outermost object begin, in one walk. */
+void json_lines_of_items(const char *text, const char *key, size_t *line, size_t count);
 
 #endif

@@ -181,12 +181,10 @@ static int read_term_list(const struct material_file *file, const json_t *list, 
                          file->name, line);
     int status = prony_terms_allocate(json_array_size(list), terms, file->error);
     if (status != RESTITUTE_OK) return status;
-    for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++) {
-        const size_t item_line = json_line_of_item(file->text, "terms", i);
-        terms->line[i] = item_line ? item_line : line;
+    json_lines_of_items(file->text, "terms", terms->line, terms->count);
+    for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++)
         status =
             read_term(file, json_array_get(list, i), terms->line[i], &terms->relaxation_time[i], &terms->modulus[i]);
-    }
     if (status == RESTITUTE_OK) status = prony_terms_check(terms, file->name, "tau_s", "modulus_pa", file->error);
     if (status != RESTITUTE_OK) prony_terms_release(terms);
     return status;
@@ -197,10 +195,12 @@ static char *path_beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
     const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
-    char *joined = malloc(folder + strlen(name) + 1);
+    const char *here = strcmp(name, "-") == 0 ? "./" : ""; /* a bare "-" would be the standard input */
+    char *joined = malloc(folder + strlen(here) + strlen(name) + 1);
     if (joined) {
         memcpy(joined, path, folder);
-        strcpy(joined + folder, name);
+        strcpy(joined + folder, here);
+        strcat(joined, name);
     }
     return joined;
 }
@@ -241,27 +241,42 @@ static int read_content(const struct material_file *file, struct material_conten
     return status;
 }
 
+static int create_prony(struct material_file *file, const struct material_content *content,
+                        restitute_material **material, restitute_error *why)
+{
+    struct prony_terms terms;
+    int status = read_terms(file, &terms);
+    if (status != RESTITUTE_OK) {
+        why->message[0] = '\0'; /* told in file->error already */
+        return status;
+    }
+    status =
+        restitute_material_prony(content->number[EQUILIBRIUM_MODULUS], content->number[PARALLEL_VISCOSITY], terms.count,
+                                 terms.relaxation_time, terms.modulus, content->poisson_ratio, material, why);
+    prony_terms_release(&terms);
+    return status;
+}
+
+/* What single values did not show the library may still refuse, such as tau = viscosity/modulus2 beyond a double. */
 static int create_material(struct material_file *file, const struct model *model,
                            const struct material_content *content, restitute_material **material)
 {
     const double *number = content->number, nu = content->poisson_ratio;
-    if (model->has_terms) {
-        struct prony_terms terms;
-        int status = read_terms(file, &terms);
-        if (status != RESTITUTE_OK) return status;
-        status = restitute_material_prony(number[EQUILIBRIUM_MODULUS], number[PARALLEL_VISCOSITY], terms.count,
-                                          terms.relaxation_time, terms.modulus, nu, material, file->error);
-        prony_terms_release(&terms);
-        return status;
-    }
-    if (strcmp(model->name, "elastic") == 0)
-        return restitute_material_elastic(number[MODULUS], nu, material, file->error);
-    if (strcmp(model->name, "standard_solid") == 0)
-        return restitute_material_standard_solid(number[MODULUS1], number[MODULUS2], number[VISCOSITY], nu, material,
-                                                 file->error);
-    if (strcmp(model->name, "kelvin_voigt") == 0)
-        return restitute_material_kelvin_voigt(number[MODULUS1], number[VISCOSITY], nu, material, file->error);
-    return restitute_material_maxwell(number[MODULUS], number[VISCOSITY], nu, material, file->error);
+    restitute_error why;
+    int status;
+    if (model->has_terms)
+        status = create_prony(file, content, material, &why);
+    else if (strcmp(model->name, "elastic") == 0)
+        status = restitute_material_elastic(number[MODULUS], nu, material, &why);
+    else if (strcmp(model->name, "standard_solid") == 0)
+        status = restitute_material_standard_solid(number[MODULUS1], number[MODULUS2], number[VISCOSITY], nu, material,
+                                                   &why);
+    else if (strcmp(model->name, "kelvin_voigt") == 0)
+        status = restitute_material_kelvin_voigt(number[MODULUS1], number[VISCOSITY], nu, material, &why);
+    else
+        status = restitute_material_maxwell(number[MODULUS], number[VISCOSITY], nu, material, &why);
+    if (status < 0 && why.message[0] != '\0') return file_fail(file->error, status, "%s: %s", file->name, why.message);
+    return status < 0 ? status : file_done(file->error);
 }
 
 static int material_from_root(struct material_file *file, restitute_material **material, restitute_material_info *info)

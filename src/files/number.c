@@ -15,7 +15,7 @@
 static int only_number_characters(const char *text)
 {
     const char *digits = text + (*text == '+' || *text == '-');
-    if (strcasecmp(digits, "inf") == 0 || strcasecmp(digits, "infinity") == 0) return 1;
+    if (strcasecmp(digits, "inf") == 0) return 1;
     return *text != '\0' && strspn(text, "0123456789+-.eE") == strlen(text);
 }
 
