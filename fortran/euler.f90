@@ -15,12 +15,14 @@ module rst_euler
   implicit none (type, external)
   private
   public :: scene_type, state_type, start_impact, advance_impact
-  public :: phase_compression, phase_restitution, phase_done, phase_sunk, phase_overflow
+  public :: phase_compression, phase_restitution, phase_done, phase_sunk, phase_overflow, phase_stalled
   public :: mode_frictionless, mode_gross_slip, mode_partial_slip, mode_no_slip
 
-  integer(ip), parameter :: phase_compression = 0, phase_restitution = 1, phase_done = 2, phase_sunk = 3, phase_overflow = 4
+  integer(ip), parameter :: phase_compression = 0, phase_restitution = 1, phase_done = 2, phase_sunk = 3, &
+                            phase_overflow = 4, phase_stalled = 5
   integer(ip), parameter :: mode_frictionless = 0, mode_gross_slip = 1, mode_partial_slip = 2, mode_no_slip = 3
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
+  integer(ip), parameter :: stalled_for_good = 10000  !! at the turning point a few steps may stall
 
   !> What is impacted, and how finely it is resolved. Twin of `struct euler_scene` in C.
   type, bind(c) :: scene_type
@@ -43,6 +45,7 @@ module rst_euler
     real(dp) :: leave_time      !! when the latest element left
     real(dp) :: max_depth, max_force, max_time
     integer(ip) :: n_contact, max_contact, phase, mode, n_steps, n_updates
+    integer(ip) :: n_stalled       !! steps on end that were too short to show in the indentation
     type(ledger_type) :: ledger
   end type state_type
 
@@ -74,6 +77,7 @@ contains
     state%phase = phase_compression
     state%n_steps = 0
     state%n_updates = 0
+    state%n_stalled = 0
     state%ledger = ledger_type(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     state%mode = scene%mode
   end subroutine start_impact
@@ -111,7 +115,7 @@ contains
       call correct_edge(scene, gain, f, q, n_old, advance_z, advance_x, state)
       call accelerate_sphere(scene, state)
       call start_sticking(scene, x2, yz, u, yx, q, state)
-      call judge_phase(scene, g, x2, yz, state)
+      call judge_phase(scene, g, x2, yz, advance_z, state)
     end do
   end subroutine advance_impact
 
@@ -167,9 +171,12 @@ contains
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: force
     type(state_type), intent(inout) :: state
+    real(dp) :: end_time
     state%phase = phase_done
-    state%time = state%time - scene%step*force/min(force - state%centre_force, -tiny(1.0_dp))
-    if (state%leave_time > 0) state%time = state%time + max(0.0_dp, state%time - state%leave_time)/8
+    end_time = state%time - scene%step*force/min(force - state%centre_force, -tiny(1.0_dp))
+    if (state%leave_time > 0) end_time = end_time + max(0.0_dp, end_time - state%leave_time)/8
+    state%depth = state%depth + state%velocity*(end_time - state%time)
+    state%time = end_time
   end subroutine end_contact
 
   pure subroutine tangential_step(scene, decay, gain, x2, f, n_old, advance_z, advance_x, u, yx, q, slip, state)
@@ -264,13 +271,20 @@ contains
     end do
   end subroutine start_sticking
 
+  !> A rebound so slow that a step is lost in the rounding of the indentation would never end.
   !> Compression ends when the sphere turns. Without an equilibrium modulus it may never do so (THEORY 4.9): then it
   !> ends when the kinetic energy and what the springs hold together could not bring back rest_speed.
-  pure subroutine judge_phase(scene, g, x2, yz, state)
+  pure subroutine judge_phase(scene, g, x2, yz, advance_z, state)
     type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: g(scene%n_terms), x2(scene%capacity), yz(scene%capacity, scene%n_terms)
+    real(dp), intent(in) :: g(scene%n_terms), x2(scene%capacity), yz(scene%capacity, scene%n_terms), advance_z
     type(state_type), intent(inout) :: state
     state%max_force = max(state%max_force, state%true_edge_force)
+    if (abs(advance_z) < 0.5_dp*epsilon(1.0_dp)*state%depth) then
+      state%n_stalled = state%n_stalled + 1
+      if (state%n_stalled > stalled_for_good .and. state%phase < phase_done) state%phase = phase_stalled
+    else
+      state%n_stalled = 0
+    end if
     if (state%phase /= phase_compression) return
     if (state%velocity <= 0) then
       state%phase = phase_restitution

@@ -6,7 +6,8 @@
 !>   fast: the stress changes by g tau^2 u'' and, after entry, g tau u' exp(-t/tau); together at most
 !>         (3/2) g tau^2 an element, (15/4) of it integrated over the contact radius A_max
 !> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on e_z and e_x is
-!> 2 max(1, chi) times the sum.
+!> 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has, the tangential oscillation is so fast
+!> that u'' outgrows its normal counterpart: there the fast part counts chi/4 times.
 module rst_merging
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -34,7 +35,7 @@ contains
     last = n_terms
     do while (first <= last)
       slow = weight*2*depth*depth*sqrt(depth)*g(last)/tau(last)
-      fast = weight*5.625_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
+      fast = weight*max(1.0_dp, chi/4)*5.625_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
       if (slow_rate*window + fast_bound + min(slow*window, fast) > allowed) exit
       if (slow*window <= fast) then
         g_inf = g_inf + g(last)

@@ -135,7 +135,7 @@ RESTITUTE_API size_t restitute_material_terms(const restitute_material *material
 typedef struct restitute_impact {
     size_t struct_size;              /**< set by @ref restitute_impact_init */
     double chi;                      /**< in [1/3, 1000]; default 7/6 */
-    double psi;                      /**< in [0, 1e12]; default 0 */
+    double psi;                      /**< in [0, 1e12], below 1e-12 taken as 0; default 0 */
     double delta1;                   /**< in [0, 1e12]; default 0; not used with `solid` */
     double gamma;                    /**< in [0, infinity]; default infinity; not used with `solid` */
     const restitute_material *solid; /**< optional, any solid instead of (delta1, gamma): its moduli stand for
@@ -153,16 +153,18 @@ typedef enum restitute_deformable {
 
 /** One impact in SI units: sphere 1 against a wall (radius2 and mass2 infinite) or against sphere 2.
  *
- *  Signs: the sphere moves with tangential_speed along x; a spin is positive if it moves the sphere's surface at the
- *  contact along +x relative to the partner's, so that the contact point slides with
- *  tangential_speed + radius1*spin1 + radius2*spin2. Backspin is negative. All speeds are relative (1 minus 2). */
+ *  Signs: the sphere moves with tangential_speed along x; a spin is positive if it adds to the sliding of the
+ *  contact point, tangential_speed + radius1*spin1 + radius2*spin2: spin1 > 0 moves the surface of sphere 1 at the contact
+ *  along +x, spin2 > 0 that of sphere 2 along -x. Spheres that turn the same way about the same axis have equal signs.
+ *  Backspin is negative. All speeds are relative (1 minus 2). */
 typedef struct restitute_scene {
     size_t struct_size;                 /**< set by @ref restitute_scene_init */
     const restitute_material *material; /**< required; default NULL */
     int deformable;                     /**< a @ref restitute_deformable; default ONE_BODY_DEFORMS */
     double radius1, mass1;              /**< m, kg; > 0, finite; required, default 0 */
     double radius2, mass2;              /**< m, kg; > 0, infinity allowed; default infinity: a wall */
-    double inertia1, inertia2;          /**< kg m^2, > 0; default 0 stands for a solid sphere, (2/5) m R^2 */
+    double inertia1, inertia2;          /**< kg m^2, > 0; default 0 stands for a solid sphere, (2/5) m R^2; not
+                                           used for a body of infinite mass, which is held fast */
     int rotation_blocked;               /**< nonzero: the spheres cannot rotate; default 0 */
     double friction;                    /**< mu, >= 0, infinity allowed (no slip); default 0 */
     double normal_speed;                /**< m/s, approaching, > 0; required, default 0 */
@@ -261,7 +263,8 @@ RESTITUTE_API void restitute_result_init(restitute_result *result);
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the foundation */
-    double residual_z;                   /**< what the method loses: 1 - the three; of its order of error */
+    double residual_z;                   /**< what the method loses: 1 - the three; of first order in the step. In x
+                                            it grows as psi -> 0 (about step/psi), since psi^2 is its unit */
     double rebound_x, friction_x, viscous_x, left_x;
     double residual_x;
 } restitute_ledger;

@@ -15,7 +15,8 @@
 
 static const char *const axis_names[2] = {"speed", "angle"};
 static const enum field axis_fields[2] = {FIELD_SPEED, FIELD_ANGLE};
-static const double most_points = 10000;
+static const double most_points = 10000;    /* on an axis */
+static const double most_impacts = 1000000; /* they are kept in memory, for the figure */
 
 double grid_point(const struct grid_axis *axis, size_t index)
 {
@@ -78,5 +79,7 @@ bool grid_read(const char *text, struct grid *grid, struct reason *why)
     if (!good) return false;
     for (int which = 0; which < 2; which++)
         if (!grid->axis[which].count) return refuse(why, "--grid: %s=FROM:TO:N is missing", axis_names[which]);
+    const double impacts = (double)grid->axis[0].count * (double)grid->axis[1].count;
+    if (impacts > most_impacts) return refuse(why, "--grid: %.0f impacts: must be at most %.0f", impacts, most_impacts);
     return true;
 }

@@ -67,7 +67,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
 {
     const char *figure = settings->text[TEXT_FIGURE], *output = settings->text[TEXT_OUTPUT];
     if (figure && !figure_check(figure, output, why)) return false;
-    return output_check(output, "--output", why);
+    return settings_spare_inputs(settings, why) && output_check(output, "--output", why);
 }
 
 static bool solve(const struct settings *settings, const struct problem *problem, restitute_history *history,

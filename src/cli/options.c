@@ -10,6 +10,8 @@
 
 #include <restitute/files.h>
 
+#include "output.h"
+
 /* What popt returns for an option: a field, a text, or one of these. */
 enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
 
@@ -261,4 +263,14 @@ void options_release(struct settings *settings)
         free(settings->text[i]);
     for (int i = 0; i < FIELD_COUNT; i++)
         free(settings->field[i]);
+}
+
+bool settings_spare_inputs(const struct settings *settings, struct reason *why)
+{
+    const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material};
+    for (int i = 0; i < 2; i++)
+        if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
+            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why))
+            return false;
+    return true;
 }

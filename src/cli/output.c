@@ -39,6 +39,14 @@ bool output_check(const char *path, const char *option, struct reason *why)
     return true;
 }
 
+bool output_spares(const char *path, const char *option, const char *input, struct reason *why)
+{
+    struct stat written, read;
+    if (output_is_standard(path) || !input || stat(path, &written) != 0 || stat(input, &read) != 0) return true;
+    if (written.st_dev != read.st_dev || written.st_ino != read.st_ino) return true;
+    return refuse(why, "%s = %.200s: is an input of this run and would be overwritten", option, path);
+}
+
 bool output_open(const char *path, struct output *output, struct reason *why)
 {
     memset(output, 0, sizeof *output);

@@ -19,6 +19,9 @@ bool output_is_standard(const char *path);
 /* Refuse a place that could not be written: a folder, a device, a folder that is missing or closed to us. */
 bool output_check(const char *path, const char *option, struct reason *why);
 
+/* Refuse to replace `input`, by whatever name; NULL: no such input. */
+bool output_spares(const char *path, const char *option, const char *input, struct reason *why);
+
 /* Open for writing under a temporary name, or standard output. */
 bool output_open(const char *path, struct output *output, struct reason *why);
 

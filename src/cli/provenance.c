@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "output.h"
 
@@ -37,16 +38,33 @@ static json_t *given_values(const struct values *values)
     return object;
 }
 
-/* The materials that were read; those of a column are named by the rows. */
-static json_t *given_material(const struct settings *settings, struct materials *materials)
+static json_t *described(struct materials *materials, const char *path)
 {
     struct reason why;
-    const struct material_entry *entry =
-        settings->values.material ? materials_get(materials, settings->values.material, &why) : NULL;
-    if (!entry) return json_null();
+    const struct material_entry *entry = materials_get(materials, path, &why);
+    if (!entry) return json_pack("{s:s, s:s}", "file", path, "refused", why.text);
     return json_pack("{s:s, s:s, s:s, s:o, s:o}", "name", entry->info.name, "source", entry->info.source, "model",
                      entry->info.model, "density_kg_m3", json_of_number(entry->info.density), "fingerprint",
                      json_of_fingerprint(entry->info.fingerprint));
+}
+
+/* All materials that the rows name, each once: their contents belong to the inputs that a resumed run must find again. */
+static json_t *materials_of_column(const struct cases *cases, size_t column, struct materials *materials)
+{
+    json_t *object = json_object();
+    for (size_t row = 0; row < cases->rows; row++) {
+        const char *path = cases_cell(cases, row, column);
+        if (!json_object_get(object, path)) json_object_set_new(object, path, described(materials, path));
+    }
+    return object;
+}
+
+static json_t *given_material(const struct settings *settings, const struct cases *cases, struct materials *materials)
+{
+    if (settings->values.material) return described(materials, settings->values.material);
+    for (size_t column = 0; cases && column < cases->columns; column++)
+        if (strcmp(cases_name(cases, column), "material") == 0) return materials_of_column(cases, column, materials);
+    return json_null();
 }
 
 static json_t *given_input(const struct settings *settings, const struct cases *cases)
@@ -69,7 +87,7 @@ json_t *provenance_settings(const struct settings *settings, const struct cases 
                         solver->time_step > 0 ? json_real(solver->time_step) : json_string("chosen"));
     json_object_set_new(object, "max_updates", json_integer(solver->max_updates));
     json_object_set_new(object, "values", given_values(&settings->values));
-    json_object_set_new(object, "material", given_material(settings, materials));
+    json_object_set_new(object, "material", given_material(settings, cases, materials));
     json_object_set_new(object, "input", given_input(settings, cases));
     return object;
 }

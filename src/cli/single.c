@@ -24,7 +24,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
 {
     if (settings->text[TEXT_FIGURE]) return refuse(why, "--figure = %.200s: needs --grid", settings->text[TEXT_FIGURE]);
     if (settings->resume) return refuse(why, "--resume: needs --input or --grid");
-    return output_check(settings->text[TEXT_OUTPUT], "--output", why);
+    return settings_spare_inputs(settings, why) && output_check(settings->text[TEXT_OUTPUT], "--output", why);
 }
 
 /* The dimensionless numbers as given, in the struct that a scene fills. */

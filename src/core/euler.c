@@ -46,6 +46,13 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
 }
 
+/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi - 1. */
+static int moves_tangentially(const struct rst_problem *problem)
+{
+    return problem->mode != RST_FRICTIONLESS &&
+           !(problem->mode == RST_GROSS_SLIP && problem->psi > fmax(1, 4 * problem->chi - 1));
+}
+
 static int64_t capacity_of(int64_t elements)
 {
     return 2 * elements + 8; /* the scout may have underrated the depth, a coarse run may overshoot it */
@@ -78,7 +85,7 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
                           &scout->depth, &scout->time, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
     double coupling = 15.0 / 8.0 * sqrt(scout->depth);
-    if (problem->mode != RST_FRICTIONLESS) coupling *= fmax(1, 2 * problem->chi);
+    if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);
     scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);
 }
 
@@ -124,9 +131,14 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     int64_t affordable = (problem->max_updates - *updates) / cost / run->elements + 1;
     advance(&scene, &l, affordable, &run->state);
     *updates += run->state.n_updates * cost;
+    if (run->state.phase == RST_STALLED)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "rebound too slow: steps of %.3g %s are lost in the rounding of the indentation; "
+                          "the damping is too strong for this method",
+                          run->step * problem->time_unit, problem->unit_name);
     if (run->state.phase == RST_OVERFLOW)
         return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
-                          "time_step = %.6g %s: the indentation outgrew the foundation; take a smaller step",
+                          "steps of %.6g %s: the indentation outgrew the foundation; take a smaller time_step",
                           run->step * problem->time_unit, problem->unit_name);
     if (run->state.phase < RST_DONE)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
@@ -156,11 +168,17 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
                  double error_ex, int64_t updates, struct rst_outcome *outcome)
 {
     const struct euler_state *s = &run->state;
-    *outcome = (struct rst_outcome){.velocity = s->phase == RST_SUNK ? 0 : s->velocity,
+    const int sunk = s->phase == RST_SUNK;
+    if (sunk) { /* the velocities that the run stopped with are still to go, |dU'| <= 2 chi |dD'| */
+        error_ez += rest_speed(problem);
+        error_ex += 2 * problem->chi * rest_speed(problem) / problem->psi;
+    }
+    *outcome = (struct rst_outcome){.velocity = sunk ? 0 : s->velocity,
                                     .shear_velocity = s->shear_velocity,
                                     .error_ez = error_ez,
                                     .error_ex = problem->mode == RST_FRICTIONLESS ? 0 : error_ex,
-                                    .contact_time = s->phase == RST_SUNK ? INFINITY : s->time,
+                                    .contact_time = sunk ? INFINITY : s->time,
+                                    .followed_time = s->time,
                                     .max_indentation = s->max_depth,
                                     .max_contact_radius = sqrt(s->max_depth),
                                     .max_normal_force = 15.0 / 8.0 * s->max_force,
@@ -170,7 +188,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
                                     .steps = s->n_steps,
                                     .updates = updates,
                                     .ledger = s->ledger,
-                                    .sunk = s->phase == RST_SUNK};
+                                    .sunk = sunk};
     if (outcome->sunk && problem->mode == RST_NO_SLIP) outcome->shear_velocity = 0; /* stuck for good */
 }
 
@@ -178,7 +196,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
  * the counts are made for solid spheres, chi = 7/6. */
 static int64_t elements_to_start(const struct rst_problem *problem)
 {
-    if (problem->mode == RST_FRICTIONLESS) return first_elements;
+    if (!moves_tangentially(problem)) return first_elements;
     return llround((double)first_elements * sqrt(fmax(1, problem->chi * 6 / 7)));
 }
 
@@ -219,11 +237,12 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
 static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,
                              restitute_error *error)
 {
+    const double below = scout->stable_step * (1 - 1e-5); /* printed with six digits it is still stable */
     if (problem->time_step > scout->stable_step)
         return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                           "time_step = %.6g %s: cannot be stable here; the largest step that is: %.6g %s",
-                          problem->time_step * problem->time_unit, problem->unit_name,
-                          scout->stable_step * problem->time_unit, problem->unit_name);
+                          problem->time_step * problem->time_unit, problem->unit_name, below * problem->time_unit,
+                          problem->unit_name);
     run->elements = problem->elements;
     run->step = problem->time_step;
     if (run->elements <= 0)
@@ -234,7 +253,10 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
     return RESTITUTE_OK;
 }
 
-/* Elements or step given: one run with them, and one beside it, coarser if that is stable, for the error. */
+/* Steps above this part of the largest stable one follow the impact so roughly that a coarser run tells nothing. */
+static const double smooth_part = 0.2;
+
+/* Elements or step given: one run with them, and one beside it, coarser or finer, for the error. */
 static int solve_as_told(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
@@ -244,13 +266,13 @@ static int solve_as_told(const struct rst_problem *problem, struct rst_workspace
     int status = choose_resolution(problem, scout, &told, error);
     if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &told, error);
     if (status) return status;
-    int coarser = 2 * told.step < scout->stable_step;
+    int coarser = 2 * told.step < smooth_part * scout->stable_step;
     beside = coarser ? (struct run){.elements = (told.elements + 1) / 2, .step = 2 * told.step}
-                     : (struct run){.elements = 2 * told.elements, .step = told.step / 2};
+                     : (struct run){.elements = 4 * told.elements, .step = told.step / 4};
     status = run_once(problem, workspace, scout, 0, &updates, &beside, error);
     if (status) return status;
     change(problem, &told, &beside, &ez, &ex);
-    double factor = coarser ? estimate_slack : 2 * estimate_slack; /* a halved step removes half of the error */
+    double factor = coarser ? estimate_slack : estimate_slack * 4 / 3; /* a quarter of the step keeps a quarter of it */
     fill(problem, scout, &told, factor * ez, factor * fmax(ez, ex), updates, outcome);
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,

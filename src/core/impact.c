@@ -62,13 +62,22 @@ static void given_solid(const restitute_material *material, struct rst_solid *so
     }
 }
 
+void rst_set_sliding(double psi, struct rst_problem *problem)
+{
+    const double sticking = 1e-12; /* a slip annulus so thin changes e_x by less than any tolerance */
+    problem->psi = psi > sticking && !isinf(psi) ? psi : 1;
+    problem->mode = isinf(psi)       ? RST_FRICTIONLESS
+                    : psi > 1        ? RST_GROSS_SLIP
+                    : psi > sticking ? RST_PARTIAL_SLIP
+                                     : RST_NO_SLIP;
+}
+
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error)
 {
     int status = check_impact(impact, error);
     if (status) return status;
     problem->chi = impact->chi;
-    problem->psi = impact->psi > 0 ? impact->psi : 1;
-    problem->mode = impact->psi > 1 ? RST_GROSS_SLIP : impact->psi > 0 ? RST_PARTIAL_SLIP : RST_NO_SLIP;
+    rst_set_sliding(impact->psi, problem);
     problem->time_unit = 1;
     problem->unit_name = "T";
     if (impact->solid)

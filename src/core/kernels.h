@@ -6,7 +6,14 @@
 #include <stdint.h>
 
 /* Phases and modes of fortran/euler.f90. */
-enum rst_phase { RST_COMPRESSION = 0, RST_RESTITUTION = 1, RST_DONE = 2, RST_SUNK = 3, RST_OVERFLOW = 4 };
+enum rst_phase {
+    RST_COMPRESSION = 0,
+    RST_RESTITUTION = 1,
+    RST_DONE = 2,
+    RST_SUNK = 3,
+    RST_OVERFLOW = 4,
+    RST_STALLED = 5
+};
 enum rst_mode { RST_FRICTIONLESS = 0, RST_GROSS_SLIP = 1, RST_PARTIAL_SLIP = 2, RST_NO_SLIP = 3 };
 
 /* Twin of ledger_type. */
@@ -30,7 +37,7 @@ struct euler_state {
     double time, depth, velocity, shift, shear_velocity;
     double force, shear_force, true_edge_force, true_edge_shear, centre_force, leave_time;
     double max_depth, max_force, max_time;
-    int64_t n_contact, max_contact, phase, mode, n_steps, n_updates;
+    int64_t n_contact, max_contact, phase, mode, n_steps, n_updates, n_stalled;
     struct euler_ledger ledger;
 };
 

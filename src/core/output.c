@@ -62,8 +62,8 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
                       const struct rst_units *units, int64_t terms_merged, double merging_bound,
                       restitute_result *result)
 {
-    result->ez = clamp(-outcome->velocity, 0, 1);
-    result->ex = clamp(-outcome->shear_velocity / problem->psi, -1, 1);
+    result->ez = clamp(-outcome->velocity, 0, 1) + 0.0; /* + 0.0: no negative zero */
+    result->ex = clamp(-outcome->shear_velocity / problem->psi, -1, 1) + 0.0;
     result->error_ez = outcome->error_ez + merging_bound;
     result->error_ex = outcome->error_ex + (problem->mode == RST_FRICTIONLESS ? 0 : merging_bound);
     result->contact_time = outcome->contact_time * units->time;

@@ -32,7 +32,9 @@ struct rst_problem {
 struct rst_outcome {
     double velocity, shear_velocity;
     double error_ez, error_ex;
-    double contact_time, max_indentation, max_contact_radius, max_normal_force;
+    double contact_time;  /* infinite if sunk */
+    double followed_time; /* to the end of the run */
+    double max_indentation, max_contact_radius, max_normal_force;
     double spacing, step;
     int64_t elements, steps, updates;
     struct euler_ledger ledger;
@@ -48,6 +50,9 @@ struct rst_history {
     size_t capacity, count;
     struct rst_sample *samples;
 };
+
+/* Mode of the tangential side by psi; 0: no slip, infinity: no friction. */
+void rst_set_sliding(double psi, struct rst_problem *problem);
 
 /* Largest chi that is accepted. */
 extern const double rst_largest_chi;

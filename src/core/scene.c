@@ -117,7 +117,7 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "scales d0 = %g m, T = %g s, m v/T = %g N: must lie in the range of a double", n->length_z,
                           n->time, n->force);
-    if (!(n->chi <= rst_largest_chi) || isnan(n->psi))
+    if ((!(n->chi <= rst_largest_chi) && s->friction > 0) || isnan(n->psi))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "chi = %g, psi = %g: chi must be <= %g, psi a number; check inertia and spin", n->chi, n->psi,
                           rst_largest_chi);
@@ -156,15 +156,7 @@ int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numb
         solid->tau[k] = material->tau[k] / numbers->time;
     }
     problem->chi = numbers->chi;
-    problem->psi = numbers->psi;
-    problem->mode = numbers->psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP;
-    if (numbers->psi <= 0) {
-        problem->mode = RST_NO_SLIP;
-        problem->psi = 1;
-    } else if (isinf(numbers->psi)) {
-        problem->mode = RST_FRICTIONLESS;
-        problem->psi = 1;
-    }
+    rst_set_sliding(numbers->psi, problem);
     problem->time_unit = numbers->time;
     problem->unit_name = "s";
     return RESTITUTE_OK;

@@ -145,6 +145,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
                   size_t capacity, struct rst_history *history, restitute_error *error)
 {
+    if (capacity > (size_t)outcome->steps + 1) capacity = (size_t)outcome->steps + 1; /* there are no more samples */
     if (capacity > solver->samples_size) {
         struct rst_sample *samples = malloc(capacity * sizeof *samples);
         if (!samples) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu samples", capacity);
@@ -184,7 +185,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         if (recorded < 0) return recorded;
     }
     struct rst_units units = rst_units_of(&problem, input->scene, &input->numbers);
-    double slow = merged.slow_rate > 0 ? merged.slow_rate * (outcome.sunk ? 0 : outcome.contact_time) : 0;
+    double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
     if (result) {
         rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, result);
         result->method = solver->options.method->name;

@@ -48,6 +48,8 @@ static void first_sample_is_first_touch_and_last_the_end(void **state)
         CHECK(t[last] == r.contact_time && contact[last] == 0 && fz[last] == 0 && fx[last] == 0, "psi %g: last",
               psi[i]);
         CHECK(-vz[last] == r.ez && fabs(vx[last] + r.ex * vx[0]) < 1e-15 * vx[0] + 1e-16, "psi %g: pair", psi[i]);
+        /* the solid is viscoelastic: it is still dented where it lets go, by less than its largest indentation */
+        CHECK(depth[last] > 0 && depth[last] < r.max_indentation, "psi %g: ends at %g", psi[i], depth[last]);
         for (size_t k = 1; k <= last; k++) {
             CHECK(t[k] > t[k - 1], "time runs back at %zu", k);
             CHECK(stick[k] >= 0 && stick[k] <= contact[k] && fz[k] >= 0, "sample %zu", k);
@@ -109,6 +111,16 @@ static void reported_force_does_not_ripple_with_the_elements(void **state)
     }
 }
 
+static void elastic_contact_ends_where_it_began(void **state)
+{
+    (void)state;
+    restitute_impact impact = impact_of(7.0 / 6, 1, 0, 1);
+    restitute_history h = all_of_it(50);
+    restitute_result r = record(NULL, &impact, &h);
+    /* the end is where the innermost element's force passes zero, interpolated within a step: its square is left */
+    CHECK_NEAR(depth[h.count - 1], 0, 0.5 * r.time_step * r.time_step + r.element_spacing * r.element_spacing, "depth");
+}
+
 static void arrays_may_be_missing_and_capacity_may_be_two(void **state)
 {
     (void)state;
@@ -141,6 +153,7 @@ int main(void)
         cmocka_unit_test(first_sample_is_first_touch_and_last_the_end),
         cmocka_unit_test(forces_are_what_changes_the_velocities),
         cmocka_unit_test(reported_force_does_not_ripple_with_the_elements),
+        cmocka_unit_test(elastic_contact_ends_where_it_began),
         cmocka_unit_test(arrays_may_be_missing_and_capacity_may_be_two),
         cmocka_unit_test(recording_does_not_change_the_pair),
     };

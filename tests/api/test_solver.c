@@ -51,6 +51,61 @@ static void unstable_step_is_refused_with_the_largest_stable_one(void **state)
     }
 }
 
+/* The printed number itself is accepted, six digits or not. */
+static void printed_largest_step_is_accepted(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        restitute_impact impact = impact_of(1 + 0.1 * i, 1, pow(10, -2 + 0.3 * i), 0);
+        restitute_options options = as_told(16, 1e6);
+        restitute_solver *solver;
+        restitute_error error;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_UNSTABLE_STEP, "refused");
+        restitute_solver_destroy(solver);
+        options.time_step = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        CHECK(solve_impact(options, impact).status >= 0, "%s", error.message);
+    }
+}
+
+/* A rebound that no step can show must end in an error, not in a minute of stepping. */
+static void hopelessly_damped_impact_is_refused(void **state)
+{
+    (void)state;
+    restitute_impact impact = impact_of(7.0 / 6, 0.5, 1e10, 0);
+    restitute_solver *solver;
+    restitute_error error;
+    CHECK(restitute_solver_create(NULL, &solver, NULL) == RESTITUTE_OK, "solver");
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_TOO_MUCH_WORK, "status");
+    CHECK(strstr(error.message, "rebound too slow"), "%s", error.message);
+    restitute_solver_destroy(solver);
+    impact.delta1 = 1e6; /* strong, but seen */
+    CHECK(solve_impact(default_options(), impact).result.ez > 0, "delta1 = 1e6");
+}
+
+/* An estimate from steps near the stable limit must still tell the truth. */
+static void rough_overrides_are_not_trusted(void **state)
+{
+    (void)state;
+    uint64_t random = 13;
+    int above = 0;
+    for (int i = 0; i < 200; i++) {
+        restitute_impact impact = impact_of(random_in(&random, 0.4, 4), random_log(&random, 0.05, 10),
+                                            random_log(&random, 1e-3, 10), random_log(&random, 1e-2, 1e2));
+        struct restitute_result fine = solve_impact(default_options(), impact).result;
+        restitute_options options = as_told(0, 1e6);
+        restitute_solver *solver;
+        restitute_error error;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
+        restitute_solver_destroy(solver);
+        double limit = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        struct restitute_result r = solve_impact(as_told(0, limit * random_in(&random, 0.3, 1)), impact).result;
+        above += fabs(r.ez - fine.ez) > r.error_ez + 1e-3 || fabs(r.ex - fine.ex) > r.error_ex + 1e-3;
+    }
+    CHECK(above <= 10, "%d of 200 errors above their estimate, allowed are one in twenty", above);
+}
+
 static void too_little_work_allowed_is_told(void **state)
 {
     (void)state;
@@ -272,6 +327,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unstable_step_is_refused_with_the_largest_stable_one),
+        cmocka_unit_test(printed_largest_step_is_accepted),
+        cmocka_unit_test(hopelessly_damped_impact_is_refused),
+        cmocka_unit_test(rough_overrides_are_not_trusted),
         cmocka_unit_test(too_little_work_allowed_is_told),
         cmocka_unit_test(coarse_override_tells_that_the_tolerance_is_missed),
         cmocka_unit_test(tighter_tolerances_are_met),

@@ -97,3 +97,16 @@ refused 'must end in .svg or .png' pair $scene --grid $grid --figure a.pdf
 [ $? -eq 2 ] || fail "a missing gnuplot is not refused"
 has err gnuplot
 absent a.pdf a.svg a.csv a.csv.partial a.csv.partial.json a.csv.meta.json
+
+# Inputs are never replaced by outputs, by whatever name.
+cp "$materials/steel.json" steel.json
+printf 'psi,delta1,gamma\n1,0.1,1\n' >cases.csv
+cp cases.csv kept.csv
+ln -s cases.csv link.csv
+refused 'is an input of this run' pair --input cases.csv --output ./cases.csv
+refused 'is an input of this run' pair --input cases.csv --output link.csv
+refused 'is an input of this run' pair --material steel.json --radius 1 --density 1 --friction 0 --velocity 1 \
+    --output steel.json
+cmp cases.csv kept.csv && cmp steel.json "$materials/steel.json" || fail "an input was changed"
+refused 'impacts: must be at most 1000000' pair --material steel.json --radius 1 --density 1 --friction 0 \
+    --grid speed=1:2:10000,angle=0:80:10000

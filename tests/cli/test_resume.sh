@@ -59,3 +59,17 @@ refused 'does not belong to these cases' $run --output out.csv --resume
 rm -f out.csv*
 expect 0 pair --input cases.csv --tolerance 3e-4 --output out.csv --resume
 cmp out.csv whole.csv || fail "--resume from nothing gives other rows"
+
+# A material that a column names belongs to the inputs: changed in between, its rows must not be mixed.
+rm -f out.csv*
+sed 's/"poisson_ratio": 0.5/"poisson_ratio": 0.4/' "$materials/polyisobutylene.json" >rubber.json
+cp "$materials/polyisobutylene.csv" .
+{
+    echo material,speed_m_s,angle_deg
+    awk 'BEGIN { for (i = 1; i <= 1500; i++) printf "rubber.json,%.4f,30\n", 0.01 + i / 1e4 }'
+} >cases.csv
+run="pair --input cases.csv --radius 0.005 --density 7800 --friction 0.3"
+start_and_stop
+[ -f out.csv.partial ] || fail "no partial file"
+sed 's/"poisson_ratio": 0.4/"poisson_ratio": 0.1/' rubber.json >changed && mv changed rubber.json
+refused 'material of this run differs' $run --output out.csv --resume

@@ -73,6 +73,8 @@ static void maxwell_body_with_tau_0_2_never_rebounds(void **state)
         /* all tangential motion dies out too unless slip persists: then (27) with ez = 0 */
         double limit = psi[i] > 2 * solid_sphere ? 2 * solid_sphere / psi[i] - 1 : 0;
         CHECK_NEAR(s.result.ex, limit, default_error, "psi %g", psi[i]);
+        CHECK(fabs(s.result.ex - limit) <= s.result.error_ex + 1e-9, "estimate %g", s.result.error_ex);
+        CHECK(!signbit(s.result.ez) && (s.result.ex != 0 || !signbit(s.result.ex)), "negative zero");
     }
     restitute_material_destroy(solid);
 }
