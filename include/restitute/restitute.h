@@ -110,6 +110,29 @@ RESTITUTE_API int restitute_material_kelvin_voigt(double modulus1, double viscos
 RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, double poisson_ratio,
                                              restitute_material **material, restitute_error *error);
 
+/** What two bodies of unlike materials are to each other: one solid, for a @ref restitute_scene in which one body deforms.
+ *
+ *  Compliances add (THEORY 9): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned back into one Prony
+ *  series. Exact if both are incompressible or nu_1 = nu_2 and elastically similar; for other pairs normal and
+ *  tangential problem are coupled in truth, which is neglected, as usual. How much is told by Dundurs' constant
+ *
+ *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
+ *
+ *  see @ref restitute_material_dundurs. The Poisson ratio of the pair is the one that has its ratio of
+ *  tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. Where that ratio and beta change
+ *  with time (unlike nu of which one relaxes), the instantaneous moduli are taken.
+ *
+ *  @param material1,material2  any two materials; may be the same
+ *  @param pair                 the new solid, to be destroyed like any material
+ *
+ *      restitute_material_pair(steel, glass, &pair, &error);
+ *      scene.material = pair; scene.deformable = RESTITUTE_ONE_BODY_DEFORMS; */
+RESTITUTE_API int restitute_material_pair(const restitute_material *material1, const restitute_material *material2,
+                                          restitute_material **pair, restitute_error *error);
+
+/** Dundurs' beta of a pair, in [-1/2, 1/2]; 0 for a material by itself; NaN for NULL. */
+RESTITUTE_API double restitute_material_dundurs(const restitute_material *material);
+
 /** Release a material; NULL is allowed. No solver call that uses it may still run. */
 RESTITUTE_API void restitute_material_destroy(restitute_material *material);
 

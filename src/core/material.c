@@ -77,6 +77,7 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
     m->g_inf = equilibrium_modulus;
     m->eta = parallel_viscosity;
     m->nu = poisson_ratio;
+    m->beta = 0;
     m->n_terms = n_terms;
     m->tau = m->values;
     m->g = m->values + n_terms;

@@ -1,0 +1,203 @@
+/* Two bodies of unlike materials as one solid: the series of their chains.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/random.h"
+#include "../support/solve.h"
+
+enum { most_terms = 6 };
+
+struct chain {
+    double g_inf;
+    int n;
+    double g[most_terms], tau[most_terms];
+};
+
+static restitute_material *material_of(const struct chain *c, double nu)
+{
+    restitute_material *material;
+    restitute_error error;
+    CHECK(restitute_material_prony(c->g_inf, 0, (size_t)c->n, c->tau, c->g, nu, &material, &error) == RESTITUTE_OK, "%s",
+          error.message);
+    return material;
+}
+
+static restitute_material *pair_of(const restitute_material *a, const restitute_material *b)
+{
+    restitute_material *pair;
+    restitute_error error;
+    CHECK(restitute_material_pair(a, b, &pair, &error) == RESTITUTE_OK, "%s", error.message);
+    return pair;
+}
+
+/* Stress after a step of strain h-linear in time: w <- E w + (tau/h)(1-E) d_strain, exact for it. */
+static void respond(const struct chain *c, double h, const double *w, double strain, double *rest, double *stiffness)
+{
+    *rest = c->g_inf * strain;
+    *stiffness = c->g_inf;
+    for (int k = 0; k < c->n; k++) {
+        double decay = exp(-h / c->tau[k]);
+        *rest += c->g[k] * decay * w[k];
+        *stiffness += c->g[k] * c->tau[k] / h * (1 - decay);
+    }
+}
+
+static void update(const struct chain *c, double h, double move, double *w)
+{
+    for (int k = 0; k < c->n; k++) w[k] = exp(-h / c->tau[k]) * w[k] + c->tau[k] / h * (1 - exp(-h / c->tau[k])) * move;
+}
+
+/* Direct solution of the Volterra equations: a unit step of the sum of both strains, equal stresses; stress at time t. */
+static double relaxation_by_volterra(const struct chain *a, const struct chain *b, double t, int steps)
+{
+    double wa[most_terms], wb[most_terms], ga = a->g_inf, gb = b->g_inf, h = t / steps, stress = 0;
+    for (int k = 0; k < a->n; k++) ga += a->g[k];
+    for (int k = 0; k < b->n; k++) gb += b->g[k];
+    double strain_a = gb / (ga + gb), strain_b = ga / (ga + gb);
+    for (int k = 0; k < a->n; k++) wa[k] = strain_a;
+    for (int k = 0; k < b->n; k++) wb[k] = strain_b;
+    for (int i = 0; i < steps; i++) {
+        double rest_a, rest_b, stiffness_a, stiffness_b;
+        respond(a, h, wa, strain_a, &rest_a, &stiffness_a);
+        respond(b, h, wb, strain_b, &rest_b, &stiffness_b);
+        double move = (rest_b - rest_a) / (stiffness_a + stiffness_b); /* what a gains, b loses */
+        stress = rest_a + stiffness_a * move;
+        strain_a += move;
+        strain_b -= move;
+        update(a, h, move, wa);
+        update(b, h, -move, wb);
+    }
+    return stress;
+}
+
+static struct chain draw(uint64_t *random)
+{
+    struct chain c = {.g_inf = random_below(random, 3) ? random_log(random, 0.1, 10) : 0};
+    c.n = 1 + random_below(random, most_terms);
+    for (int k = 0; k < c.n; k++) {
+        c.g[k] = random_log(random, 0.1, 10);
+        c.tau[k] = random_log(random, 0.03, 30);
+    }
+    return c;
+}
+
+/* The scheme is of second order: one Richardson step on 2000 and 4000 steps leaves some (h/tau)^3 ~ 1e-6 of the modulus
+ * (tau >= 0.03, and times down to 0.2 with h = 1e-4 there). */
+static void relaxation_of_the_pair_is_that_of_the_volterra_equations(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    for (int i = 0; i < 25; i++) {
+        struct chain a = draw(&random), b = draw(&random);
+        if (i % 5 == 0) b.tau[0] = a.tau[0]; /* a time that both have */
+        restitute_material *ma = material_of(&a, 0.5), *mb = material_of(&b, 0.5), *pair = pair_of(ma, mb);
+        CHECK(restitute_material_dundurs(pair) == 0 && restitute_material_poisson_ratio(pair) == 0.5, "incompressible");
+        for (double t = 0.2; t < 20; t *= 3) {
+            double coarse = relaxation_by_volterra(&a, &b, t, 2000), fine = relaxation_by_volterra(&a, &b, t, 4000);
+            double expected = (4 * fine - coarse) / 3;
+            CHECK_NEAR(restitute_material_modulus(pair, t), expected, 1e-5 * expected + 1e-9, "pair %d at %g", i, t);
+        }
+        restitute_material_destroy(ma);
+        restitute_material_destroy(mb);
+        restitute_material_destroy(pair);
+    }
+}
+
+/* Two like bodies are half as stiff, in every respect. */
+static void a_pair_of_one_material_is_half_of_it(void **state)
+{
+    (void)state;
+    struct chain c = {2, 2, {1, 3}, {0.1, 4}};
+    restitute_material *m = material_of(&c, 0.3), *pair = pair_of(m, m);
+    for (double t = 1e-3; t < 1e3; t *= 7)
+        CHECK_NEAR(restitute_material_modulus(pair, t), 0.5 * restitute_material_modulus(m, t), 1e-14, "at %g", t);
+    CHECK(restitute_material_terms(pair) == 2 && restitute_material_poisson_ratio(pair) == 0.3, "terms, nu");
+    CHECK(restitute_material_dundurs(pair) == 0, "beta");
+
+    restitute_scene scene;
+    restitute_scene_init(&scene);
+    scene.material = m;
+    scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    scene.radius1 = scene.radius2 = 1, scene.mass1 = scene.mass2 = 1, scene.friction = 0.2;
+    scene.normal_speed = 1, scene.tangential_speed = 0.5;
+    struct restitute_result like = solve_scene(default_options(), &scene).result;
+    scene.material = pair;
+    scene.deformable = RESTITUTE_ONE_BODY_DEFORMS;
+    struct restitute_result unlike = solve_scene(default_options(), &scene).result;
+    CHECK_NEAR(like.ez, unlike.ez, 1e-12, "rounding of the moduli");
+    CHECK_NEAR(like.ex, unlike.ex, 1e-12, "rounding of the moduli");
+    restitute_material_destroy(m);
+    restitute_material_destroy(pair);
+}
+
+/* By hand, E = 2 G (1 + nu) in GPa: steel 210 and 0.3 on glass 70 and 0.25. */
+static void steel_on_glass_has_the_usual_constants(void **state)
+{
+    (void)state;
+    restitute_material *steel, *glass;
+    double gs = 210e9 / 2.6, gg = 70e9 / 2.5;
+    CHECK(restitute_material_elastic(gs, 0.3, &steel, NULL) == 0 && restitute_material_elastic(gg, 0.25, &glass, NULL) == 0,
+          "materials");
+    restitute_material *pair = pair_of(steel, glass);
+    double e_star = 1 / ((1 - 0.09) / 210e9 + (1 - 0.0625) / 70e9);
+    double g_star = 1 / ((2 - 0.3) / (4 * gs) + (2 - 0.25) / (4 * gg));
+    double nu = restitute_material_poisson_ratio(pair), g = restitute_material_modulus(pair, 1);
+    CHECK_NEAR(2 * g / (1 - nu), e_star, 1e-13 * e_star, "normal stiffness, rounding");
+    CHECK_NEAR(4 * g / (2 - nu), g_star, 1e-13 * g_star, "tangential stiffness, rounding");
+    double beta = 0.5 * (0.4 / gs - 0.5 / gg) / (0.7 / gs + 0.75 / gg);
+    CHECK_NEAR(restitute_material_dundurs(pair), beta, 1e-14, "Dundurs");
+    restitute_material *other = pair_of(glass, steel);
+    CHECK_NEAR(restitute_material_dundurs(other), -beta, 1e-14, "beta changes its sign with the order");
+    restitute_material_destroy(steel);
+    restitute_material_destroy(glass);
+    restitute_material_destroy(pair);
+    restitute_material_destroy(other);
+}
+
+/* A partner 1e6 times stiffer is rigid to that part. */
+static void a_hard_partner_is_nearly_rigid(void **state)
+{
+    (void)state;
+    struct chain rubber = {1e6, 2, {2e6, 1e6}, {1e-4, 1e-2}}, hard = {1e12, 0, {0}, {0}};
+    restitute_material *soft = material_of(&rubber, 0.5), *steel = material_of(&hard, 0.3), *pair = pair_of(steel, soft);
+    for (double t = 1e-6; t < 10; t *= 10) {
+        double g = restitute_material_modulus(soft, t);
+        CHECK_NEAR(restitute_material_modulus(pair, t), g, 1e-5 * g, "at %g", t);
+    }
+    CHECK_NEAR(restitute_material_poisson_ratio(pair), 0.5, 1e-5, "nu of the soft one");
+    restitute_material_destroy(soft);
+    restitute_material_destroy(steel);
+    restitute_material_destroy(pair);
+}
+
+static void dashpots_and_bad_arguments(void **state)
+{
+    (void)state;
+    restitute_material *voigt, *maxwell, *untouched = NULL;
+    restitute_error error;
+    CHECK(restitute_material_kelvin_voigt(3, 2, 0.5, &voigt, NULL) == 0, "voigt");
+    CHECK(restitute_material_maxwell(5, 1, 0.5, &maxwell, NULL) == 0, "maxwell");
+    restitute_material *both = pair_of(voigt, voigt), *mixed = pair_of(voigt, maxwell);
+    /* two like Kelvin-Voigt bodies are one; with a Maxwell body in series nothing carries for ever */
+    CHECK(restitute_material_terms(both) == 0 && restitute_material_modulus(both, 1) == 1.5, "Kelvin-Voigt pair");
+    CHECK(restitute_material_terms(mixed) == 2 && restitute_material_modulus(mixed, 1e9) == 0, "mixed pair");
+    /* at first the dashpot is rigid */
+    CHECK_NEAR(restitute_material_modulus(mixed, 1e-9), 5, 1e-7, "instantaneous modulus");
+    CHECK(restitute_material_pair(NULL, voigt, &untouched, &error) == RESTITUTE_ERROR_NULL, "NULL");
+    CHECK(restitute_material_pair(voigt, voigt, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL output");
+    CHECK(untouched == NULL && isnan(restitute_material_dundurs(NULL)), "outputs");
+    restitute_material_destroy(voigt);
+    restitute_material_destroy(maxwell);
+    restitute_material_destroy(both);
+    restitute_material_destroy(mixed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(relaxation_of_the_pair_is_that_of_the_volterra_equations),
+        cmocka_unit_test(a_pair_of_one_material_is_half_of_it),
+        cmocka_unit_test(steel_on_glass_has_the_usual_constants),
+        cmocka_unit_test(a_hard_partner_is_nearly_rigid),
+        cmocka_unit_test(dashpots_and_bad_arguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
