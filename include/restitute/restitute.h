@@ -193,6 +193,7 @@ typedef struct restitute_scene {
     double normal_speed;                /**< m/s, approaching, > 0; required, default 0 */
     double tangential_speed;            /**< m/s, of the centres; default 0 */
     double spin1, spin2;                /**< rad/s, see above; default 0. spin2 must be 0 for a wall */
+    double density;                     /**< kg/m^3 of what deforms, for its wave speed; default 0: that of sphere 1 */
 } restitute_scene;
 
 /** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
@@ -245,6 +246,10 @@ typedef struct restitute_options {
     int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,
                                        > 0; default 1e10, some ten seconds. A call that reaches it before the
                                        tolerance returns its best with TOLERANCE_NOT_REACHED */
+    double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
+    double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
+    double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >= 0, default 0.3 */
+    double dundurs_limit;           /**< flag COUPLED above this |beta|; >= 0, default 0.1 */
 } restitute_options;
 
 RESTITUTE_API void restitute_options_init(restitute_options *options);
@@ -259,6 +264,21 @@ RESTITUTE_API int restitute_solver_create(const restitute_options *options, rest
 RESTITUTE_API void restitute_solver_destroy(restitute_solver *solver);
 
 /* ------------------------------------------------------------------------------------------------------- results */
+
+/** Assumptions of the model that a result strains, bits of restitute_result.flags (THEORY 4a). X(name, bit, text) */
+#define RESTITUTE_FLAG_LIST(X)                                                                                         \
+    X(FAST, 1, "the speed is not small against the shear wave speed: waves carry energy away")                         \
+    X(LARGE_CONTACT, 2, "the contact is not small against the sphere: the half-space model overrates the depth")       \
+    X(LONG_SLIDE, 4, "the sphere slides far during the contact: it is not axisymmetric any more")                      \
+    X(COUPLED, 8, "the materials are elastically unlike: normal and tangential problem are coupled in truth")
+
+#define RESTITUTE_FLAG_ENUM(name, bit, text) RESTITUTE_FLAG_##name = (bit),
+/** One bit a strained assumption, see @ref RESTITUTE_FLAG_LIST. */
+typedef enum restitute_flag { RESTITUTE_FLAG_LIST(RESTITUTE_FLAG_ENUM) } restitute_flag;
+#undef RESTITUTE_FLAG_ENUM
+
+/** Text of one flag; "unknown flag" for what is no single known bit. */
+RESTITUTE_API const char *restitute_flag_text(int flag);
 
 /** What came out. Units: T, d0, a_el, m v_z0^2/d0 after @ref restitute_solve; SI after @ref restitute_solve_scene. */
 typedef struct restitute_result {
@@ -276,6 +296,11 @@ typedef struct restitute_result {
     double element_spacing;    /**< dx: a_el or m */
     double time_step;          /**< T or s */
     int64_t updates;           /**< element updates spent, all runs together */
+    double speed_ratio;        /**< v_z0/c_s, c_s = sqrt(G(T)/density); NaN for a dimensionless impact */
+    double radius_ratio;       /**< a_max/R; NaN likewise */
+    double displacement_ratio; /**< |sliding speed| d_max/v_z0 over a_max; NaN likewise */
+    double dundurs_beta;       /**< of a pair of unlike materials; 0 for others */
+    int flags;                 /**< bits of @ref restitute_flag: which of these pass the limits of the options */
     const char *method;        /**< its name; a string that lives as long as the library */
 } restitute_result;
 
@@ -330,6 +355,53 @@ RESTITUTE_API int restitute_solve(restitute_solver *solver, const restitute_impa
 RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene,
                                         restitute_result *result, restitute_ledger *ledger, restitute_history *history,
                                         restitute_error *error);
+
+/* ------------------------------------------------------------------------------------------- two bodies in space */
+
+/** A sphere, or a plane that nothing moves, in any frame of reference. SI units. */
+typedef struct restitute_body {
+    size_t struct_size; /**< set by @ref restitute_body_init */
+    double position[3]; /**< m, of the centre; of any point of a plane */
+    double velocity[3]; /**< m/s, of the centre; of the plane, which keeps it */
+    double spin[3];     /**< rad/s, right-handed about the axes; not used for a plane */
+    double radius;      /**< m, > 0; infinity: a plane; required, default 0 */
+    double mass;        /**< kg, > 0, infinity: a sphere held fast; not used for a plane; required, default 0 */
+    double inertia;     /**< kg m^2, > 0; default 0 stands for a solid sphere */
+    double normal[3];   /**< of a plane: points out of it, any length > 0; not used for a sphere */
+} restitute_body;
+
+/** Prepare a body at rest at the origin. */
+RESTITUTE_API void restitute_body_init(restitute_body *body);
+
+/** What is between two bodies. */
+typedef struct restitute_contact {
+    size_t struct_size;                 /**< set by @ref restitute_contact_init */
+    const restitute_material *material; /**< required; of a pair of unlike materials see @ref restitute_material_pair */
+    int deformable;                     /**< a @ref restitute_deformable; default BOTH_BODIES_DEFORM */
+    double friction;                    /**< mu, >= 0, infinity allowed; default 0 */
+    double touch_gap; /**< how far apart, over the sum of the radii (the one radius with a plane), bodies
+                                           still touch; >= 0, default 1e-6. Overlaps up to a tenth are touch, too */
+    double density;   /**< as in @ref restitute_scene */
+} restitute_contact;
+
+RESTITUTE_API void restitute_contact_init(restitute_contact *contact);
+
+/** One impact of two bodies: `first` and `second` get the velocities and spins that they have after it; positions stay.
+ *
+ *  The impact is in the plane of the normal and of the sliding direction; what twists about the normal is untouched. Linear
+ *  and angular momentum are conserved to rounding (a plane and a body held fast take what they get).
+ *
+ *  @param first,second  in: before, out: after the impact. One may be a plane
+ *  @param result        optional: the pair, its errors, ratios and flags, in SI units
+ *  @return ERROR_DOMAIN also for bodies that do not touch or that separate
+ *
+ *      restitute_body ball, floor;  restitute_contact contact;               // each prepared by its init function
+ *      floor.radius = INFINITY; floor.normal[2] = 1;
+ *      ball.radius = 0.01; ball.mass = 4e-3; ball.position[2] = 0.01; ball.velocity[0] = 1; ball.velocity[2] = -2;
+ *      contact.material = rubber; contact.friction = 0.3;
+ *      restitute_collide(solver, &contact, &ball, &floor, NULL, &error);     // ball.velocity, ball.spin: after */
+RESTITUTE_API int restitute_collide(restitute_solver *solver, const restitute_contact *contact, restitute_body *first,
+                                    restitute_body *second, restitute_result *result, restitute_error *error);
 
 /** One call: the pair of a dimensionless impact with default options; allocates and frees a solver.
  *

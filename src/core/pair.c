@@ -35,7 +35,8 @@ static int allocate(size_t n, struct scratch *s)
 static struct rst_chain plane_chain(const restitute_material *material, double *m)
 {
     double factor = 2 / (1 - material->nu);
-    for (size_t k = 0; k < material->n_terms; k++) m[k] = factor * material->g[k];
+    for (size_t k = 0; k < material->n_terms; k++)
+        m[k] = factor * material->g[k];
     return (struct rst_chain){factor * material->g_inf, factor * material->eta, (int64_t)material->n_terms};
 }
 
@@ -44,7 +45,8 @@ static double instantaneous_compliance(const restitute_material *material)
 {
     double modulus = material->g_inf;
     if (material->eta > 0) return 0;
-    for (size_t k = 0; k < material->n_terms; k++) modulus += material->g[k];
+    for (size_t k = 0; k < material->n_terms; k++)
+        modulus += material->g[k];
     return 1 / modulus;
 }
 
@@ -67,7 +69,9 @@ int restitute_material_pair(const restitute_material *material1, const restitute
 {
     if (!material1 || !material2 || !pair)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                          !material1 ? "material1" : !material2 ? "material2" : "pair");
+                          !material1   ? "material1"
+                          : !material2 ? "material2"
+                                       : "pair");
     struct scratch s;
     struct rst_chain chain;
     double nu, beta;
@@ -80,7 +84,8 @@ int restitute_material_pair(const restitute_material *material1, const restitute
     elastic_constants(material1, material2, &nu, &beta);
 
     double factor = (1 - nu) / 2;
-    for (int64_t k = 0; k < chain.n; k++) s.m[k] *= factor;
+    for (int64_t k = 0; k < chain.n; k++)
+        s.m[k] *= factor;
     restitute_material *made;
     int status = restitute_material_prony(factor * chain.m_inf, factor * chain.eta, (size_t)chain.n, s.tau, s.m, nu,
                                           &made, error);

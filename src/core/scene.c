@@ -53,6 +53,7 @@ static int check_scene(const restitute_scene *s, restitute_error *error)
     if (!status) status = rst_check_range(s->friction, 0, INFINITY, "friction", error);
     if (!status) status = rst_check_positive(s->normal_speed, 0, "normal_speed (m/s)", error);
     if (!status) status = rst_check_finite(s->tangential_speed, "tangential_speed (m/s)", error);
+    if (!status && s->density != 0) status = rst_check_positive(s->density, 0, "density (kg/m^3)", error);
     if (!status) status = rst_check_finite(s->spin1, "spin1 (rad/s)", error);
     if (!status) status = rst_check_finite(s->spin2, "spin2 (rad/s)", error);
     return status;

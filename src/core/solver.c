@@ -9,6 +9,7 @@
 #include "method.h"
 #include "output.h"
 #include "status.h"
+#include "validity.h"
 
 struct restitute_solver {
     restitute_options options;
@@ -36,8 +37,14 @@ const char *restitute_method_name(const restitute_method *method)
 void restitute_options_init(restitute_options *options)
 {
     if (!options) return;
-    *options = (restitute_options){
-        .struct_size = sizeof *options, .method = &rst_method_euler, .tolerance = 1e-3, .max_updates = 10000000000};
+    *options = (restitute_options){.struct_size = sizeof *options,
+                                   .method = &rst_method_euler,
+                                   .tolerance = 1e-3,
+                                   .max_updates = 10000000000,
+                                   .speed_limit = 0.1,
+                                   .radius_limit = 0.1,
+                                   .displacement_limit = 0.3,
+                                   .dundurs_limit = 0.1};
 }
 
 static int check_options(const restitute_options *options, restitute_error *error)
@@ -52,6 +59,10 @@ static int check_options(const restitute_options *options, restitute_error *erro
     if (!status && options->max_updates <= 0)
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_updates = %lld: must be > 0",
                             (long long)options->max_updates);
+    if (!status) status = rst_check_range(options->speed_limit, 0, INFINITY, "speed_limit", error);
+    if (!status) status = rst_check_range(options->radius_limit, 0, INFINITY, "radius_limit", error);
+    if (!status) status = rst_check_range(options->displacement_limit, 0, INFINITY, "displacement_limit", error);
+    if (!status) status = rst_check_range(options->dundurs_limit, 0, INFINITY, "dundurs_limit", error);
     return status;
 }
 
@@ -189,6 +200,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     if (result) {
         rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, result);
         result->method = solver->options.method->name;
+        rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, result);
     }
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);

@@ -15,8 +15,8 @@ static restitute_material *material_of(const struct chain *c, double nu)
 {
     restitute_material *material;
     restitute_error error;
-    CHECK(restitute_material_prony(c->g_inf, 0, (size_t)c->n, c->tau, c->g, nu, &material, &error) == RESTITUTE_OK, "%s",
-          error.message);
+    CHECK(restitute_material_prony(c->g_inf, 0, (size_t)c->n, c->tau, c->g, nu, &material, &error) == RESTITUTE_OK,
+          "%s", error.message);
     return material;
 }
 
@@ -42,18 +42,23 @@ static void respond(const struct chain *c, double h, const double *w, double str
 
 static void update(const struct chain *c, double h, double move, double *w)
 {
-    for (int k = 0; k < c->n; k++) w[k] = exp(-h / c->tau[k]) * w[k] + c->tau[k] / h * (1 - exp(-h / c->tau[k])) * move;
+    for (int k = 0; k < c->n; k++)
+        w[k] = exp(-h / c->tau[k]) * w[k] + c->tau[k] / h * (1 - exp(-h / c->tau[k])) * move;
 }
 
 /* Direct solution of the Volterra equations: a unit step of the sum of both strains, equal stresses; stress at time t. */
 static double relaxation_by_volterra(const struct chain *a, const struct chain *b, double t, int steps)
 {
     double wa[most_terms], wb[most_terms], ga = a->g_inf, gb = b->g_inf, h = t / steps, stress = 0;
-    for (int k = 0; k < a->n; k++) ga += a->g[k];
-    for (int k = 0; k < b->n; k++) gb += b->g[k];
+    for (int k = 0; k < a->n; k++)
+        ga += a->g[k];
+    for (int k = 0; k < b->n; k++)
+        gb += b->g[k];
     double strain_a = gb / (ga + gb), strain_b = ga / (ga + gb);
-    for (int k = 0; k < a->n; k++) wa[k] = strain_a;
-    for (int k = 0; k < b->n; k++) wb[k] = strain_b;
+    for (int k = 0; k < a->n; k++)
+        wa[k] = strain_a;
+    for (int k = 0; k < b->n; k++)
+        wb[k] = strain_b;
     for (int i = 0; i < steps; i++) {
         double rest_a, rest_b, stiffness_a, stiffness_b;
         respond(a, h, wa, strain_a, &rest_a, &stiffness_a);
@@ -134,7 +139,8 @@ static void steel_on_glass_has_the_usual_constants(void **state)
     (void)state;
     restitute_material *steel, *glass;
     double gs = 210e9 / 2.6, gg = 70e9 / 2.5;
-    CHECK(restitute_material_elastic(gs, 0.3, &steel, NULL) == 0 && restitute_material_elastic(gg, 0.25, &glass, NULL) == 0,
+    CHECK(restitute_material_elastic(gs, 0.3, &steel, NULL) == 0 &&
+              restitute_material_elastic(gg, 0.25, &glass, NULL) == 0,
           "materials");
     restitute_material *pair = pair_of(steel, glass);
     double e_star = 1 / ((1 - 0.09) / 210e9 + (1 - 0.0625) / 70e9);
@@ -157,7 +163,8 @@ static void a_hard_partner_is_nearly_rigid(void **state)
 {
     (void)state;
     struct chain rubber = {1e6, 2, {2e6, 1e6}, {1e-4, 1e-2}}, hard = {1e12, 0, {0}, {0}};
-    restitute_material *soft = material_of(&rubber, 0.5), *steel = material_of(&hard, 0.3), *pair = pair_of(steel, soft);
+    restitute_material *soft = material_of(&rubber, 0.5), *steel = material_of(&hard, 0.3),
+                       *pair = pair_of(steel, soft);
     for (double t = 1e-6; t < 10; t *= 10) {
         double g = restitute_material_modulus(soft, t);
         CHECK_NEAR(restitute_material_modulus(pair, t), g, 1e-5 * g, "at %g", t);

@@ -1,0 +1,52 @@
+/* How far a scene strains the assumptions of the model (3), (4), THEORY 4a.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "validity.h"
+
+#include <math.h>
+
+const char *restitute_flag_text(int flag)
+{
+    switch (flag) {
+#define TEXT_OF(name, bit, text)                                                                                       \
+    case RESTITUTE_FLAG_##name:                                                                                        \
+        return text;
+        RESTITUTE_FLAG_LIST(TEXT_OF)
+#undef TEXT_OF
+    default:
+        return "unknown flag";
+    }
+}
+
+/* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves do
+ * not travel: the ratio is infinite. */
+static double shear_wave_speed(const restitute_scene *scene, double time)
+{
+    const double sphere = 4.0 / 3.0 * 3.14159265358979323846 * scene->radius1 * scene->radius1 * scene->radius1;
+    double density = scene->density > 0 ? scene->density : scene->mass1 / sphere;
+    return sqrt(restitute_material_modulus(scene->material, time) / density);
+}
+
+static double sliding_speed(const restitute_scene *scene)
+{
+    double second = isinf(scene->radius2) ? 0 : scene->radius2 * scene->spin2;
+    return fabs(scene->tangential_speed + scene->radius1 * scene->spin1 + second);
+}
+
+void rst_judge_validity(const restitute_options *options, const restitute_scene *scene,
+                        const restitute_numbers *numbers, const struct rst_outcome *outcome, restitute_result *result)
+{
+    result->speed_ratio = result->radius_ratio = result->displacement_ratio = NAN;
+    result->dundurs_beta = 0;
+    result->flags = 0;
+    if (!scene) return;
+    double depth = outcome->max_indentation * numbers->length_z;
+    double radius = outcome->max_contact_radius * numbers->length_x;
+    result->speed_ratio = scene->normal_speed / shear_wave_speed(scene, numbers->time);
+    result->radius_ratio = radius / numbers->radius;
+    result->displacement_ratio = sliding_speed(scene) * (depth / scene->normal_speed) / radius;
+    result->dundurs_beta = restitute_material_dundurs(scene->material);
+    if (result->speed_ratio > options->speed_limit) result->flags |= RESTITUTE_FLAG_FAST;
+    if (result->radius_ratio > options->radius_limit) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
+    if (result->displacement_ratio > options->displacement_limit) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
+    if (fabs(result->dundurs_beta) > options->dundurs_limit) result->flags |= RESTITUTE_FLAG_COUPLED;
+}

@@ -1,0 +1,90 @@
+/* Every result tells how far it strains the model; one scene trips each flag.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "../support/solve.h"
+
+static restitute_scene steel_ball_on(const restitute_material *material, double normal_speed, double tangential_speed)
+{
+    restitute_scene scene;
+    restitute_scene_init(&scene);
+    scene.material = material;
+    scene.radius1 = 0.005;
+    scene.mass1 = 7800 * 4.0 / 3.0 * 3.14159265358979323846 * 1.25e-7;
+    scene.friction = 0.2;
+    scene.normal_speed = normal_speed;
+    scene.tangential_speed = tangential_speed;
+    return scene;
+}
+
+static int flags_of(restitute_scene scene)
+{
+    return solve_scene(default_options(), &scene).result.flags;
+}
+
+static void each_flag_has_a_scene_that_trips_it_alone(void **state)
+{
+    (void)state;
+    restitute_material *steel, *foam, *glass, *pair;
+    CHECK(restitute_material_elastic(8e10, 0.3, &steel, NULL) == 0, "steel");
+    CHECK(restitute_material_elastic(3e10, 0.2, &glass, NULL) == 0, "glass");
+    CHECK(restitute_material_elastic(1e7, 0.5, &foam, NULL) == 0, "foam");
+    CHECK(restitute_material_pair(steel, glass, &pair, NULL) == 0, "pair");
+    CHECK(flags_of(steel_ball_on(steel, 0.1, 0.05)) == 0, "a gentle impact strains nothing");
+
+    restitute_scene heavy = steel_ball_on(foam, 0.5, 0);
+    heavy.density = 30; /* a light material: fast waves */
+    CHECK(flags_of(heavy) == RESTITUTE_FLAG_LARGE_CONTACT, "%d", flags_of(heavy));
+    restitute_scene fast = steel_ball_on(steel, 2, 0);
+    fast.density = 5e8; /* what would have a wave speed of 13 m/s */
+    CHECK(flags_of(fast) == RESTITUTE_FLAG_FAST, "%d", flags_of(fast));
+    restitute_scene grazing = steel_ball_on(steel, 0.1, 20);
+    CHECK(flags_of(grazing) == RESTITUTE_FLAG_LONG_SLIDE, "%d", flags_of(grazing));
+    restitute_scene unlike = steel_ball_on(pair, 0.1, 0.05);
+    restitute_options strict = default_options();
+    strict.dundurs_limit = 0.05;
+    struct restitute_result r = solve_scene(strict, &unlike).result;
+    CHECK(r.flags == RESTITUTE_FLAG_COUPLED && r.dundurs_beta == restitute_material_dundurs(pair), "%d", r.flags);
+    restitute_material_destroy(steel);
+    restitute_material_destroy(glass);
+    restitute_material_destroy(foam);
+    restitute_material_destroy(pair);
+}
+
+static void ratios_are_what_they_say(void **state)
+{
+    (void)state;
+    restitute_material *steel;
+    CHECK(restitute_material_elastic(8e10, 0.3, &steel, NULL) == 0, "steel");
+    restitute_scene scene = steel_ball_on(steel, 2, 1);
+    scene.spin1 = 100;
+    struct restitute_result r = solve_scene(default_options(), &scene).result;
+    CHECK_NEAR(r.speed_ratio, 2 / sqrt(8e10 / 7800), 1e-12, "v/c_s");
+    CHECK_NEAR(r.radius_ratio, r.max_contact_radius / 0.005, 1e-15, "a/R");
+    CHECK_NEAR(r.displacement_ratio, (1 + 0.5) * r.max_indentation / 2 / r.max_contact_radius, 1e-15, "travel");
+    restitute_options all = default_options();
+    all.speed_limit = all.radius_limit = all.displacement_limit = 0;
+    CHECK(solve_scene(all, &scene).result.flags == 7, "limits can be set");
+    r = solve_impact(default_options(), impact_of(1, 1, 0, 1)).result;
+    CHECK(isnan(r.speed_ratio) && isnan(r.radius_ratio) && isnan(r.displacement_ratio) && r.flags == 0,
+          "dimensionless");
+    restitute_material_destroy(steel);
+}
+
+static void flags_have_texts(void **state)
+{
+    (void)state;
+    for (int flag = 1; flag <= 8; flag *= 2)
+        CHECK(strcmp(restitute_flag_text(flag), "unknown flag") != 0, "flag %d", flag);
+    CHECK(strcmp(restitute_flag_text(3), "unknown flag") == 0, "two flags are no flag");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_flag_has_a_scene_that_trips_it_alone),
+        cmocka_unit_test(ratios_are_what_they_say),
+        cmocka_unit_test(flags_have_texts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
