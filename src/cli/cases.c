@@ -133,7 +133,7 @@ static bool take_cell(const char *name, const char *cell, struct values *values,
         return field_read(field, cell, name, &values->number[field], why);
     }
     if (!*cell) return refuse(why, "%s is empty", name);
-    if (strcmp(name, "partner") == 0) return partner_read(cell, name, &values->deformable, why);
+    if (strcmp(name, "partner") == 0) return partner_read(cell, name, values, why);
     if (strcmp(name, "rotation_blocked") == 0) return switch_read(cell, name, &values->rotation_blocked, why);
     values->material = cell;
     return true;

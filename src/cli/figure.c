@@ -46,6 +46,8 @@ static void write_description(const struct values *values, char *text, size_t si
     }
     if (values->deformable == RESTITUTE_BOTH_BODIES_DEFORM && used < size)
         used += (size_t)snprintf(text + used, size - used, ", both bodies deform");
+    if (values->partner && used < size)
+        used += (size_t)snprintf(text + used, size - used, ", partner %.60s", values->partner);
     if (values->rotation_blocked > 0 && used < size) snprintf(text + used, size - used, ", rotation blocked");
 }
 

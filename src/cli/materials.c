@@ -33,8 +33,35 @@ const struct material_entry *materials_get(struct materials *materials, const ch
     return NULL;
 }
 
+const restitute_material *materials_pair(struct materials *materials, const struct material_entry *entry,
+                                         const char *partner, struct reason *why)
+{
+    const struct material_entry *second = materials_get(materials, partner, why);
+    if (!second) return NULL;
+    for (struct material_pair *known = materials->pairs; known; known = known->next)
+        if (known->first == entry && known->second == second) return known->material;
+    struct material_pair *pair = allocate(1, sizeof *pair);
+    restitute_error error;
+    if (restitute_material_pair(entry->material, second->material, &pair->material, &error) < 0) {
+        free(pair);
+        refuse(why, "%.100s with %.100s: %s", entry->path, partner, error.message);
+        return NULL;
+    }
+    pair->first = entry;
+    pair->second = second;
+    pair->next = materials->pairs;
+    materials->pairs = pair;
+    return pair->material;
+}
+
 void materials_release(struct materials *materials)
 {
+    while (materials->pairs) {
+        struct material_pair *pair = materials->pairs;
+        materials->pairs = pair->next;
+        restitute_material_destroy(pair->material);
+        free(pair);
+    }
     while (materials->first) {
         struct material_entry *entry = materials->first;
         materials->first = entry->next;

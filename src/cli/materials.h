@@ -15,12 +15,24 @@ struct material_entry {
     struct reason why;
 };
 
+/* Two materials as one solid. */
+struct material_pair {
+    struct material_pair *next;
+    const struct material_entry *first, *second;
+    restitute_material *material;
+};
+
 struct materials {
     struct material_entry *first;
+    struct material_pair *pairs;
 };
 
 /* The material of this file, read on first use. NULL if it cannot be read. It belongs to `materials`. */
 const struct material_entry *materials_get(struct materials *materials, const char *path, struct reason *why);
+
+/* The solid that this material and the one in the file `partner` are to each other, made on first use; NULL: refused. */
+const restitute_material *materials_pair(struct materials *materials, const struct material_entry *entry,
+                                         const char *partner, struct reason *why);
 
 void materials_release(struct materials *materials);
 

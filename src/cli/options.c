@@ -39,7 +39,7 @@ static const char *const text_names[TEXT_COUNT] = {
 static struct poptOption more_scene_options[] = {
     ENTRY("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
           "what deforms: a material file, .json, or .csv with tau_s,G_Pa; required"),
-    ENTRY("partner", CODE_TEXT + TEXT_PARTNER, "rigid|same",
+    ENTRY("partner", CODE_TEXT + TEXT_PARTNER, "rigid|same|FILE",
           "rigid: one of the two bodies deforms (default); same: both do, and are of the material"),
     FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"), POPT_TABLEEND};
 
@@ -193,8 +193,7 @@ static bool read_words(struct settings *settings, struct reason *why)
 {
     static const char *const formats[] = {"text", "csv", "json"};
     char *const *text = settings->text;
-    if (text[TEXT_PARTNER] && !partner_read(text[TEXT_PARTNER], "--partner", &settings->values.deformable, why))
-        return false;
+    if (text[TEXT_PARTNER] && !partner_read(text[TEXT_PARTNER], "--partner", &settings->values, why)) return false;
     settings->values.material = text[TEXT_MATERIAL];
     for (int i = 0; i < 3 && text[TEXT_FORMAT]; i++)
         if (strcmp(text[TEXT_FORMAT], formats[i]) == 0) settings->format = FORMAT_TEXT + i;
@@ -267,8 +266,8 @@ void options_release(struct settings *settings)
 
 bool settings_spare_inputs(const struct settings *settings, struct reason *why)
 {
-    const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material};
-    for (int i = 0; i < 2; i++)
+    const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material, settings->values.partner};
+    for (int i = 0; i < 3; i++)
         if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
             !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why))
             return false;

@@ -29,15 +29,24 @@ bool values_physical(const struct values *values)
     return values->material || values->deformable || values->rotation_blocked >= 0;
 }
 
-bool partner_read(const char *text, const char *place, int *deformable, struct reason *why)
+bool partner_read(const char *text, const char *place, struct values *values, struct reason *why)
 {
-    if (strcmp(text, "rigid") == 0)
-        *deformable = RESTITUTE_ONE_BODY_DEFORMS;
-    else if (strcmp(text, "same") == 0)
-        *deformable = RESTITUTE_BOTH_BODIES_DEFORM;
-    else
-        return refuse(why, "%s = \"%.64s\": must be rigid or same", place, text);
+    const char *ending = strrchr(text, '.');
+    values->deformable = RESTITUTE_ONE_BODY_DEFORMS;
+    values->partner = NULL;
+    if (strcmp(text, "same") == 0)
+        values->deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    else if (ending && (strcmp(ending, ".json") == 0 || strcmp(ending, ".csv") == 0))
+        values->partner = text; /* the two materials as one solid */
+    else if (strcmp(text, "rigid") != 0)
+        return refuse(why, "%s = \"%.64s\": must be rigid, same or a material file, .json or .csv", place, text);
     return true;
+}
+
+const char *partner_word(const struct values *values)
+{
+    if (values->partner) return values->partner;
+    return values->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? "same" : "rigid";
 }
 
 bool switch_read(const char *text, const char *place, int *on, struct reason *why)
@@ -200,7 +209,9 @@ static bool build_scene(const struct values *values, enum naming naming, struct 
     if (!entry) return false;
     restitute_scene_init(scene);
     problem->info = &entry->info;
-    scene->material = entry->material;
+    scene->material = values->partner ? materials_pair(materials, entry, values->partner, why) : entry->material;
+    if (!scene->material) return false;
+    if (!isnan(entry->info.density)) scene->density = entry->info.density;
     if (values->deformable) scene->deformable = values->deformable;
     scene->rotation_blocked = values->rotation_blocked > 0;
     scene->friction = number[FIELD_FRICTION];

@@ -14,6 +14,7 @@ struct values {
     double number[FIELD_COUNT];
     const char *material; /* path; NULL: not given */
     int deformable;       /* a restitute_deformable; 0: not given */
+    const char *partner;  /* path of the partner's own material; NULL: it has none */
     int rotation_blocked; /* 0 or 1; -1: not given */
 };
 
@@ -46,8 +47,10 @@ bool problem_build(const struct values *values, enum naming naming, struct mater
 int problem_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                   restitute_ledger *ledger, restitute_history *history, restitute_error *error);
 
-/* The words of --partner and of a rotation_blocked cell; false for any other word. */
-bool partner_read(const char *text, const char *place, int *deformable, struct reason *why);
+/* A partner: rigid, same, or the file of its own material. A rotation_blocked cell. False for anything else. */
+/* The word that partner_read would read. */
+const char *partner_word(const struct values *values);
+bool partner_read(const char *text, const char *place, struct values *values, struct reason *why);
 bool switch_read(const char *text, const char *place, int *on, struct reason *why);
 
 #endif

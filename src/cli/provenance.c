@@ -30,9 +30,7 @@ static json_t *given_values(const struct values *values)
         if (values->given[field])
             json_object_set_new(object, field_rules[field].column, json_of_number(values->number[field]));
     if (values->material) json_object_set_new(object, "material", json_string(values->material));
-    if (values->deformable)
-        json_object_set_new(object, "partner",
-                            json_string(values->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? "same" : "rigid"));
+    if (values->deformable) json_object_set_new(object, "partner", json_string(partner_word(values)));
     if (values->rotation_blocked >= 0)
         json_object_set_new(object, "rotation_blocked", json_integer(values->rotation_blocked));
     return object;
@@ -54,16 +52,19 @@ static json_t *materials_of_column(const struct cases *cases, size_t column, str
     json_t *object = json_object();
     for (size_t row = 0; row < cases->rows; row++) {
         const char *path = cases_cell(cases, row, column);
-        if (!json_object_get(object, path)) json_object_set_new(object, path, described(materials, path));
+        if (strchr(path, '.') && !json_object_get(object, path))
+            json_object_set_new(object, path, described(materials, path));
     }
     return object;
 }
 
-static json_t *given_material(const struct settings *settings, const struct cases *cases, struct materials *materials)
+/* The material or the partner's: from the option or from the column of that name; null if it has none. */
+static json_t *given_material(const char *option, const char *name, const struct cases *cases,
+                              struct materials *materials)
 {
-    if (settings->values.material) return described(materials, settings->values.material);
+    if (option) return described(materials, option);
     for (size_t column = 0; cases && column < cases->columns; column++)
-        if (strcmp(cases_name(cases, column), "material") == 0) return materials_of_column(cases, column, materials);
+        if (strcmp(cases_name(cases, column), name) == 0) return materials_of_column(cases, column, materials);
     return json_null();
 }
 
@@ -87,7 +88,8 @@ json_t *provenance_settings(const struct settings *settings, const struct cases 
                         solver->time_step > 0 ? json_real(solver->time_step) : json_string("chosen"));
     json_object_set_new(object, "max_updates", json_integer(solver->max_updates));
     json_object_set_new(object, "values", given_values(&settings->values));
-    json_object_set_new(object, "material", given_material(settings, cases, materials));
+    json_object_set_new(object, "material", given_material(settings->values.material, "material", cases, materials));
+    json_object_set_new(object, "partner", given_material(settings->values.partner, "partner", cases, materials));
     json_object_set_new(object, "input", given_input(settings, cases));
     return object;
 }

@@ -94,9 +94,28 @@ static void text_impact(FILE *stream, const struct single *single)
          "a_el");
     line(stream, "largest normal force", result->max_normal_force, physical ? "N" : "m v_z0^2/d0", numbers->force,
          "m v_z0^2/d0");
-    if (physical)
-        fprintf(stream, "  %-22s %-12.6g (the model wants it small)\n", "radius ratio a/R",
-                result->max_contact_radius / numbers->radius);
+}
+
+/* How far the scene strains the model, and what of it passes a limit, in words. */
+static void text_validity(FILE *stream, const struct single *single)
+{
+    const restitute_result *result = &single->result;
+    const restitute_options *limits = &single->settings->solver;
+    const struct {
+        const char *name;
+        double value, limit;
+        int flag;
+    } shown[] = {
+        {"v_z0/wave speed", result->speed_ratio, limits->speed_limit, RESTITUTE_FLAG_FAST},
+        {"contact radius/R", result->radius_ratio, limits->radius_limit, RESTITUTE_FLAG_LARGE_CONTACT},
+        {"slide/contact radius", result->displacement_ratio, limits->displacement_limit, RESTITUTE_FLAG_LONG_SLIDE},
+        {"Dundurs' beta", result->dundurs_beta, limits->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
+    if (!single->problem.physical) return;
+    fputs("\nModel limits\n", stream);
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+        fprintf(stream, "  %-22s %-12.3g (limit %g)\n", shown[i].name, shown[i].value, shown[i].limit);
+        if (result->flags & shown[i].flag) fprintf(stream, "    passed: %s\n", restitute_flag_text(shown[i].flag));
+    }
 }
 
 static void text_energy(FILE *stream, const struct single *single)
@@ -136,6 +155,7 @@ static void write_text(FILE *stream, const struct single *single)
     fprintf(stream, "  tangential   ex = %9.6f +- %.1e\n", result->ex, result->error_ex);
     if (single->status != RESTITUTE_OK) fprintf(stream, "  remark: %s\n", restitute_status_text(single->status));
     text_impact(stream, single);
+    text_validity(stream, single);
     text_numbers(stream, single);
     text_energy(stream, single);
     text_numerics(stream, single);
@@ -152,11 +172,7 @@ static void write_csv(FILE *stream, const struct single *single)
             if (values->given[field])
                 fprintf(stream, "%s,", names ? field_rules[field].column : number_text(values->number[field]).text);
         if (values->material) cell_write(stream, names ? "material" : values->material), fputc(',', stream);
-        if (values->deformable)
-            fprintf(stream, "%s,",
-                    names                                                ? "partner"
-                    : values->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? "same"
-                                                                         : "rigid");
+        if (values->deformable) cell_write(stream, names ? "partner" : partner_word(values)), fputc(',', stream);
         if (values->rotation_blocked >= 0) fprintf(stream, "%s,", names ? "rotation_blocked" : "1");
         if (names)
             row_write_result_names(stream);
@@ -192,12 +208,20 @@ static json_t *json_of_result(const struct single *single)
                                            {"max_normal_force", result->max_normal_force},
                                            {"element_spacing", result->element_spacing},
                                            {"time_step", result->time_step},
-                                           {"merging_bound", result->merging_bound}};
+                                           {"merging_bound", result->merging_bound},
+                                           {"speed_ratio", result->speed_ratio},
+                                           {"radius_ratio", result->radius_ratio},
+                                           {"displacement_ratio", result->displacement_ratio},
+                                           {"dundurs_beta", result->dundurs_beta}};
     json_t *object = json_of_numbers(numbers, sizeof numbers / sizeof numbers[0]);
     json_object_set_new(object, "elements", json_integer(result->elements));
     json_object_set_new(object, "steps", json_integer(result->steps));
     json_object_set_new(object, "updates", json_integer(result->updates));
     json_object_set_new(object, "terms_merged", json_integer(result->terms_merged));
+    json_t *flags = json_array();
+    for (int flag = 1; flag <= result->flags; flag *= 2)
+        if (result->flags & flag) json_array_append_new(flags, json_string(restitute_flag_text(flag)));
+    json_object_set_new(object, "flags", flags);
     json_object_set_new(object, "method", json_string(result->method));
     json_object_set_new(object, "status",
                         json_string(single->status == RESTITUTE_OK ? "" : restitute_status_text(single->status)));

@@ -43,7 +43,7 @@ refused '--friction is missing' pair $base --radius 1 --density 1 --velocity 1
 refused '--spin = inf: must be finite' pair $scene --velocity 1 --spin inf
 refused 'needs a partner sphere' pair $scene --velocity 1 --mass2 1
 refused '--density2 or --mass2 is missing' pair $scene --velocity 1 --radius2 1
-refused '--partner = "soft": must be rigid or same' pair $scene --velocity 1 --partner soft
+refused '--partner = "soft": must be rigid, same or a material file' pair $scene --velocity 1 --partner soft
 refused '--material is missing' pair --radius 1 --density 1 --friction 0.3 --velocity 1
 refused 'no-such-file.json: cannot be read' pair --material no-such-file.json --radius 1 --density 1 --friction 0 --velocity 1
 refused 'must end in .json or .csv' pair --material /dev/null --radius 1 --density 1 --friction 0 --velocity 1

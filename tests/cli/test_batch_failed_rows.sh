@@ -43,6 +43,6 @@ for row in 5 6 7 8 9 10; do
     [ -z "$(value out.csv ez $row)" ] || fail "row $row has a result"
 done
 has out.csv 'angle_deg = 90: must be in [0, 90)' 'density1_kg_m3 and mass1_kg are both given' 'speed_m_s = 0: must be' \
-    'none.json: cannot be read' 'partner = ""soft"": must be rigid or same' 'rotation_blocked = ""2"": must be 0 or 1'
+    'none.json: cannot be read' 'partner = ""soft"": must be rigid, same or a material file' 'rotation_blocked = ""2"": must be 0 or 1'
 has out.csv.meta.json '"contact_time": "s"' '"max_indentation": "m"'
 absent out.csv.partial out.csv.partial.json
