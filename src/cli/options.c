@@ -29,18 +29,32 @@ enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLO
     }
 
 static const char *const text_names[TEXT_COUNT] = {
-    [TEXT_MATERIAL] = "material",       [TEXT_PARTNER] = "partner",   [TEXT_METHOD] = "method",
-    [TEXT_TOLERANCE] = "tolerance",     [TEXT_ELEMENTS] = "elements", [TEXT_TIME_STEP] = "time-step",
-    [TEXT_MAX_UPDATES] = "max-updates", [TEXT_FORMAT] = "format",     [TEXT_INPUT] = "input",
-    [TEXT_OUTPUT] = "output",           [TEXT_GRID] = "grid",         [TEXT_FIGURE] = "figure",
+    [TEXT_MATERIAL] = "material",
+    [TEXT_PARTNER] = "partner",
+    [TEXT_METHOD] = "method",
+    [TEXT_TOLERANCE] = "tolerance",
+    [TEXT_ELEMENTS] = "elements",
+    [TEXT_TIME_STEP] = "time-step",
+    [TEXT_MAX_UPDATES] = "max-updates",
+    [TEXT_FORMAT] = "format",
+    [TEXT_INPUT] = "input",
+    [TEXT_OUTPUT] = "output",
+    [TEXT_GRID] = "grid",
+    [TEXT_FIGURE] = "figure",
     [TEXT_SAMPLES] = "samples",
+    [TEXT_SPEED_LIMIT] = "speed-limit",
+    [TEXT_RADIUS_LIMIT] = "radius-limit",
+    [TEXT_DISPLACEMENT_LIMIT] = "displacement-limit",
+    [TEXT_DUNDURS_LIMIT] = "dundurs-limit",
 };
 
 static struct poptOption more_scene_options[] = {
     ENTRY("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
           "what deforms: a material file, .json, or .csv with tau_s,G_Pa; required"),
-    ENTRY("partner", CODE_TEXT + TEXT_PARTNER, "rigid|same|FILE",
-          "rigid: one of the two bodies deforms (default); same: both do, and are of the material"),
+    ENTRY(
+        "partner", CODE_TEXT + TEXT_PARTNER, "rigid|same|FILE",
+        "rigid: one of the two bodies deforms (default); same: both do, and are of the material; FILE: the material of "
+        "the partner, if it is another one"),
     FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"), POPT_TABLEEND};
 
 static struct poptOption solution_options[] = {
@@ -51,6 +65,13 @@ static struct poptOption solution_options[] = {
           "elements over the largest contact radius, 4 to 1000000; default chosen"),
     ENTRY("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP", "in T, or in s with a material; > 0; default chosen"),
     ENTRY("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
+    ENTRY("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
+          "normal speed over wave speed that is told; default 0.1"),
+    ENTRY("radius-limit", CODE_TEXT + TEXT_RADIUS_LIMIT, "RATIO",
+          "contact radius over radius that is told; default 0.1"),
+    ENTRY("displacement-limit", CODE_TEXT + TEXT_DISPLACEMENT_LIMIT, "RATIO",
+          "slide over contact radius that is told; default 0.3"),
+    ENTRY("dundurs-limit", CODE_TEXT + TEXT_DUNDURS_LIMIT, "BETA", "Dundurs' constant that is told; default 0.1"),
     POPT_TABLEEND};
 
 static struct poptOption pair_output_options[] = {
@@ -180,7 +201,11 @@ static bool read_solver(struct settings *settings, struct reason *why)
         !read_bounded(settings, TEXT_ELEMENTS, 4, 1e6, true, &elements, why) ||
         !read_bounded(settings, TEXT_TIME_STEP, 1e-300, 1e300, false, &step, why) ||
         !read_bounded(settings, TEXT_MAX_UPDATES, 1, 1e18, true, &updates, why) ||
-        !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why))
+        !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why) ||
+        !read_bounded(settings, TEXT_SPEED_LIMIT, 0, INFINITY, false, &solver->speed_limit, why) ||
+        !read_bounded(settings, TEXT_RADIUS_LIMIT, 0, INFINITY, false, &solver->radius_limit, why) ||
+        !read_bounded(settings, TEXT_DISPLACEMENT_LIMIT, 0, INFINITY, false, &solver->displacement_limit, why) ||
+        !read_bounded(settings, TEXT_DUNDURS_LIMIT, 0, INFINITY, false, &solver->dundurs_limit, why))
         return false;
     solver->elements = (int64_t)elements;
     solver->time_step = step;

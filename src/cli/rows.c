@@ -17,6 +17,24 @@ void rows_release(struct row *rows, size_t count)
     free(rows);
 }
 
+/* A remark of the solver, and the names of the model limits that are passed: "text; FAST LARGE_CONTACT". */
+static char *remark(int status, int flags)
+{
+    char text[400] = "";
+    size_t used = 0;
+    if (status != RESTITUTE_OK)
+        used = (size_t)snprintf(text, sizeof text, "%s%s", restitute_status_text(status), flags ? "; " : "");
+    const char *separator = "";
+#define NAME_OF(name, bit, words)                                                                                      \
+    if (flags & (bit)) {                                                                                               \
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", separator, #name);                           \
+        separator = " ";                                                                                               \
+    }
+    RESTITUTE_FLAG_LIST(NAME_OF)
+#undef NAME_OF
+    return copy_of(text);
+}
+
 void row_from_result(int status, const restitute_result *result, struct row *row)
 {
     const double number[ROW_NUMBERS] = {
@@ -24,7 +42,7 @@ void row_from_result(int status, const restitute_result *result, struct row *row
     row->solved = true;
     memcpy(row->number, number, sizeof number);
     row->method = result->method;
-    row->status = copy_of(status == RESTITUTE_OK ? "" : restitute_status_text(status));
+    row->status = remark(status, result->flags);
 }
 
 void row_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,

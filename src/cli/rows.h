@@ -14,7 +14,7 @@ struct row {
     bool solved;
     double number[ROW_NUMBERS];
     const char *method; /* lives as long as the library */
-    char *status;       /* "" if done without a remark; on the heap */
+    char *status;       /* "" if done without a remark and within the model limits; on the heap */
 };
 
 void rows_release(struct row *rows, size_t count);
