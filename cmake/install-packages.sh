@@ -4,7 +4,7 @@
 #   run   what building and running the command needs (the default)
 #   test  run, and what the tests need
 #   ci    test, and a second compiler
-#   docs  what checking the man page and turning figures into other formats needs
+#   docs  run, and what building the reference, checking the man page and converting figures needs
 # Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 
@@ -14,7 +14,7 @@ case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;
 ci) packages="$run_packages $test_packages clang" ;;
-docs) packages="mandoc librsvg2-bin" ;;
+docs) packages="$run_packages doxygen mandoc librsvg2-bin" ;;
 *)
     echo "install-packages: unknown kind '$1': must be run, test, ci or docs" >&2
     exit 2

@@ -100,7 +100,7 @@ static bool write_result(const struct settings *settings, const struct problem *
 
 int history_run(const struct settings *settings)
 {
-    struct materials materials = {NULL};
+    struct materials materials = {NULL, NULL};
     struct problem problem;
     struct reason why;
     restitute_history history;

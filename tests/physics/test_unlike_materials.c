@@ -137,7 +137,7 @@ static void a_pair_of_one_material_is_half_of_it(void **state)
 static void steel_on_glass_has_the_usual_constants(void **state)
 {
     (void)state;
-    restitute_material *steel, *glass;
+    restitute_material *steel = NULL, *glass = NULL;
     double gs = 210e9 / 2.6, gg = 70e9 / 2.5;
     CHECK(restitute_material_elastic(gs, 0.3, &steel, NULL) == 0 &&
               restitute_material_elastic(gg, 0.25, &glass, NULL) == 0,
