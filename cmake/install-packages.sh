@@ -3,7 +3,7 @@
 # Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|docs]
 #   run   what building and running the command needs (the default)
 #   test  run, and what the tests need
-#   ci    test, and a second compiler
+#   ci    test, a second compiler, and what compares binary interfaces
 #   docs  run, and what building the reference, checking the man page and converting figures needs
 # Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
@@ -13,7 +13,7 @@ test_packages="g++ libcmocka-dev mandoc python3 valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;
-ci) packages="$run_packages $test_packages clang" ;;
+ci) packages="$run_packages $test_packages clang abigail-tools" ;;
 docs) packages="$run_packages doxygen mandoc librsvg2-bin" ;;
 *)
     echo "install-packages: unknown kind '$1': must be run, test, ci or docs" >&2
