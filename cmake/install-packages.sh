@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|docs]
+# Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|package|docs]
 #   run   what building and running the command needs (the default)
 #   test  run, and what the tests need
 #   ci    test, a second compiler, and what compares binary interfaces
+#   package  run, and what cpack needs to make the Debian package
 #   docs  run, and what building the reference, checking the man page and converting figures needs
 # Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
@@ -14,9 +15,10 @@ case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;
 ci) packages="$run_packages $test_packages clang abigail-tools" ;;
+package) packages="$run_packages dpkg-dev" ;;
 docs) packages="$run_packages doxygen mandoc librsvg2-bin" ;;
 *)
-    echo "install-packages: unknown kind '$1': must be run, test, ci or docs" >&2
+    echo "install-packages: unknown kind '$1': must be run, test, ci, package or docs" >&2
     exit 2
     ;;
 esac

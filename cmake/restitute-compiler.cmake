@@ -35,6 +35,9 @@ endfunction()
 restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off)
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextra -ffp-contract=off -fopenmp-simd)
 
+# Programs in Fortran, which may use the system's intrinsic modules and the Fortran run-time library.
+restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_PROGRAM_FLAGS -std=f2018 -Wall -Wextra)
+
 # gfortran reads a header of the C library that lets it take vector versions of exp and the like. Those are a library
 # more to link, and their last digits depend on the processor; without the system's headers it takes libm's.
 if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
@@ -45,6 +48,7 @@ if(RESTITUTE_SANITIZE)
   set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   list(APPEND RESTITUTE_C_FLAGS ${sanitizers})
   list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
+  list(APPEND RESTITUTE_FORTRAN_PROGRAM_FLAGS ${sanitizers})
   add_link_options(${sanitizers})
 endif()
 
@@ -52,6 +56,14 @@ endif()
 function(restitute_common_flags target)
   target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:C>:${RESTITUTE_C_FLAGS}>"
                                            "$<$<COMPILE_LANGUAGE:Fortran>:${RESTITUTE_FORTRAN_FLAGS}>")
+endfunction()
+
+# The same for a Fortran program, or a library for Fortran programs. The Fortran compiler links it and thereby adds the
+# run-time library that is kept from the kernel above.
+function(restitute_fortran_program target)
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:C>:${RESTITUTE_C_FLAGS}>"
+                                           "$<$<COMPILE_LANGUAGE:Fortran>:${RESTITUTE_FORTRAN_PROGRAM_FLAGS}>")
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE Fortran)
 endfunction()
 
 set(RESTITUTE_EXPORT_MAP "${PROJECT_SOURCE_DIR}/cmake/restitute.map")

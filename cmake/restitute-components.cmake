@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_FILES and RESTITUTE_WITH_COMMAND.
+# Sets RESTITUTE_WITH_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -34,7 +34,7 @@ function(restitute_decide option title result)
   endif()
 endfunction()
 
-foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND)
+foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN)
   if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
     message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
   endif()
@@ -55,6 +55,15 @@ restitute_decide(RESTITUTE_COMMAND "the command restitute" RESTITUTE_WITH_COMMAN
                  RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
                  POPT_FOUND "popt (Debian: libpopt-dev, found by pkg-config)")
 
+# The kernel needs a Fortran compiler and no more; the module is for programs that need its run-time library.
+if(RESTITUTE_FORTRAN)
+  include(CheckSourceCompiles)
+  check_source_compiles(Fortran "program hello\n  print '(a)', 'hello'\nend program hello\n"
+                        RESTITUTE_FORTRAN_PROGRAMS_LINK SRC_EXT f90)
+endif()
+restitute_decide(RESTITUTE_FORTRAN "the Fortran module restitute" RESTITUTE_WITH_FORTRAN #
+                 RESTITUTE_FORTRAN_PROGRAMS_LINK "the Fortran run-time library")
+
 if(RESTITUTE_TESTS)
   restitute_find_pkg_config_library(CMOCKA cmocka)
   if(NOT CMOCKA_FOUND)
@@ -64,4 +73,4 @@ if(RESTITUTE_TESTS)
 endif()
 
 message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
-               "command ${RESTITUTE_WITH_COMMAND}, tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")
+               "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

@@ -3,6 +3,8 @@
 # the installed files are relative to those files, so the tree may be moved.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/restitute")
+string(REGEX MATCH "^[0-9]+" fortran_major "${CMAKE_Fortran_COMPILER_VERSION}")
+set(fortran_made_by "${CMAKE_Fortran_COMPILER_ID} ${fortran_major}")
 
 # restitute_install_component(<component> <header>...)
 function(restitute_install_component component)
@@ -37,10 +39,24 @@ if(RESTITUTE_WITH_FILES)
   restitute_install_pkg_config(restitute-files.pc)
   install(FILES "${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake" DESTINATION "${package_dir}")
 endif()
+if(RESTITUTE_WITH_FORTRAN)
+  set(fortran_dir "${RESTITUTE_INSTALL_FORTRANDIR}")
+  install(TARGETS restitute_fortran_module EXPORT restitute-fortran ARCHIVE DESTINATION "${fortran_dir}")
+  install(FILES "$<TARGET_PROPERTY:restitute_fortran_module,Fortran_MODULE_DIRECTORY>/restitute.mod"
+          DESTINATION "${fortran_dir}")
+  install(FILES "${PROJECT_SOURCE_DIR}/fortran/public/restitute.f90"
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
+  install(EXPORT restitute-fortran FILE restitute-fortran.cmake NAMESPACE restitute:: DESTINATION "${package_dir}")
+  file(RELATIVE_PATH prefix_to_fortran "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_PREFIX}/${fortran_dir}")
+  restitute_install_pkg_config(restitute-fortran.pc)
+endif()
 if(RESTITUTE_WITH_COMMAND)
   install(TARGETS restitute_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(FILES "${PROJECT_SOURCE_DIR}/docs/restitute.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()
+
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
+install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 configure_package_config_file(cmake/restitute-config.cmake.in cmake/restitute-config.cmake
                               INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES SANITIZED
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_FORTRAN SANITIZED
 # The working directory is used up.
 set -eu
 
@@ -23,7 +23,7 @@ static) wanted=OFF ;;
 esac
 case $SHARED_LIBS in ON | TRUE | YES | 1) built=ON ;; *) built=OFF ;; esac
 
-rm -rf other first second user user-all missing
+rm -rf other first second user user-all user-fortran missing
 work=$(pwd)
 
 # The build under test is installed where it is of the wanted kind; else another one is made.
@@ -33,7 +33,7 @@ else
     installed_from=$work/other
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
-        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_EXAMPLES=OFF
+        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
 "$CMAKE" --install "$installed_from" --prefix "$work/first"
@@ -56,6 +56,27 @@ echo "== find_package without components takes all that are installed"
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS=
 [ "$WITH_FILES" = OFF ] || "$CMAKE" --build user-all --target consumer_files
 
+if [ "$WITH_FORTRAN" != OFF ]; then
+    echo "== find_package from Fortran alone"
+    "$CMAKE" -S "$SOURCE_DIR/tests/consume/project_fortran" -B user-fortran -G "$GENERATOR" \
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC"
+    "$CMAKE" --build user-fortran
+    user-fortran/consumer_fortran
+
+    echo "== the installed source of the module, for another compiler than ours"
+    (mkdir user-fortran/source && cd user-fortran/source &&
+        "$FC" -c "$prefix/share/restitute/fortran/restitute.f90" \
+            "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90")
+
+    echo "== the module is missed by its name where there is no Fortran"
+    if "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B missing -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_C_COMPILER="$CC" "-DCONSUMER_COMPONENTS=fortran" >missing.log 2>&1; then
+        fail "find_package found the component fortran for a project without Fortran"
+    fi
+    grep "component not installed: fortran" missing.log || { cat missing.log; fail "the message does not name it"; }
+    rm -rf missing
+fi
+
 echo "== a component that is not there is missed by its name"
 if "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B missing -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" "-DCONSUMER_COMPONENTS=core;nowhere" >missing.log 2>&1; then
@@ -77,6 +98,12 @@ static=""
 "$CC" -o user/by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer.c" \
     $(pkg-config --cflags --libs $static restitute) -lm
 user/by_pkg_config
+if [ "$WITH_FORTRAN" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \
+        $(pkg-config --cflags --libs $static restitute-fortran)
+    user/fortran_by_pkg_config
+fi
 if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046
     "$CC" -o user/files_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_files.c" \

@@ -1,10 +1,42 @@
-// The header in C++.
+// A user's program in C++: the header as it is, handles owned by std::unique_ptr.
 // SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+#include <memory>
+
 #include <restitute/restitute.h>
+
+struct release {
+    void operator()(restitute_material *material) const { restitute_material_destroy(material); }
+    void operator()(restitute_solver *solver) const { restitute_solver_destroy(solver); }
+};
+
+// A ball that meets the floor leaves it.
+static bool ball_leaves(restitute_solver *solver, const restitute_material *rubber)
+{
+    restitute_body ball, floor;
+    restitute_contact contact;
+    restitute_body_init(&ball);
+    restitute_body_init(&floor);
+    restitute_contact_init(&contact);
+    floor.radius = std::numeric_limits<double>::infinity();
+    floor.normal[2] = 1;
+    ball.radius = 0.01;
+    ball.mass = 4e-3;
+    ball.position[2] = 0.01;
+    ball.velocity[2] = -2;
+    contact.material = rubber;
+    contact.friction = 0.3;
+    return restitute_collide(solver, &contact, &ball, &floor, nullptr, nullptr) == RESTITUTE_OK && ball.velocity[2] > 0;
+}
 
 int main()
 {
-    double ez = 0, ex = 0;
-    const int status = restitute_pair(7.0 / 6, 2.0, 1.0, 1.0, &ez, &ex, nullptr);
-    return status == RESTITUTE_OK && ez > 0 ? 0 : 1;
+    restitute_material *material = nullptr;
+    restitute_solver *solver = nullptr;
+    if (restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &material, nullptr) != RESTITUTE_OK ||
+        restitute_solver_create(nullptr, &solver, nullptr) != RESTITUTE_OK)
+        return 1;
+    const std::unique_ptr<restitute_material, release> rubber(material);
+    const std::unique_ptr<restitute_solver, release> owner(solver);
+    return ball_leaves(owner.get(), rubber.get()) ? 0 : 1;
 }

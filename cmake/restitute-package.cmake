@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The Debian package that cpack makes: one .deb with all that the install target installs.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME restitute)
+set(CPACK_PACKAGE_CONTACT "The restitute developers <restitute@localhost>" CACHE STRING "Maintainer named in the package")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src/core" "${PROJECT_BINARY_DIR}/src/files")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gfortran")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Restitution pairs of viscoelastic spheres that hit obliquely, with
+friction, by the Method of Dimensionality Reduction: the command
+restitute, the libraries for C and C++, the module for Fortran.")
+include(CPack)

@@ -1,0 +1,91 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A Fortran user's program: every kind of call of the module. Exit status 0 if all is what it should be.
+program consumer
+  use restitute
+  implicit none (type, external)
+  integer, parameter :: rk = restitute_real
+  logical :: good
+  good = no_slip_is_right()
+  good = rubber_ball_rebounds() .and. good
+  good = materials_are_right() .and. good
+  if (.not. good) error stop 1
+
+contains
+
+  !> An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip limit of the
+  !> literature); the default tolerance is 1e-3.
+  function no_slip_is_right() result(good)
+    logical :: good
+    type(restitute_solver) :: solver
+    type(restitute_result) :: result
+    good = restitute_solver_create(solver) == RESTITUTE_OK
+    result = restitute_result()
+    good = good .and. restitute_solve(solver, restitute_impact(), result) == RESTITUTE_OK
+    good = good .and. restitute_method_name(result) == restitute_method_name(restitute_method_euler())
+    good = good .and. abs(result%ez - 1) < 1e-3_rk .and. abs(result%ex - 0.10397_rk) < 1e-3_rk
+    call restitute_solver_destroy(solver)
+    print "(3a, 2f8.5)", "restitute ", restitute_version(), ", elastic without slip:", result%ez, result%ex
+  end function no_slip_is_right
+
+  !> With every optional output, and a refused scene, whose message must name the value.
+  function rubber_ball_rebounds() result(good)
+    logical :: good
+    type(restitute_material) :: rubber
+    type(restitute_options) :: options
+    type(restitute_solver) :: solver
+    type(restitute_scene) :: scene
+    type(restitute_result) :: result
+    type(restitute_ledger) :: ledger
+    type(restitute_history) :: history
+    type(restitute_error) :: error
+    real(rk), target :: time(20), force(20)
+    good = restitute_material_standard_solid(1e6_rk, 2e6_rk, 50.0_rk, 0.5_rk, rubber) == RESTITUTE_OK
+    options = restitute_options()
+    options%tolerance = 1e-2_rk
+    good = good .and. restitute_solver_create(solver, options, error) == RESTITUTE_OK
+    result = restitute_result()
+    ledger = restitute_ledger()
+    call restitute_history_arrays(history, time=time, normal_force=force)
+    scene = restitute_scene()
+    scene%material = rubber
+    scene%radius1 = 0.01_rk
+    scene%mass1 = 4e-3_rk
+    scene%friction = 0.3_rk
+    scene%tangential_speed = 1
+    scene%normal_speed = -2
+    good = good .and. restitute_solve_scene(solver, scene, result, error=error) == RESTITUTE_ERROR_DOMAIN
+    good = good .and. index(restitute_message(error), "normal_speed (m/s) = -2") > 0
+    print "(2a)", "refused: ", restitute_message(error)
+    scene%normal_speed = 2
+    good = good .and. restitute_solve_scene(solver, scene, result, ledger, history, error) == RESTITUTE_OK
+    good = good .and. restitute_message(error) == "" .and. history%count == 20 .and. all(time(2:) > time(:19))
+    good = good .and. maxval(force) > 0 .and. ledger%rebound_z > 0 .and. result%ez > 0 .and. result%ez < 1
+    print "(a, 2f8.4, i4, a)", "rubber ball:", result%ez, result%ex, history%count, " samples"
+    call restitute_solver_destroy(solver)
+    call restitute_material_destroy(rubber)
+  end function rubber_ball_rebounds
+
+  !> Arrays with a stride, arrays of unlike length, and a pair, whose modulus at a time is that of the series.
+  function materials_are_right() result(good)
+    logical :: good
+    real(rk), parameter :: table(2, 2) = reshape([1e-4_rk, 5e6_rk, 1e-2_rk, 1e6_rk], [2, 2])
+    type(restitute_material) :: polymer, pair
+    type(restitute_error) :: error
+    real(rk) :: expected
+    good = restitute_material_prony(0.0_rk, 0.0_rk, table(1, :), table(2, :1), 0.5_rk, polymer, error) == &
+           RESTITUTE_ERROR_DOMAIN
+    good = good .and. index(restitute_message(error), "relaxation_time") > 0
+    good = good .and. restitute_material_prony(1e6_rk, 0.0_rk, table(1, :), table(2, :), 0.5_rk, polymer) == RESTITUTE_OK
+    good = good .and. restitute_material_terms(polymer) == 2
+    expected = 1e6_rk + 5e6_rk*exp(-10.0_rk) + 1e6_rk*exp(-0.1_rk)
+    ! Rounding of three terms and two exponentials.
+    good = good .and. abs(restitute_material_modulus(polymer, 1e-3_rk)/expected - 1) < 1e-14_rk
+    ! A solid in series with itself has half the modulus; the root finder of the series leaves a few digits of rounding.
+    good = good .and. restitute_material_pair(polymer, polymer, pair) == RESTITUTE_OK
+    good = good .and. abs(restitute_material_modulus(pair, 1e-3_rk)/expected - 0.5_rk) < 1e-10_rk
+    good = good .and. abs(restitute_material_dundurs(pair)) < epsilon(1.0_rk)
+    call restitute_material_destroy(pair)
+    call restitute_material_destroy(polymer)
+    call restitute_material_destroy(polymer) ! a second time does no harm
+  end function materials_are_right
+end program consumer
