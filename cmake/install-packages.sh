@@ -15,7 +15,7 @@ case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;
 ci) packages="$run_packages $test_packages clang abigail-tools" ;;
-package) packages="$run_packages dpkg-dev" ;;
+package) packages="$run_packages dpkg-dev file" ;;
 docs) packages="$run_packages doxygen mandoc librsvg2-bin" ;;
 *)
     echo "install-packages: unknown kind '$1': must be run, test, ci, package or docs" >&2

@@ -31,6 +31,7 @@ program prony_polymer
     print "(f5.1, 2(a, f6.3))", speeds(k), " m/s: ez = ", ez, ", ex = ", ex
   end do
   call restitute_material_destroy(polymer)
+  deallocate (tau, modulus)
 
 contains
 
