@@ -25,12 +25,13 @@ extern "C" {
 
 /** What a material file says beside the solid itself. */
 typedef struct restitute_material_info {
-    size_t struct_size;   /**< set by @ref restitute_material_info_init */
-    char name[128];       /**< "name"; for a .csv file the file's name */
-    char source[512];     /**< "source"; empty if the file names none */
-    char model[32];       /**< "elastic", "standard_solid", "kelvin_voigt", "maxwell" or "prony" */
-    double density;       /**< "density_kg_m3"; NaN if the file gives none */
-    uint64_t fingerprint; /**< FNV-1a of all bytes read: another value, another file content */
+    size_t struct_size; /**< set by @ref restitute_material_info_init */
+    char name[128];     /**< "name"; for a .csv file the file's name */
+    char source[512];   /**< "source"; empty if the file names none */
+    char model[32];     /**< "elastic", "standard_solid", "kelvin_voigt", "maxwell" or "prony" */
+    double density;     /**< "density_kg_m3"; NaN if the file gives none */
+    uint64_t
+        fingerprint; /**< of all bytes read (FNV-1a, of a JSON and its CSV combined): another value, another content */
 } restitute_material_info;
 
 /** Prepare with empty texts and density NaN. */
@@ -43,7 +44,7 @@ RESTITUTE_API void restitute_material_info_init(restitute_material_info *info);
  *
  *  `.json`: one object with the keys
  *
- *      name           text, required, at most 127 bytes       source         text, at most 511 bytes
+ *      name           text, required, 1 to 127 bytes          source         text, 1 to 511 bytes
  *      poisson_ratio  required, in [0, 0.5]                   density_kg_m3  > 0
  *      model          required; it decides which further keys are required:
  *        elastic         modulus_pa

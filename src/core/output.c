@@ -39,8 +39,7 @@ struct rst_units rst_units_of(const struct rst_problem *problem, const restitute
 {
     if (!scene) return own_units(problem);
     double nu = restitute_material_poisson_ratio(scene->material);
-    double sliding = fabs(scene->tangential_speed + scene->radius1 * scene->spin1 +
-                          (isinf(scene->radius2) ? 0 : scene->radius2 * scene->spin2));
+    double sliding = fabs(rst_sliding_speed(scene));
     /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is no exception */
     double shear_force = 2 * numbers->mass * (1 - nu) / (2 - nu) * sliding / problem->psi / numbers->time;
     return (struct rst_units){.time = numbers->time,

@@ -60,6 +60,9 @@ extern const double rst_largest_chi;
 /* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
 
+/* Velocity at which the contact point slides before the impact, m/s, with the sign of the scene. */
+double rst_sliding_speed(const restitute_scene *scene);
+
 /* Scene -> numbers and problem. */
 int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numbers, struct rst_problem *problem,
                            restitute_error *error);

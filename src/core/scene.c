@@ -96,6 +96,12 @@ static void standard_numbers(const restitute_material *material, double factor, 
     n->delta2 = n->delta1 > 0 ? n->delta1 * sqrt(n->gamma) : 0;
 }
 
+double rst_sliding_speed(const restitute_scene *scene)
+{
+    double second = isinf(scene->radius2) ? 0 : scene->radius2 * scene->spin2;
+    return scene->tangential_speed + scene->radius1 * scene->spin1 + second;
+}
+
 static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_error *error)
 {
     double nu = s->material->nu;
@@ -110,7 +116,7 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
                                        tangential_mobility(s->mass1, s->radius1, s->inertia1, s->rotation_blocked) +
                                            tangential_mobility(s->mass2, s->radius2, s->inertia2, s->rotation_blocked),
                                        nu);
-    double sliding = s->tangential_speed + s->radius1 * s->spin1 + (isinf(s->radius2) ? 0 : s->radius2 * s->spin2);
+    double sliding = rst_sliding_speed(s);
     n->psi = s->friction <= 0 ? INFINITY : rst_sliding_ratio(sliding, s->friction, s->normal_speed, nu);
     standard_numbers(s->material, pair_factor(s), n);
     if (!(n->length_z > 0) || isinf(n->length_z) || !(n->time > 0) || isinf(n->time) || !(n->force > 0) ||

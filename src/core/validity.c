@@ -26,12 +26,6 @@ static double shear_wave_speed(const restitute_scene *scene, double time)
     return sqrt(restitute_material_modulus(scene->material, time) / density);
 }
 
-static double sliding_speed(const restitute_scene *scene)
-{
-    double second = isinf(scene->radius2) ? 0 : scene->radius2 * scene->spin2;
-    return fabs(scene->tangential_speed + scene->radius1 * scene->spin1 + second);
-}
-
 void rst_judge_validity(const restitute_options *options, const restitute_scene *scene,
                         const restitute_numbers *numbers, const struct rst_outcome *outcome, restitute_result *result)
 {
@@ -43,7 +37,7 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     double radius = outcome->max_contact_radius * numbers->length_x;
     result->speed_ratio = scene->normal_speed / shear_wave_speed(scene, numbers->time);
     result->radius_ratio = radius / numbers->radius;
-    result->displacement_ratio = sliding_speed(scene) * (depth / scene->normal_speed) / radius;
+    result->displacement_ratio = fabs(rst_sliding_speed(scene)) * (depth / scene->normal_speed) / radius;
     result->dundurs_beta = restitute_material_dundurs(scene->material);
     if (result->speed_ratio > options->speed_limit) result->flags |= RESTITUTE_FLAG_FAST;
     if (result->radius_ratio > options->radius_limit) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
