@@ -91,15 +91,15 @@ contains
     call merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
   end subroutine rst_merge_terms
 
-  pure subroutine rst_series_chain(a, m_a, tau_a, b, m_b, tau_b, rate, from_a, from_b, pair, m, tau) &
+  pure subroutine rst_series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau) &
     bind(c, name="rst_series_chain")
     type(chain_type), intent(in) :: a, b
     real(c_double), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n)
-    real(c_double), intent(out) :: rate(a%n + b%n)
+    real(c_double), intent(out) :: times(a%n + b%n)
     integer(c_int64_t), intent(out) :: from_a(a%n + b%n), from_b(a%n + b%n)
     type(chain_type), intent(out) :: pair
     real(c_double), intent(out) :: m(a%n + b%n + 1), tau(a%n + b%n + 1)
-    call series_chain(a, m_a, tau_a, b, m_b, tau_b, rate, from_a, from_b, pair, m, tau)
+    call series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau)
   end subroutine rst_series_chain
 
   pure subroutine rst_scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, sinks) &

@@ -19,39 +19,36 @@ module rst_series
 
 contains
 
-  !> Chains a and b in series: `pair` has at most a%n + b%n + 1 terms, tau ascending. `rate`, `from_a` and `from_b` are workspace:
-  !> the rates of both chains, ascending, and the term of each chain that has that rate, 0 for none.
-  pure subroutine series_chain(a, m_a, tau_a, b, m_b, tau_b, rate, from_a, from_b, pair, m, tau)
+  !> Chains a and b in series: `pair` has at most a%n + b%n + 1 terms, tau ascending. `times`, `from_a` and `from_b` are
+  !> workspace: the times of both chains, descending, and the term of each chain that has that time, 0 for none.
+  pure subroutine series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n)
-    real(dp), intent(out) :: rate(a%n + b%n)
+    real(dp), intent(out) :: times(a%n + b%n)
     integer(ip), intent(out) :: from_a(a%n + b%n), from_b(a%n + b%n)
     type(chain_type), intent(out) :: pair
     real(dp), intent(out) :: m(a%n + b%n + 1), tau(a%n + b%n + 1)
-    integer(ip) :: n_rates, i
-    real(dp) :: low, high
+    integer(ip) :: n_times, i
+    real(dp) :: slow
 
     pair%m_inf = in_series(a%m_inf, b%m_inf)
     pair%eta = in_series(a%eta, b%eta)
     pair%n = 0
-    call merge_rates(a%n, tau_a, b%n, tau_b, rate, from_a, from_b, n_rates)
+    call merge_times(a%n, tau_a, b%n, tau_b, times, from_a, from_b, n_times)
     if (a%eta + b%eta > 0) then  ! the zero above the highest rate; none if both chains have a dashpot and nothing else
-      low = 0
-      if (n_rates > 0) low = rate(n_rates)
-      if (n_rates > 0 .or. a%m_inf + b%m_inf > 0) then
-        high = upper_end(a, m_a, tau_a, b, m_b, tau_b, low)
-        call add_zero(a, m_a, tau_a, b, m_b, tau_b, low, high, pair, m, tau)
+      slow = 0
+      if (n_times > 0) slow = times(n_times)
+      if (n_times > 0 .or. a%m_inf + b%m_inf > 0) then
+        call add_zero(a, m_a, tau_a, b, m_b, tau_b, slow, 1/upper_end(a, m_a, tau_a, b, m_b, tau_b, slow), pair, m, tau)
       end if
     end if
-    do i = n_rates, 1, -1
+    do i = n_times, 1, -1
       if (from_a(i) > 0 .and. from_b(i) > 0) then
-        call add_term(in_series(m_a(from_a(i)), m_b(from_b(i))), rate(i), a%n + b%n + 1, pair, m, tau)
+        call add_term(in_series(m_a(from_a(i)), m_b(from_b(i))), 1/times(i), a%n + b%n + 1, pair, m, tau)
       end if
-      low = 0
-      if (i > 1) low = rate(max(i - 1, 1_ip))
-      if (i > 1 .or. a%m_inf + b%m_inf > 0) then
-        call add_zero(a, m_a, tau_a, b, m_b, tau_b, low, rate(i), pair, m, tau)
-      end if
+      slow = 0
+      if (i > 1) slow = times(max(i - 1, 1_ip))
+      if (i > 1 .or. a%m_inf + b%m_inf > 0) call add_zero(a, m_a, tau_a, b, m_b, tau_b, slow, times(i), pair, m, tau)
     end do
   end subroutine series_chain
 
@@ -62,11 +59,11 @@ contains
     if (x > 0 .and. y > 0) z = x/(x + y)*y
   end function in_series
 
-  !> tau ascends, so the rates are read from behind.
-  pure subroutine merge_rates(n_a, tau_a, n_b, tau_b, rate, from_a, from_b, n)
+  !> tau ascends, so both chains are read from behind.
+  pure subroutine merge_times(n_a, tau_a, n_b, tau_b, times, from_a, from_b, n)
     integer(ip), intent(in) :: n_a, n_b
     real(dp), intent(in) :: tau_a(n_a), tau_b(n_b)
-    real(dp), intent(out) :: rate(n_a + n_b)
+    real(dp), intent(out) :: times(n_a + n_b)
     integer(ip), intent(out) :: from_a(n_a + n_b), from_b(n_a + n_b), n
     integer(ip) :: i, j
     real(dp) :: next_a, next_b
@@ -79,7 +76,7 @@ contains
       if (i > 0) next_a = tau_a(i)
       if (j > 0) next_b = tau_b(j)
       n = n + 1
-      rate(n) = 1/max(next_a, next_b)
+      times(n) = max(next_a, next_b)
       from_a(n) = 0
       from_b(n) = 0
       if (next_a >= next_b) then
@@ -91,81 +88,120 @@ contains
         j = j - 1
       end if
     end do
-  end subroutine merge_rates
+  end subroutine merge_times
 
-  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k), and its derivative with respect to s = -x.
-  pure subroutine evaluate(chain, m, tau, x, value, slope)
+  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k) at x = p (1 + offset), p = 1/tau_p, and its derivative with respect to
+  !> s = -x. Written with the offset from a rate p, it keeps all digits where x is next to p, or p next to another rate.
+  pure subroutine evaluate(chain, m, tau, tau_p, offset, value, slope)
     type(chain_type), intent(in) :: chain
-    real(dp), intent(in) :: m(chain%n), tau(chain%n), x
+    real(dp), intent(in) :: m(chain%n), tau(chain%n), tau_p, offset
     real(dp), intent(out) :: value, slope
     integer(ip) :: k
-    real(dp) :: away
-    value = chain%m_inf - chain%eta*x
+    real(dp) :: ratio, away
+    value = chain%m_inf - chain%eta*((1 + offset)/tau_p)
     slope = chain%eta
     do k = 1, chain%n
-      away = x*tau(k) - 1  ! (x - p) tau
-      value = value + m(k)*(x*tau(k)/away)
+      ratio = tau(k)/tau_p
+      away = (tau(k) - tau_p)/tau_p + offset*ratio  ! x tau_k - 1
+      value = value + m(k)*(ratio*(1 + offset)/away)
       slope = slope + m(k)*(tau(k)/away)/away
     end do
   end subroutine evaluate
 
-  pure function sum_at(a, m_a, tau_a, b, m_b, tau_b, x) result(total)
+  pure function sum_at(a, m_a, tau_a, b, m_b, tau_b, tau_p, offset) result(total)
     type(chain_type), intent(in) :: a, b
-    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), x
+    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), tau_p, offset
     real(dp) :: total
     real(dp) :: value_a, value_b, slope
-    call evaluate(a, m_a, tau_a, x, value_a, slope)
-    call evaluate(b, m_b, tau_b, x, value_b, slope)
+    call evaluate(a, m_a, tau_a, tau_p, offset, value_a, slope)
+    call evaluate(b, m_b, tau_b, tau_p, offset, value_b, slope)
     total = value_a + value_b
   end function sum_at
 
   !> Some x above the highest zero: F -> -eta x there.
-  pure function upper_end(a, m_a, tau_a, b, m_b, tau_b, low) result(x)
+  pure function upper_end(a, m_a, tau_a, b, m_b, tau_b, slow) result(x)
     type(chain_type), intent(in) :: a, b
-    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), low
+    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow
     real(dp) :: x
-    x = max(2*low, (a%m_inf + b%m_inf)/(a%eta + b%eta))
-    do while (sum_at(a, m_a, tau_a, b, m_b, tau_b, x) > 0)
+    x = (a%m_inf + b%m_inf)/(a%eta + b%eta)
+    if (slow > 0) x = max(2/slow, x)
+    do while (sum_at(a, m_a, tau_a, b, m_b, tau_b, 1/x, 0.0_dp) > 0)
       x = 2*x
     end do
   end function upper_end
 
-  !> The zero of F between low and high, by bisection on x - low, which keeps all its digits where the zero is close to a
-  !> rate. F falls. The residue of M there is -M_1^2/(M_1' + M_2'), hence m = M_1^2/(x (M_1' + M_2')).
-  pure subroutine add_zero(a, m_a, tau_a, b, m_b, tau_b, low, high, pair, m, tau)
+  !> The zero of F between the rates 1/slow and 1/fast, as a term of the pair; slow = 0: there is no slower rate. F falls: its
+  !> sign in the middle tells which end is nearer. The zero is sought by its offset from that end, in the logarithm, since a
+  !> stiff partner or a neighbouring rate puts it as close as 1e-30 of a rate. The residue of M there is
+  !> -M_1^2/(M_1' + M_2'), hence m = M_1^2/(x (M_1' + M_2')).
+  pure subroutine add_zero(a, m_a, tau_a, b, m_b, tau_b, slow, fast, pair, m, tau)
     type(chain_type), intent(in) :: a, b
-    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), low, high
+    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow, fast
     type(chain_type), intent(inout) :: pair
     real(dp), intent(inout) :: m(a%n + b%n + 1), tau(a%n + b%n + 1)
-    real(dp) :: left, right, x, value_a, value_b, slope_a, slope_b, modulus
-    integer(ip) :: i
-    left = low
-    right = high
-    do i = 1, 2000
-      x = middle(left, right)
-      if (x <= left .or. x >= right) exit
-      if (sum_at(a, m_a, tau_a, b, m_b, tau_b, x) > 0) then
-        left = x
-      else
-        right = x
-      end if
-    end do
-    call evaluate(a, m_a, tau_a, x, value_a, slope_a)
-    call evaluate(b, m_b, tau_b, x, value_b, slope_b)
-    modulus = (value_a/x)*(-value_b/(slope_a + slope_b))
-    call add_term(modulus, x, a%n + b%n + 1, pair, m, tau)
+    real(dp) :: tau_p, side, offset, gap, value_a, value_b, slope_a, slope_b, x
+
+    gap = 1  ! distance of the rates over the faster one
+    if (slow > 0) gap = (slow - fast)/slow
+    if (sum_at(a, m_a, tau_a, b, m_b, tau_b, fast, -0.5_dp*gap) > 0) then
+      tau_p = fast
+      side = -1
+      offset = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, gap)
+    else if (slow > 0) then
+      tau_p = slow
+      side = 1
+      offset = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, (slow - fast)/fast)
+    else
+      tau_p = search_slow(a, m_a, tau_a, b, m_b, tau_b, fast)
+      side = 1
+      offset = 0
+    end if
+    x = (1 + side*offset)/tau_p
+    call evaluate(a, m_a, tau_a, tau_p, side*offset, value_a, slope_a)
+    call evaluate(b, m_b, tau_b, tau_p, side*offset, value_b, slope_b)
+    call add_term((value_a/x)*(-value_b/(slope_a + slope_b)), x, a%n + b%n + 1, pair, m, tau)
   end subroutine add_zero
 
-  !> Geometric middle where the ends are decades apart, arithmetic where they are close.
-  pure function middle(left, right) result(x)
-    real(dp), intent(in) :: left, right
-    real(dp) :: x
-    if (right > 4*left) then
-      x = sqrt(max(left, right*1.0e-30_dp))*sqrt(right)
-    else
-      x = left + 0.5_dp*(right - left)
-    end if
-  end function middle
+  !> Offset of the zero from the rate 1/tau_p, up to `reach` above it (side 1) or below it (side -1).
+  pure function search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, reach) result(offset)
+    type(chain_type), intent(in) :: a, b
+    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), tau_p, side, reach
+    real(dp) :: offset
+    real(dp), parameter :: closest = 1.0e-140_dp  !! its square does not leave the range of a double
+    real(dp) :: near, far
+    integer(ip) :: i
+    near = closest
+    far = reach
+    do i = 1, 200
+      offset = sqrt(near)*sqrt(far)
+      if (offset <= near .or. offset >= far) exit
+      if (side*sum_at(a, m_a, tau_a, b, m_b, tau_b, tau_p, side*offset) > 0) then
+        near = offset
+      else
+        far = offset
+      end if
+    end do
+  end function search
+
+  !> 1/x of a zero below half of the slowest rate 1/fast: there x itself is sought, in the logarithm.
+  pure function search_slow(a, m_a, tau_a, b, m_b, tau_b, fast) result(tau_p)
+    type(chain_type), intent(in) :: a, b
+    real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), fast
+    real(dp) :: tau_p
+    real(dp) :: near, far
+    integer(ip) :: i
+    near = fast
+    far = fast*1.0e140_dp
+    do i = 1, 200
+      tau_p = sqrt(near)*sqrt(far)
+      if (tau_p <= near .or. tau_p >= far) exit
+      if (sum_at(a, m_a, tau_a, b, m_b, tau_b, tau_p, 0.0_dp) > 0) then
+        far = tau_p
+      else
+        near = tau_p
+      end if
+    end do
+  end function search_slow
 
   !> A term too weak for its zero to be told from a neighbouring rate has no positive modulus, and is none.
   pure subroutine add_term(modulus, x, capacity, pair, m, tau)

@@ -722,11 +722,11 @@ contains
   end function restitute_collide
 
   !> A history that goes into the arrays given; capacity is the length of the shortest. They must be targets that live
-  !> as long as the history is used.
+  !> as long as the history is used. An array with a stride is refused: the capacity is then 0, which no solver takes.
   subroutine restitute_history_arrays(history, time, indentation, contact_radius, stick_radius, normal_force, &
                                       tangential_force, normal_velocity, tangential_velocity)
     type(restitute_history), intent(out) :: history
-    real(c_double), intent(in), optional, contiguous, target, dimension(:) :: time, indentation, contact_radius, &
+    real(c_double), intent(in), optional, target, dimension(:) :: time, indentation, contact_radius, &
       stick_radius, normal_force, tangential_force, normal_velocity, tangential_velocity
     call restitute_history_init(history)
     history%capacity = huge(history%capacity)
@@ -741,11 +741,15 @@ contains
     if (history%capacity == huge(history%capacity)) history%capacity = 0
   contains
     subroutine give(array, place)
-      real(c_double), intent(in), optional, contiguous, target :: array(:)
+      real(c_double), intent(in), optional, target :: array(:)
       type(c_ptr), intent(inout) :: place
       if (.not. present(array)) return
       place = c_null_ptr
-      if (size(array) > 0) place = c_loc(array)
+      if (.not. is_contiguous(array)) then ! C could not fill it: the solver refuses a capacity of 0
+        history%capacity = 0
+        return
+      end if
+      if (size(array) > 0) place = c_loc(array(1))
       history%capacity = min(history%capacity, size(array, kind=c_size_t))
     end subroutine give
   end subroutine restitute_history_arrays

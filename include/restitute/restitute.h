@@ -193,7 +193,8 @@ typedef struct restitute_scene {
     double normal_speed;                /**< m/s, approaching, > 0; required, default 0 */
     double tangential_speed;            /**< m/s, of the centres; default 0 */
     double spin1, spin2;                /**< rad/s, see above; default 0. spin2 must be 0 for a wall */
-    double density;                     /**< kg/m^3 of what deforms, for its wave speed; default 0: that of sphere 1 */
+    double density;                     /**< kg/m^3 of what deforms, for its wave speed; default 0: that of the denser
+                                           sphere */
 } restitute_scene;
 
 /** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
@@ -389,7 +390,8 @@ RESTITUTE_API void restitute_contact_init(restitute_contact *contact);
 /** One impact of two bodies: `first` and `second` get the velocities and spins that they have after it; positions stay.
  *
  *  The impact is in the plane of the normal and of the sliding direction; what twists about the normal is untouched. Linear
- *  and angular momentum are conserved to rounding (a plane and a body held fast take what they get).
+ *  and angular momentum are conserved to rounding (a plane and a body held fast take what they get); angular momentum for
+ *  bodies that touch: with a gap or an overlap it misses gap times the tangential impulse, since each body is struck at its radius.
  *
  *  @param first,second  in: before, out: after the impact. One may be a plane
  *  @param result        optional: the pair, its errors, ratios and flags, in SI units

@@ -113,7 +113,7 @@ struct frame {
 static vector direction(vector a, vector fallback)
 {
     double size = length(a);
-    return size > 0 ? combine(1 / size, a, 0, a) : fallback;
+    return size > 0 ? (vector){{a.x[0] / size, a.x[1] / size, a.x[2] / size}} : fallback;
 }
 
 /* Any unit vector across n. */
@@ -141,7 +141,8 @@ static struct frame frame_of(const restitute_body *a, const restitute_body *b)
         f.reach = a->radius + b->radius;
     }
     vector velocity = combine(1, from(a->velocity), -1, from(b->velocity));
-    vector rolling = combine(a->radius, from(a->spin), is_plane(b) ? 0 : b->radius, from(b->spin));
+    vector rolling = combine(a->radius, from(a->spin), 0, from(a->spin));
+    if (!is_plane(b)) rolling = combine(1, rolling, b->radius, from(b->spin));
     vector point = combine(1, velocity, 1, cross(rolling, f.n));
     f.approach = dot(velocity, f.n);
     vector tangential = combine(1, point, -dot(point, f.n), f.n);
@@ -215,6 +216,13 @@ static void strike(restitute_body *body, double side, const struct frame *f, vec
     }
 }
 
+static int all_finite(const restitute_body *body)
+{
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(body->velocity[i]) || (!is_plane(body) && !isfinite(body->spin[i]))) return 0;
+    return 1;
+}
+
 /* `a` can move. */
 static int collide(restitute_solver *solver, const restitute_contact *contact, restitute_body *a, restitute_body *b,
                    restitute_result *result, restitute_error *error)
@@ -229,8 +237,14 @@ static int collide(restitute_solver *solver, const restitute_contact *contact, r
     double normal = (1 + result->ez) * f.approach / inverse_mass;
     double tangential = (1 + result->ex) * f.sliding / (mobility_of(a) + mobility_of(b));
     vector impulse = combine(-normal, f.n, -tangential, f.t);
-    strike(a, 1, &f, impulse);
-    strike(b, -1, &f, combine(-1, impulse, 0, impulse));
+    restitute_body after_a = *a, after_b = *b;
+    strike(&after_a, 1, &f, impulse);
+    strike(&after_b, -1, &f, combine(-1, impulse, 0, impulse));
+    if (!all_finite(&after_a) || !all_finite(&after_b))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "velocities and spins after the impact: leave the range of a double");
+    *a = after_a;
+    *b = after_b;
     return status;
 }
 

@@ -63,7 +63,7 @@ double rst_plane_profile(double x, double radius);
 void rst_merge_terms(double chi, double window, double depth, double allowed, double *g_inf, double *eta,
                      int64_t *n_terms, double *g, double *tau, double *slow_rate, double *fast_bound);
 void rst_series_chain(const struct rst_chain *a, const double *m_a, const double *tau_a, const struct rst_chain *b,
-                      const double *m_b, const double *tau_b, double *rate, int64_t *from_a, int64_t *from_b,
+                      const double *m_b, const double *tau_b, double *times, int64_t *from_a, int64_t *from_b,
                       struct rst_chain *pair, double *m, double *tau);
 void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                            int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,

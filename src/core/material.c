@@ -78,6 +78,7 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
     m->eta = parallel_viscosity;
     m->nu = poisson_ratio;
     m->beta = 0;
+    m->is_pair = 0;
     m->n_terms = n_terms;
     m->tau = m->values;
     m->g = m->values + n_terms;

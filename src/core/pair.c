@@ -9,7 +9,7 @@
 
 /* Workspace of the series and its result, in one block. */
 struct scratch {
-    double *m_a, *m_b, *rate, *m, *tau;
+    double *m_a, *m_b, *times, *m, *tau;
     int64_t *from_a, *from_b;
 };
 
@@ -23,7 +23,7 @@ static int allocate(size_t n, struct scratch *s)
         return 1;
     }
     s->m_a = block; /* both chains' moduli need n values together */
-    s->rate = block + n;
+    s->times = block + n;
     s->m = block + 2 * n;
     s->tau = block + 3 * n + 1;
     s->from_a = origins;
@@ -64,6 +64,23 @@ static void elastic_constants(const restitute_material *a, const restitute_mater
     *beta = ((1 - 2 * a->nu) * ja - (1 - 2 * b->nu) * jb) / (2 * normal);
 }
 
+/* The moduli of the pair at first and for ever must be those of two springs in series: a lost term would show. 1e-9: rounding of
+ * the sum, with room. */
+static int is_sound(const struct rst_chain *a, const double *m_a, const struct rst_chain *b, const double *m_b,
+                    const struct rst_chain *pair, const double *m)
+{
+    double first_a = a->m_inf, first_b = b->m_inf, first = pair->m_inf;
+    for (int64_t k = 0; k < a->n; k++)
+        first_a += m_a[k];
+    for (int64_t k = 0; k < b->n; k++)
+        first_b += m_b[k];
+    for (int64_t k = 0; k < pair->n; k++)
+        first += m[k];
+    if (a->eta > 0 && b->eta > 0) return 1; /* rigid at first; the viscosities are in series by construction */
+    double expected = a->eta > 0 ? first_b : b->eta > 0 ? first_a : first_a / (first_a + first_b) * first_b;
+    return fabs(first - expected) <= 1e-9 * expected;
+}
+
 int restitute_material_pair(const restitute_material *material1, const restitute_material *material2,
                             restitute_material **pair, restitute_error *error)
 {
@@ -72,6 +89,9 @@ int restitute_material_pair(const restitute_material *material1, const restitute
                           !material1   ? "material1"
                           : !material2 ? "material2"
                                        : "pair");
+    if (material1->is_pair || material2->is_pair)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is a pair of materials already",
+                          material1->is_pair ? "material1" : "material2");
     struct scratch s;
     struct rst_chain chain;
     double nu, beta;
@@ -79,8 +99,13 @@ int restitute_material_pair(const restitute_material *material1, const restitute
     if (allocate(n, &s)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", n);
     s.m_b = s.m_a + material1->n_terms;
     struct rst_chain a = plane_chain(material1, s.m_a), b = plane_chain(material2, s.m_b);
-    rst_series_chain(&a, s.m_a, material1->tau, &b, s.m_b, material2->tau, s.rate, s.from_a, s.from_b, &chain, s.m,
+    rst_series_chain(&a, s.m_a, material1->tau, &b, s.m_b, material2->tau, s.times, s.from_a, s.from_b, &chain, s.m,
                      s.tau);
+    if (!is_sound(&a, s.m_a, &b, s.m_b, &chain, s.m)) {
+        free(s.m_a);
+        free(s.from_a);
+        return rst_report(error, RESTITUTE_ERROR_INTERNAL, "the series of %zu terms lost a part of its modulus", n);
+    }
     elastic_constants(material1, material2, &nu, &beta);
 
     double factor = (1 - nu) / 2;
@@ -93,6 +118,7 @@ int restitute_material_pair(const restitute_material *material1, const restitute
     free(s.from_a);
     if (status) return status;
     made->beta = beta;
+    made->is_pair = 1;
     *pair = made;
     return RESTITUTE_OK;
 }

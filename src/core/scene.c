@@ -49,6 +49,10 @@ static int check_scene(const restitute_scene *s, restitute_error *error)
     if (s->deformable != RESTITUTE_ONE_BODY_DEFORMS && s->deformable != RESTITUTE_BOTH_BODIES_DEFORM)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "deformable = %d: must be 1 (one body deforms) or 2 (both deform)", s->deformable);
+    if (s->deformable == RESTITUTE_BOTH_BODIES_DEFORM && s->material->is_pair)
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "deformable = 2: must be 1 with a material from restitute_material_pair, which is the solid of both");
     status = check_bodies(s, error);
     if (!status) status = rst_check_range(s->friction, 0, INFINITY, "friction", error);
     if (!status) status = rst_check_positive(s->normal_speed, 0, "normal_speed (m/s)", error);

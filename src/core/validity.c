@@ -17,12 +17,24 @@ const char *restitute_flag_text(int flag)
     }
 }
 
+static double sphere_density(double mass, double radius)
+{
+    return mass / (4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius);
+}
+
+/* The slower waves are those of the denser body; a wall or a body held fast has no density that is known. */
+static double denser_sphere(const restitute_scene *scene)
+{
+    double first = isinf(scene->mass1) ? 0 : sphere_density(scene->mass1, scene->radius1);
+    return isinf(scene->mass2) || isinf(scene->radius2) ? first
+                                                        : fmax(first, sphere_density(scene->mass2, scene->radius2));
+}
+
 /* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves do
  * not travel: the ratio is infinite. */
 static double shear_wave_speed(const restitute_scene *scene, double time)
 {
-    const double sphere = 4.0 / 3.0 * 3.14159265358979323846 * scene->radius1 * scene->radius1 * scene->radius1;
-    double density = scene->density > 0 ? scene->density : scene->mass1 / sphere;
+    double density = scene->density > 0 ? scene->density : denser_sphere(scene);
     return sqrt(restitute_material_modulus(scene->material, time) / density);
 }
 
@@ -39,8 +51,8 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     result->radius_ratio = radius / numbers->radius;
     result->displacement_ratio = fabs(rst_sliding_speed(scene)) * (depth / scene->normal_speed) / radius;
     result->dundurs_beta = restitute_material_dundurs(scene->material);
-    if (result->speed_ratio > options->speed_limit) result->flags |= RESTITUTE_FLAG_FAST;
-    if (result->radius_ratio > options->radius_limit) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
-    if (result->displacement_ratio > options->displacement_limit) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
-    if (fabs(result->dundurs_beta) > options->dundurs_limit) result->flags |= RESTITUTE_FLAG_COUPLED;
+    if (!(result->speed_ratio <= options->speed_limit)) result->flags |= RESTITUTE_FLAG_FAST;
+    if (!(result->radius_ratio <= options->radius_limit)) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
+    if (!(result->displacement_ratio <= options->displacement_limit)) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
+    if (!(fabs(result->dundurs_beta) <= options->dundurs_limit)) result->flags |= RESTITUTE_FLAG_COUPLED;
 }

@@ -212,6 +212,7 @@ static void plane_is_a_sphere_held_fast_of_infinite_radius(void **state)
     ball.velocity[0] = 1, ball.velocity[1] = -2, ball.velocity[2] = -1.5;
     floor.radius = INFINITY, floor.normal[2] = 5;
     floor.velocity[0] = 1; /* a moving belt */
+    floor.spin[1] = NAN;   /* not used for a plane */
     CHECK(restitute_collide(solver, &contact, &floor, &ball, &result, NULL) == RESTITUTE_OK, "collide");
     CHECK_NEAR(ball.velocity[2], 1.5 * result.ez, 1e-15, "rebound");
     CHECK_NEAR(ball.velocity[0], 1, 1e-15, "the belt moves with the ball along x");

@@ -38,7 +38,7 @@ sections() {
 
 # check DIRECTORY: prints what is wrong; status 1 if anything is. The count of links is left in the file `count`.
 check() {
-    find "$1" \( -name .git -o -name build -o -name '*-results' \) -prune -o -name '*.md' -print | sort | links >all_links
+    find "$1" \( -name .git -o -name build -o -name '*-results' -o -type d -exec test -e '{}/CMakeCache.txt' \; \) -prune -o -name '*.md' -print | sort | links >all_links
     wc -l <all_links | tr -d ' ' >count
     wrong=0
     tab=$(printf '\t')

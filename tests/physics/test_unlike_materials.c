@@ -175,6 +175,58 @@ static void a_hard_partner_is_nearly_rigid(void **state)
     restitute_material_destroy(pair);
 }
 
+/* Rates next to each other, and a partner that is rigid for all that a double knows: each term survives, and the pair is
+ * half of it, or the soft one. 1e-12: rounding of a sum of a few terms. */
+static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state)
+{
+    (void)state;
+    const double steps[] = {0, 2.3e-16, 1e-15, 1e-14, 1e-12, 1e-9};
+    for (int i = 0; i < 6; i++) {
+        struct chain first = {1e4, 1, {1e6}, {3e-3}}, second = {1e4, 1, {1e6}, {3e-3 * (1 + steps[i])}};
+        restitute_material *a = material_of(&first, 0.5), *b = material_of(&second, 0.5), *pair = pair_of(a, b);
+        for (double t = 1e-5; t < 1; t *= 10) {
+            double half = 0.5 * restitute_material_modulus(a, t);
+            CHECK_NEAR(restitute_material_modulus(pair, t), half, (1e-12 + 10 * steps[i] * t / 3e-3) * half,
+                       "step %g at %g", steps[i], t);
+        }
+        restitute_material_destroy(a);
+        restitute_material_destroy(b);
+        restitute_material_destroy(pair);
+    }
+    for (double ratio = 1e10; ratio < 1e31; ratio *= 1e5) {
+        struct chain polymer = {1e4, 3, {1e8, 1e6, 1e5}, {1e-6, 1e-3, 1e-1}}, hard = {1e8 * ratio, 0, {0}, {0}};
+        restitute_material *a = material_of(&polymer, 0.5), *b = material_of(&hard, 0.5), *pair = pair_of(a, b);
+        for (double t = 1e-8; t < 1e3; t *= 10) {
+            double soft = restitute_material_modulus(a, t);
+            CHECK_NEAR(restitute_material_modulus(pair, t), soft, (1e-12 + 10 / ratio) * soft, "ratio %g at %g", ratio,
+                       t);
+        }
+        restitute_material_destroy(a);
+        restitute_material_destroy(b);
+        restitute_material_destroy(pair);
+    }
+}
+
+/* The solid of two bodies is no body of its own. */
+static void a_pair_is_not_halved_or_paired_again(void **state)
+{
+    (void)state;
+    struct chain c = {1e6, 0, {0}, {0}};
+    restitute_material *m = material_of(&c, 0.3), *pair = pair_of(m, m), *again = NULL;
+    restitute_error error;
+    restitute_scene scene;
+    double ez, ex;
+    CHECK(restitute_material_pair(pair, m, &again, &error) == RESTITUTE_ERROR_DOMAIN && again == NULL,
+          "pair of a pair");
+    restitute_scene_init(&scene);
+    scene.material = pair;
+    scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    scene.radius1 = scene.mass1 = scene.normal_speed = 1;
+    CHECK(restitute_scene_pair(&scene, &ez, &ex, &error) == RESTITUTE_ERROR_DOMAIN, "both deform");
+    restitute_material_destroy(m);
+    restitute_material_destroy(pair);
+}
+
 static void dashpots_and_bad_arguments(void **state)
 {
     (void)state;
@@ -204,6 +256,8 @@ int main(void)
         cmocka_unit_test(a_pair_of_one_material_is_half_of_it),
         cmocka_unit_test(steel_on_glass_has_the_usual_constants),
         cmocka_unit_test(a_hard_partner_is_nearly_rigid),
+        cmocka_unit_test(no_term_is_lost_at_neighbouring_rates_or_extreme_ratios),
+        cmocka_unit_test(a_pair_is_not_halved_or_paired_again),
         cmocka_unit_test(dashpots_and_bad_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
