@@ -1,6 +1,6 @@
 !> All procedures that C calls, under their C names, and nothing else. Arguments are described where they are computed.
 module rst_c_interfaces
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_funptr, c_f_procpointer
   use rst_relaxation, only: relaxation_modulus, step_coefficients, largest_stable_step
   use rst_dimensionless, only: elastic_contact_radius, tangential_mass_ratio, sliding_ratio, damping_modulus, critical_psi, &
                                theta_from_delta1
@@ -9,6 +9,9 @@ module rst_c_interfaces
   use rst_profile, only: plane_profile
   use rst_compression, only: scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
+  use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
+  use rst_sync_elements, only: element_loop, term_type, columns
+  use rst_sync_shear, only: sync_scene_type => scene_type, shear_type, follow_shear
   implicit none (type, external)
   private
 contains
@@ -132,4 +135,51 @@ contains
     type(state_type), intent(inout) :: state
     call advance_impact(scene, g, tau, decay, gain, x2, f, yz, u, yx, q, slip, move, q_before, n_steps, state)
   end subroutine rst_advance_impact
+
+  pure function rst_likely_depth(g_inf, eta, n_terms, g, tau) result(depth) bind(c, name="rst_likely_depth")
+    real(c_double), intent(in), value :: g_inf, eta
+    integer(c_int64_t), intent(in), value :: n_terms
+    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
+    real(c_double) :: depth
+    depth = likely_depth(g_inf, eta, n_terms, g, tau)
+  end function rst_likely_depth
+
+  pure subroutine rst_choose_grid(g_inf, eta, n_terms, g, tau, grid) bind(c, name="rst_choose_grid")
+    real(c_double), intent(in), value :: g_inf, eta
+    integer(c_int64_t), intent(in), value :: n_terms
+    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
+    type(grid_type), intent(out) :: grid
+    grid = choose_grid(g_inf, eta, n_terms, g, tau)
+  end subroutine rst_choose_grid
+
+  pure subroutine rst_normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, level, memory, loading, node, failed) &
+    bind(c, name="rst_normal_levels")
+    type(grid_type), intent(in) :: grid
+    real(c_double), intent(in), value :: g_inf, eta, closeness
+    integer(c_int64_t), intent(in), value :: n_terms, n
+    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
+    type(level_type), intent(out) :: level(0:2*n)
+    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    type(node_type), intent(out) :: node(0:n)
+    integer(c_int64_t), intent(out) :: failed
+    logical :: fails
+    call normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, level, memory, loading, node, fails)
+    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
+  end subroutine rst_normal_levels
+
+  subroutine rst_follow_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, state) &
+    bind(c, name="rst_follow_shear")
+    type(sync_scene_type), intent(in) :: scene
+    type(c_funptr), intent(in), value :: elements
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
+    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    type(shear_type), intent(out) :: state
+    procedure(element_loop), pointer :: loop
+    call c_f_procpointer(elements, loop)
+    call follow_shear(scene, loop, g, tau, level, memory, node, body, beta, faded, term, state)
+  end subroutine rst_follow_shear
 end module rst_c_interfaces

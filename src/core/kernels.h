@@ -47,6 +47,43 @@ struct rst_chain {
     int64_t n;
 };
 
+/* Twins of grid_type, level_type and node_type of fortran/sync_levels.f90. */
+struct sync_grid {
+    double radius, start, turn;
+};
+struct sync_level {
+    double time, depth, velocity, force;
+};
+struct sync_node {
+    double radius, width;
+};
+
+/* Twins of scene_type and shear_type of fortran/sync_shear.f90. */
+struct sync_scene {
+    double chi, psi, g_inf, eta;
+    int64_t n_terms, n, capacity;
+    int64_t no_slip;
+};
+struct sync_shear {
+    double time, shift, velocity, force, step_before, force_before, stick_radius;
+    double weight, x2, passive_weight, passive_alpha;
+    int64_t level, first, front, updates;
+};
+
+/* Twin of term_type of fortran/sync_elements.f90. */
+struct sync_term {
+    double decay, from_start, from_end, from_bend, stress, next_stress;
+    double faded_sum, beta_sum, faded_guard, beta_guard;
+};
+
+/* The loop over elements, which only Fortran calls, and the layout of its arrays. */
+struct sync_step;
+struct sync_sums;
+typedef void sync_loop(const struct sync_step *step, int64_t trial, const struct sync_term *term, double *body,
+                       double *beta, double *faded, struct sync_sums *sums);
+sync_loop rst_sync_lanes_any;
+enum { rst_sync_lanes = 8, rst_sync_columns = 4 };
+
 double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
 void rst_step_coefficients(double h, int64_t n_terms, const double *g, const double *tau, double *decay, double *gain);
 double rst_largest_stable_step(double coupling, double g_inf, double eta, int64_t n_terms, const double *g,
@@ -73,5 +110,15 @@ void rst_start_impact(const struct euler_scene *scene, struct euler_state *state
 void rst_advance_impact(const struct euler_scene *scene, const double *g, const double *tau, const double *decay,
                         const double *gain, const double *x2, double *f, double *yz, double *u, double *yx, double *q,
                         double *slip, double *move, double *q_before, int64_t n_steps, struct euler_state *state);
+
+double rst_likely_depth(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau);
+void rst_choose_grid(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
+                     struct sync_grid *grid);
+void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
+                       const double *tau, int64_t n, double closeness, struct sync_level *level, double *memory,
+                       double *loading, struct sync_node *node, int64_t *failed);
+void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
+                      const struct sync_level *level, const double *memory, const struct sync_node *node, double *body,
+                      double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
 
 #endif

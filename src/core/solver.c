@@ -9,6 +9,7 @@
 #include "method.h"
 #include "output.h"
 #include "status.h"
+#include "sync.h"
 #include "validity.h"
 
 struct restitute_solver {
@@ -27,6 +28,11 @@ static const double contact_in_compressions = 6;
 const restitute_method *restitute_method_euler(void)
 {
     return &rst_method_euler;
+}
+
+const restitute_method *restitute_method_sync(void)
+{
+    return &rst_method_sync;
 }
 
 const char *restitute_method_name(const restitute_method *method)
@@ -79,6 +85,7 @@ int restitute_solver_create(const restitute_options *options, restitute_solver *
     restitute_solver *s = calloc(1, sizeof *s);
     if (!s) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a solver");
     s->options = chosen;
+    s->workspace.loop = rst_sync_lanes_any;
     *solver = s;
     return rst_done(error);
 }

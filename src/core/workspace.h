@@ -6,11 +6,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "kernels.h"
+
 struct rst_workspace {
     double *terms; /* term_arrays times n_terms values: g, tau, decay, gain, stress */
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;
+    sync_loop *loop; /* of the method sync, the widest that this processor has */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */

@@ -1,0 +1,100 @@
+!> Fading memory over one step: int_0^x exp(-(x-t)/tau) y(t) dt in closed form for polynomials y, for any tau.
+!>
+!> phi_1(z) = (1-exp(-z))/z, phi_2 = (1-phi_1)/z, phi_3 = (1/2-phi_2)/z with z = x/tau: finite for tau -> 0 (the dashpot
+!> limit) and tau -> infinity (the elastic one), so that no relaxation time limits a step.
+module rst_memory
+  use rst_precision, only: dp, ip
+  implicit none (type, external)
+  private
+  public :: memory_type, memory_of, parabola_type, parabola_through, remembered, integrated, integrated_twice, &
+            own_share, own_memory
+
+  !> exp(-z) and the phi functions.
+  type :: memory_type
+    real(dp) :: decay, phi1, phi2, phi3
+  end type memory_type
+
+  !> y(t) = start + slope t + bend t (t - middle)
+  type :: parabola_type
+    real(dp) :: start, slope, bend, middle
+  end type parabola_type
+
+contains
+
+  elemental function memory_of(z) result(m)
+    real(dp), intent(in) :: z
+    type(memory_type) :: m
+    real(dp), parameter :: series_below = 0.5_dp  !! beyond, the closed form loses less than two digits
+    if (z < series_below) then
+      m%phi3 = (1 - z/4*(1 - z/5*(1 - z/6*(1 - z/7*(1 - z/8*(1 - z/9*(1 - z/10*(1 - z/11*(1 - z/12))))))))) /6
+      m%phi2 = 0.5_dp - z*m%phi3
+      m%phi1 = 1 - z*m%phi2
+      m%decay = 1 - z*m%phi1
+    else
+      m%decay = exp(-z)
+      m%phi1 = (1 - m%decay)/z
+      m%phi2 = (1 - m%phi1)/z
+      m%phi3 = (0.5_dp - m%phi2)/z
+    end if
+  end function memory_of
+
+  !> Through (0, y0), (x1, y1), (x2, y2).
+  pure function parabola_through(x1, x2, y0, y1, y2) result(p)
+    real(dp), intent(in) :: x1, x2, y0, y1, y2
+    type(parabola_type) :: p
+    p%start = y0
+    p%slope = (y1 - y0)/x1
+    p%bend = ((y2 - y1)/(x2 - x1) - p%slope)/x2
+    p%middle = x1
+  end function parabola_through
+
+  !> int_0^x exp(-(x-t)/tau) p(t) dt, m = memory_of(x/tau)
+  pure function remembered(m, x, p) result(y)
+    type(memory_type), intent(in) :: m
+    real(dp), intent(in) :: x
+    type(parabola_type), intent(in) :: p
+    real(dp) :: y
+    y = x*(p%start*m%phi1 + x*((p%slope - p%bend*p%middle)*m%phi2 + 2*x*p%bend*m%phi3))
+  end function remembered
+
+  !> int_0^x p(t) dt
+  pure function integrated(x, p) result(y)
+    real(dp), intent(in) :: x
+    type(parabola_type), intent(in) :: p
+    real(dp) :: y
+    y = x*(p%start + x*((p%slope - p%bend*p%middle)/2 + x*p%bend/3))
+  end function integrated
+
+  !> int_0^x (x-t) p(t) dt
+  pure function integrated_twice(x, p) result(y)
+    real(dp), intent(in) :: x
+    type(parabola_type), intent(in) :: p
+    real(dp) :: y
+    y = x*x*(p%start/2 + x*((p%slope - p%bend*p%middle)/6 + x*p%bend/12))
+  end function integrated_twice
+
+  !> Derivative of int_0^x p dt by the value of p at x itself; x is the q-th of the points x(1), x(2).
+  pure function own_share(q, x) result(share)
+    integer(ip), intent(in) :: q
+    real(dp), intent(in) :: x(2)
+    real(dp) :: share
+    if (q == 1) then
+      share = x(1)/2 + x(1)**2/(6*(x(2) - x(1)))
+    else
+      share = x(2)*(x(2)/3 - x(1)/2)/(x(2) - x(1))
+    end if
+  end function own_share
+
+  !> The same of remembered(m, x, p).
+  pure function own_memory(m, q, x) result(share)
+    type(memory_type), intent(in) :: m
+    integer(ip), intent(in) :: q
+    real(dp), intent(in) :: x(2)
+    real(dp) :: share
+    if (q == 1) then
+      share = x(1)*(x(2)*m%phi2 - 2*x(1)*m%phi3)/(x(2) - x(1))
+    else
+      share = x(2)*(2*x(2)*m%phi3 - x(1)*m%phi2)/(x(2) - x(1))
+    end if
+  end function own_memory
+end module rst_memory

@@ -1,0 +1,51 @@
+!> What the loop over elements of the method `sync` takes and gives; the loop itself is in sync_lanes.F90.
+module rst_sync_elements
+  use rst_precision, only: dp, ip
+  implicit none (type, external)
+  private
+  public :: step_type, sums_type, term_type, element_loop, lanes
+  public :: column_x2, column_weight, column_alpha, column_kappa, columns
+
+  integer(ip), parameter :: lanes = 8  !! element arrays are padded to a multiple of it
+
+  !> Columns of the array of elements: G_inf X^2, weight of the trapezoidal rule, alpha, slip velocity kappa.
+  integer(ip), parameter :: column_x2 = 1, column_weight = 2, column_alpha = 3, column_kappa = 4, columns = 4
+
+  !> A step from level to level, as all elements see it. Of the slip velocity before, the share 1 - drop goes on.
+  type, bind(c) :: step_type
+    real(dp) :: h
+    real(dp) :: q, f               !! Q, and f + G_inf X^2 of an element that forgets nothing
+    real(dp) :: spring             !! G_inf h/2
+    real(dp) :: start_response, end_response  !! of a force to the velocities at both ends of the step
+    real(dp) :: drop
+    integer(ip) :: first, last     !! nodes to be moved; first is a multiple of lanes
+    integer(ip) :: n_terms, capacity
+  end type step_type
+
+  !> A relaxation time in a step: y <- decay y + from_start v_0 + from_end v_1 + from_bend b for the velocity
+  !> v_0 (1-x/h) + v_1 x/h + b x (x-h); M of the contact point at both ends of the step; weighted sums of `faded` over all
+  !> nodes in contact and of beta over the passive ones; both of the outermost passive node.
+  type, bind(c) :: term_type
+    real(dp) :: decay, from_start, from_end, from_bend, stress, next_stress
+    real(dp) :: faded_sum, beta_sum, faded_guard, beta_guard
+  end type term_type
+
+  !> Over the nodes moved, weighted: int q dX, the width that sticks.
+  type, bind(c) :: sums_type
+    real(dp) :: q, stuck
+  end type sums_type
+
+  abstract interface
+    !> Move all elements in contact by one step, or with trial /= 0 only say what that would give.
+    subroutine element_loop(step, trial, term, body, beta, faded, sums) bind(c)
+      import :: step_type, sums_type, term_type, columns, dp, ip
+      implicit none (type, external)
+      type(step_type), intent(in) :: step
+      integer(ip), intent(in), value :: trial
+      type(term_type), intent(in) :: term(step%n_terms)
+      real(dp), intent(inout) :: body(0:step%capacity - 1, columns)
+      real(dp), intent(inout), dimension(0:step%capacity - 1, step%n_terms) :: beta, faded
+      type(sums_type), intent(out) :: sums
+    end subroutine element_loop
+  end interface
+end module rst_sync_elements

@@ -1,0 +1,10 @@
+/* The method `sync`.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_H
+#define RST_SYNC_H
+
+#include "method.h"
+
+extern const struct restitute_method rst_method_sync;
+
+#endif
