@@ -390,8 +390,7 @@ RESTITUTE_API int restitute_solve_many(const restitute_options *options, size_t 
 
 /** Solve many impacts in SI units, of any materials; otherwise like @ref restitute_solve_many ("scene[17]: ..."). */
 RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
-                                         restitute_result *results, int *statuses, int threads,
-                                         restitute_error *error);
+                                         restitute_result *results, int *statuses, int threads, restitute_error *error);
 
 /* ------------------------------------------------------------------------------------------- two bodies in space */
 
