@@ -1,0 +1,122 @@
+/* One cell of the stability map at a time, so that a map can be interrupted anywhere.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stability.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "precision.h"
+#include "timing.h"
+
+#define BENCH_VERDICT_NAME(name, text) text,
+const char *const bench_verdict_names[BENCH_VERDICTS] = {BENCH_VERDICT_LIST(BENCH_VERDICT_NAME)};
+#undef BENCH_VERDICT_NAME
+
+/* Asked of the methods of the library; elements and steps are given, so it decides about `wrong` only. */
+static const double tolerance = 1e-3;
+
+/* Updates of an element in a second, at least; bounds what a call may spend. */
+static const double updates_per_second = 1e9;
+
+/* How far outside of 0 <= ez <= 1 and |ex| <= 1 is still an error and no instability. */
+static const double margin = 0.01;
+
+static const int64_t steps_per_element = 32, fewest_elements = 4;
+
+int64_t bench_map_steps(int level)
+{
+    int64_t steps = 10;
+    for (int i = 0; i < level; i++)
+        steps *= 10;
+    return steps;
+}
+
+void bench_map_scene(int place, int quick, struct bench_scene *scene)
+{
+    const double delta1 = pow(10, place / MAP_DECADES - 6), gamma = pow(10, place % MAP_DECADES - 6);
+    const double fine = quick ? tolerance : bench_reference_method()->fine;
+    char name[48];
+    snprintf(name, sizeof name, "map-%g-%g", delta1, gamma);
+    bench_scene_make(name, BENCH_STIFF, 7.0 / 6.0, 1.5, delta1, gamma, scene);
+    bench_scene_complete(scene, fine, (int64_t)(4 * updates_per_second), NULL);
+    if (!scene->has_reference) scene->contact_time = NAN;
+}
+
+static enum bench_verdict judge(const struct bench_scene *scene, struct bench_cell *cell)
+{
+    if (!(fabs(cell->ez) <= 1 + margin && cell->ez >= -margin && fabs(cell->ex) <= 1 + margin)) return BENCH_UNSTABLE;
+    if (!scene->has_reference) return BENCH_NO_REFERENCE;
+    cell->uncertainty = bench_scene_uncertainty(scene);
+    cell->error_ez = fabs(cell->ez - scene->ez);
+    cell->error_ex = fabs(cell->ex - scene->ex);
+    const double error = fmax(cell->error_ez, cell->error_ex) - cell->uncertainty;
+    return !isnan(cell->estimate) && error > 10 * cell->estimate && error > 10 * tolerance ? BENCH_WRONG : BENCH_ERROR;
+}
+
+static enum bench_verdict run_library(const struct bench_scene *scene, const struct bench_method *method,
+                                      int64_t elements, double budget, struct bench_cell *cell)
+{
+    const restitute_impact impact = bench_scene_impact(scene);
+    restitute_options options;
+    restitute_result result;
+    restitute_solver *solver;
+    restitute_options_init(&options);
+    restitute_result_init(&result);
+    options.method = method->handle();
+    options.tolerance = tolerance;
+    options.elements = elements;
+    if (method->takes_time_step) options.time_step = scene->contact_time / (double)cell->steps;
+    options.max_updates = (int64_t)fmax(1, budget * updates_per_second);
+    if (restitute_solver_create(&options, &solver, NULL)) return BENCH_REFUSED;
+    const int status = restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
+    restitute_solver_destroy(solver);
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return BENCH_TOO_SLOW;
+    if (status == RESTITUTE_ERROR_UNSTABLE_STEP || status < 0) return BENCH_REFUSED;
+    cell->ez = result.ez;
+    cell->ex = result.ex;
+    cell->estimate = fmax(result.error_ez, result.error_ex);
+    return judge(scene, cell);
+}
+
+static enum bench_verdict run_paper(const struct bench_scene *scene, const struct bench_method *method,
+                                    int64_t elements, struct bench_cell *cell)
+{
+    const struct paper_problem problem = bench_scene_paper(scene);
+    const struct paper_settings settings = bench_paper_settings(scene, method->motion, elements, cell->steps);
+    struct paper_result result;
+    const enum paper_end end = paper_solve(&problem, &settings, &result);
+    if (end != PAPER_SEPARATED) return end == PAPER_UNSTABLE ? BENCH_UNSTABLE : BENCH_TOO_SLOW;
+    cell->ez = result.ez;
+    cell->ex = result.ex;
+    return judge(scene, cell);
+}
+
+void bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
+                    const struct bench_cell *coarser, struct bench_cell *cell)
+{
+    const struct bench_method *m = &bench_methods[method];
+    const int64_t steps = bench_map_steps(level), wanted = steps / steps_per_element;
+    const int64_t elements = wanted < fewest_elements ? fewest_elements : wanted;
+    *cell = (struct bench_cell){.method = method,
+                                .steps = steps,
+                                .delta1 = scene->delta1,
+                                .gamma = scene->gamma,
+                                .ez = NAN,
+                                .ex = NAN,
+                                .error_ez = NAN,
+                                .error_ex = NAN,
+                                .estimate = NAN,
+                                .uncertainty = NAN};
+    if (!scene->has_reference) { /* without a contact time there is no step to give */
+        cell->verdict = BENCH_NO_REFERENCE;
+        return;
+    }
+    /* ten times the steps, and from 4 elements on ten times the elements */
+    const int slow = coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 2 * budget);
+    const double start = bench_clock();
+    cell->verdict = slow        ? BENCH_TOO_SLOW
+                    : m->handle ? run_library(scene, m, elements, budget, cell)
+                                : run_paper(scene, m, elements, cell);
+    cell->seconds = bench_clock() - start;
+    if (cell->seconds > budget) cell->verdict = BENCH_TOO_SLOW;
+}
