@@ -13,6 +13,12 @@ static unsigned colour_of(int method)
     return colours[method % (int)(sizeof colours / sizeof *colours)];
 }
 
+/* Lines get thinner from method to method, so that two that coincide are both seen. */
+static double thickness(int method)
+{
+    return fmax(1, 3.6 - 0.9 * method);
+}
+
 static void write_style(FILE *commands)
 {
     fputs("set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\n"
@@ -27,7 +33,7 @@ static int complete(const struct bench_summary *s, size_t scenes)
 }
 
 /* An error of rounding or none at all is drawn here. */
-static const double least_error = 1e-12;
+static const double least_error = 1e-10;
 
 void bench_draw_precision(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *commands)
 {
@@ -49,17 +55,19 @@ void bench_draw_precision(const struct bench_scenes *scenes, const struct bench_
     fprintf(commands,
             "set title 'Error against run time: median of %zu scenes, band from least to largest error'\n"
             "set logscale xy\nset format '10^{%%T}'\nset xlabel 'time of one impact  (s)'\n"
-            "set ylabel 'largest of the errors of e_z and e_x'\nset yrange [:1]\nset key outside right top\n",
+            "set ylabel 'largest of the errors of e_z and e_x'\nset yrange [1e-10:1]\nset key outside bottom center "
+            "horizontal\n",
             scenes->count);
     const char *separator = "plot ";
     for (int m = 0; m < BENCH_METHODS; m++) {
         if (blocks[m] < 0) continue;
-        fprintf(
-            commands,
-            "%s$runs index %d using 1:2:4 with filledcurves fillstyle transparent solid 0.12 noborder linecolor rgb "
-            "'#%06x' notitle, $runs index %d using 1:3 with linespoints pointtype 7 pointsize 0.5 linewidth 2 "
-            "linecolor rgb '#%06x' title '%s'",
-            separator, blocks[m], colour_of(m), blocks[m], colour_of(m), bench_methods[m].name);
+        fprintf(commands,
+                "%s$runs index %d using 1:2:4 with filledcurves fillstyle transparent solid 0.12 noborder "
+                "linecolor rgb "
+                "'#%06x' notitle, $runs index %d using 1:3 with linespoints pointtype 7 pointsize %g linewidth %g "
+                "linecolor rgb '#%06x' title '%s'",
+                separator, blocks[m], colour_of(m), blocks[m], 0.25 * thickness(m), thickness(m), colour_of(m),
+                bench_methods[m].name);
         separator = ", ";
     }
     fputs(drawn ? "\n" : "plot 1 notitle\n", commands);
@@ -67,17 +75,22 @@ void bench_draw_precision(const struct bench_scenes *scenes, const struct bench_
 
 void bench_draw_omissions(const struct bench_omission *rows, size_t n, FILE *commands)
 {
+    size_t bars = 0;
     fputs("$bars << END\n", commands);
-    for (size_t i = 0; i < n; i++)
-        if (rows[i].status == 0)
-            fprintf(commands, "%d \"%s: %s | %s\" %.4g\n", rows[i].method, bench_methods[rows[i].method].name,
-                    rows[i].full, rows[i].lean, rows[i].seconds_full / rows[i].seconds_lean);
+    for (size_t i = 0; i < n; i++) {
+        const struct bench_omission *row = &rows[i];
+        if (row->status) continue;
+        fprintf(commands, "%zu \"%s: %s / %s\" %.4g %u\n", bars++, bench_methods[row->method].name, row->full,
+                row->lean, row->ratio, colour_of(row->method));
+    }
     fputs("END\n", commands);
     write_style(commands);
-    fputs("set title 'Time of the first scene over that of the second'\nset style fill solid 0.7 noborder\n"
-          "set yrange [*:*] reverse\nset xrange [0:*]\nset xlabel 'ratio'\nset key off\n"
-          "plot $bars using (0.5*$3):0:(0.5*$3):(0.35):yticlabels(2) with boxxyerror linecolor rgb '#0072b2'\n",
-          commands);
+    fprintf(commands,
+            "set title 'What leaving out saves: time of the first over that of the second'\n"
+            "set style fill solid 0.7 noborder\nset yrange [%g:-0.6] noreverse\nset xrange [0:*]\nset xlabel 'ratio'\n"
+            "set key off\nset ytics noenhanced\n"
+            "plot $bars using (0.5*$3):1:(0.5*$3):(0.35):4:yticlabels(2) with boxxyerror linecolor rgb variable\n",
+            (double)bars - 0.4);
 }
 
 void bench_size_map(unsigned methods, int levels, int *width, int *height)
@@ -86,7 +99,7 @@ void bench_size_map(unsigned methods, int levels, int *width, int *height)
     for (int m = 0; m < BENCH_METHODS; m++)
         rows += (methods & 1u << m) != 0;
     *width = 170 + 230 * levels;
-    *height = 90 + 230 * rows;
+    *height = 40 + 230 * rows;
 }
 
 /* log10 of the error for a cell with an error, below -20 by the verdict for the others. */
@@ -155,9 +168,10 @@ void bench_draw_map(const struct bench_cell *cells, size_t n, unsigned methods, 
             fprintf(commands,
                     "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\n"
                     "set bmargin at screen %g\nset title '%s, %lld steps' font ',12' offset 0,-0.6\n"
-                    "set xlabel 'log_{10} δ_1' offset 0,0.5\nset ylabel '%s'\n%s",
+                    "set xlabel '%s' offset 0,0.5\nset ylabel '%s'\n%s",
                     left, left + 165.0 / width, top, bottom, bench_methods[m].name, (long long)bench_map_steps(level),
-                    level ? "" : "log_{10} γ", level == levels - 1 ? "set colorbox\n" : "unset colorbox\n");
+                    methods >> (m + 1) ? "" : "log_{10} δ_1", level ? "" : "log_{10} γ",
+                    level == levels - 1 ? "set colorbox\n" : "unset colorbox\n");
             plot_map(m, level, commands);
             fputs("unset label\n", commands);
         }

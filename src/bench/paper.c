@@ -111,19 +111,31 @@ static struct forces step_foundation(struct foundation *f, double depth, double 
     return sum;
 }
 
-/* One step; returns the number of elements in contact. */
+/* Velocity after a step h, from the accelerations before and after it. */
+static double advance(enum paper_motion motion, double h, double velocity, double before, double after)
+{
+    switch (motion) {
+    case PAPER_VERLET:
+        return velocity + 0.5 * h * (before + after);
+    case PAPER_FORWARD:
+        return velocity + h * before;
+    default:
+        return velocity + h * after;
+    }
+}
+
+/* One step; returns the number of elements in contact. The force is zero at first touch and after the contact, so
+ * Verlet goes through the same positions as Euler with half a step's velocity, and ends with the same velocity. */
 static size_t step_sphere(struct foundation *f, const struct paper_settings *settings, struct sphere *s)
 {
-    const double h = settings->step;
-    const int verlet = settings->motion == PAPER_VERLET;
+    const double h = settings->step, half = settings->motion == PAPER_VERLET ? 0.5 * h * h : 0;
     const double before = s->acceleration, shear_before = s->shear_acceleration;
-    const double shear = h * s->shear_velocity + (verlet ? 0.5 * h * h * shear_before : 0);
-    s->depth += h * s->velocity + (verlet ? 0.5 * h * h * before : 0);
-    const struct forces sum = step_foundation(f, s->depth, shear);
+    s->depth += h * s->velocity + half * before;
+    const struct forces sum = step_foundation(f, s->depth, h * s->shear_velocity + half * shear_before);
     s->acceleration = -15.0 / 8.0 * settings->spacing * sum.normal;
     s->shear_acceleration = -15.0 / 4.0 * f->problem->chi * settings->spacing * sum.tangential;
-    s->velocity += verlet ? 0.5 * h * (before + s->acceleration) : h * s->acceleration;
-    s->shear_velocity += verlet ? 0.5 * h * (shear_before + s->shear_acceleration) : h * s->shear_acceleration;
+    s->velocity = advance(settings->motion, h, s->velocity, before, s->acceleration);
+    s->shear_velocity = advance(settings->motion, h, s->shear_velocity, shear_before, s->shear_acceleration);
     return sum.touching;
 }
 

@@ -14,8 +14,9 @@ struct paper_problem {
     const double *g, *tau; /* over G_r and T */
 };
 
-/* How the sphere moves: section 4 of the paper compares the two. */
-enum paper_motion { PAPER_EULER, PAPER_VERLET };
+/* How the sphere moves. EULER: positions first, velocities last, as in the paper. VERLET: velocity Verlet, as in its
+ * section 4. FORWARD: Euler of the textbook, both from the state before the step; what the order of the first is worth. */
+enum paper_motion { PAPER_EULER, PAPER_VERLET, PAPER_FORWARD };
 
 /* Fixed for the whole run. */
 struct paper_settings {

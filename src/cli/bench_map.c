@@ -43,14 +43,18 @@ static bool wanted(const struct map *map, int place)
 static void settings_line(const struct map *map, char *line, size_t size)
 {
     const struct bench_plan *plan = &map->settings->plan;
-    snprintf(line, size, "# restitute %s, methods %x, budget %g s, quick %d\n", restitute_version(), plan->methods,
-             plan->budget, map->settings->quick);
+    size_t used = (size_t)snprintf(line, size, "# restitute %s, budget %g s, quick %d, methods", restitute_version(),
+                                   plan->budget, map->settings->quick);
+    for (int m = 0; m < BENCH_METHODS && used < size; m++)
+        if (plan->methods & 1u << m)
+            used += (size_t)snprintf(line + used, size - used, " %s", bench_methods[m].name);
+    if (used < size) snprintf(line + used, size - used, "\n");
 }
 
 /* Cells of an interrupted run with the same settings. A last line without its end was not written whole and is done again. */
 static bool read_partial(struct map *map, struct reason *why)
 {
-    char expected[160], line[512];
+    char expected[256], line[512];
     FILE *stream = fopen(map->partial_path, "r");
     if (!stream) return errno == ENOENT ? true : refuse(why, "%.200s: %s", map->partial_path, strerror(errno));
     settings_line(map, expected, sizeof expected);
@@ -69,7 +73,7 @@ static bool read_partial(struct map *map, struct reason *why)
 static bool open_partial(struct map *map, struct reason *why)
 {
     struct stat status;
-    char line[160];
+    char line[256];
     if (!map->settings->output) return true;
     map->partial_path = path_with_suffix(map->settings->output, "-stability.csv.partial");
     if (!map->settings->resume && stat(map->partial_path, &status) == 0)
