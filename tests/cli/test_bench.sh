@@ -79,3 +79,7 @@ refused 'leaves nothing out' bench --omissions --methods paper-euler
 
 expect 0 bench --help
 has out --methods --sets --tolerances --budget --output --figure --stability --omissions --quick --resume paper-euler
+sed 's/\\-/-/g' "$SOURCE_DIR/docs/restitute.1" >manual
+for option in $(sed -n 's/^  *--\([a-z0-9-]*\).*/\1/p' out); do
+    grep -Eq "(^\.It Fl|Fl) -$option( |\$)" manual || fail "the manual page lacks --$option"
+done
