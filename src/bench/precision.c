@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "timing.h"
 
@@ -150,6 +151,14 @@ static double expected(const double *seconds, int done, double growth)
     return seconds[done - 1] * fmin(growth, fmax(1, seconds[done - 1] / seconds[done - 2]));
 }
 
+/* Whether a run would be compared with itself, or with a coarser one of the same method. */
+static int proves_nothing(const struct bench_scene *scene, const struct bench_run *run)
+{
+    return scene->reference_method && bench_methods[run->method].handle &&
+           strcmp(scene->reference_method, bench_methods[run->method].name) == 0 &&
+           run->tolerance <= scene->reference_tolerance;
+}
+
 int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
                     struct bench_runs *runs)
 {
@@ -166,6 +175,7 @@ int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *sce
                                 .error_ez = NAN,
                                 .error_ex = NAN,
                                 .estimate = NAN};
+        if (proves_nothing(scene, &run)) break;
         if (expected(seconds, i, library ? growth_tolerance : growth_level) > plan->budget) break;
         const int failed = library ? run_library(plan, scene, &run) : run_paper(scene, &run);
         if (failed || append(&run, runs)) return 1;

@@ -221,6 +221,8 @@ int bench_scene_complete(struct bench_scene *scene, double tolerance, int64_t ma
     scene->error_ez = result.error_ez;
     scene->error_ex = result.error_ex;
     scene->has_reference = 1;
+    scene->reference_method = method->name;
+    scene->reference_tolerance = tolerance;
     snprintf(scene->reference, sizeof scene->reference, "%s at %g in this run", method->name, tolerance);
     return status;
 }

@@ -31,8 +31,10 @@ struct bench_scene {
     double g[BENCH_TERMS], tau[BENCH_TERMS];
     int has_reference; /* the four values below are known */
     double ez, ex;
-    double error_ez, error_ex;   /* of the reference itself */
-    char reference[64];          /* where it is from */
+    double error_ez, error_ex;    /* of the reference itself */
+    char reference[64];           /* where it is from */
+    const char *reference_method; /* name, if it was computed in this run; else NULL */
+    double reference_tolerance;
     double radius, contact_time; /* a_el and T: the largest contact radius, which the paper's algorithm is told */
 };
 

@@ -39,13 +39,11 @@ void bench_map_scene(int place, int quick, struct bench_scene *scene)
     snprintf(name, sizeof name, "map-%g-%g", delta1, gamma);
     bench_scene_make(name, BENCH_STIFF, 7.0 / 6.0, 1.5, delta1, gamma, scene);
     bench_scene_complete(scene, fine, (int64_t)(4 * updates_per_second), NULL);
-    if (!scene->has_reference) scene->contact_time = NAN;
 }
 
 static enum bench_verdict judge(const struct bench_scene *scene, struct bench_cell *cell)
 {
     if (!(fabs(cell->ez) <= 1 + margin && cell->ez >= -margin && fabs(cell->ex) <= 1 + margin)) return BENCH_UNSTABLE;
-    if (!scene->has_reference) return BENCH_NO_REFERENCE;
     cell->uncertainty = bench_scene_uncertainty(scene);
     cell->error_ez = fabs(cell->ez - scene->ez);
     cell->error_ex = fabs(cell->ex - scene->ex);
@@ -53,8 +51,8 @@ static enum bench_verdict judge(const struct bench_scene *scene, struct bench_ce
     return !isnan(cell->estimate) && error > 10 * cell->estimate && error > 10 * tolerance ? BENCH_WRONG : BENCH_ERROR;
 }
 
-static enum bench_verdict run_library(const struct bench_scene *scene, const struct bench_method *method,
-                                      int64_t elements, double budget, struct bench_cell *cell)
+static int run_library(const struct bench_scene *scene, const struct bench_method *method, int64_t elements,
+                       double budget, struct bench_cell *cell)
 {
     const restitute_impact impact = bench_scene_impact(scene);
     restitute_options options;
@@ -67,32 +65,41 @@ static enum bench_verdict run_library(const struct bench_scene *scene, const str
     options.elements = elements;
     if (method->takes_time_step) options.time_step = scene->contact_time / (double)cell->steps;
     options.max_updates = (int64_t)fmax(1, budget * updates_per_second);
-    if (restitute_solver_create(&options, &solver, NULL)) return BENCH_REFUSED;
+    if (restitute_solver_create(&options, &solver, NULL)) return 1;
     const int status = restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
     restitute_solver_destroy(solver);
-    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return BENCH_TOO_SLOW;
-    if (status == RESTITUTE_ERROR_UNSTABLE_STEP || status < 0) return BENCH_REFUSED;
+    cell->verdict = status == RESTITUTE_ERROR_TOO_MUCH_WORK ? BENCH_TOO_SLOW : BENCH_REFUSED;
+    if (status < 0) return status == RESTITUTE_ERROR_MEMORY;
     cell->ez = result.ez;
     cell->ex = result.ex;
     cell->estimate = fmax(result.error_ez, result.error_ex);
-    return judge(scene, cell);
+    cell->verdict = judge(scene, cell);
+    return 0;
 }
 
-static enum bench_verdict run_paper(const struct bench_scene *scene, const struct bench_method *method,
-                                    int64_t elements, struct bench_cell *cell)
+static int run_paper(const struct bench_scene *scene, const struct bench_method *method, int64_t elements,
+                     struct bench_cell *cell)
 {
     const struct paper_problem problem = bench_scene_paper(scene);
     const struct paper_settings settings = bench_paper_settings(scene, method->motion, elements, cell->steps);
     struct paper_result result;
     const enum paper_end end = paper_solve(&problem, &settings, &result);
-    if (end != PAPER_SEPARATED) return end == PAPER_UNSTABLE ? BENCH_UNSTABLE : BENCH_TOO_SLOW;
+    cell->verdict = BENCH_UNSTABLE;
+    if (end != PAPER_SEPARATED) return end == PAPER_NO_MEMORY;
     cell->ez = result.ez;
     cell->ex = result.ex;
-    return judge(scene, cell);
+    cell->verdict = judge(scene, cell);
+    return 0;
 }
 
-void bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
-                    const struct bench_cell *coarser, struct bench_cell *cell)
+/* Ten times the steps, and from some elements on ten times these: a hundred times the work; a factor of two is left. */
+static int foreseeably_slow(const struct bench_cell *coarser, double budget)
+{
+    return coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 2 * budget);
+}
+
+int bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
+                   const struct bench_cell *coarser, struct bench_cell *cell)
 {
     const struct bench_method *m = &bench_methods[method];
     const int64_t steps = bench_map_steps(level), wanted = steps / steps_per_element;
@@ -101,22 +108,21 @@ void bench_map_cell(const struct bench_scene *scene, int method, int level, doub
                                 .steps = steps,
                                 .delta1 = scene->delta1,
                                 .gamma = scene->gamma,
+                                .verdict = BENCH_NO_REFERENCE,
                                 .ez = NAN,
                                 .ex = NAN,
                                 .error_ez = NAN,
                                 .error_ex = NAN,
                                 .estimate = NAN,
                                 .uncertainty = NAN};
-    if (!scene->has_reference) { /* without a contact time there is no step to give */
-        cell->verdict = BENCH_NO_REFERENCE;
-        return;
+    if (!scene->has_reference) return 0; /* without a contact time there is no step to give */
+    if (foreseeably_slow(coarser, budget)) {
+        cell->verdict = BENCH_TOO_SLOW;
+        return 0;
     }
-    /* ten times the steps, and from 4 elements on ten times the elements */
-    const int slow = coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 2 * budget);
     const double start = bench_clock();
-    cell->verdict = slow        ? BENCH_TOO_SLOW
-                    : m->handle ? run_library(scene, m, elements, budget, cell)
-                                : run_paper(scene, m, elements, cell);
+    const int failed = m->handle ? run_library(scene, m, elements, budget, cell) : run_paper(scene, m, elements, cell);
     cell->seconds = bench_clock() - start;
     if (cell->seconds > budget) cell->verdict = BENCH_TOO_SLOW;
+    return failed;
 }

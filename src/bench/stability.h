@@ -18,7 +18,7 @@ enum { MAP_DECADES = 13, MAP_LEVELS = 5 };
     X(UNSTABLE, "unstable")         /* no end, not finite, or outside of 0 <= ez <= 1, |ex| <= 1 */                    \
     X(WRONG, "wrong")               /* error above ten times the estimate, and ten times the tolerance */              \
     X(TOO_SLOW, "too slow")         /* more than the time allowed for a cell */                                        \
-    X(NO_REFERENCE, "no reference") /* a pair, but nothing to compare it with */
+    X(NO_REFERENCE, "no reference") /* of this place of the map; nothing is run */
 
 #define BENCH_VERDICT_ENUM(name, text) BENCH_##name,
 enum bench_verdict { BENCH_VERDICT_LIST(BENCH_VERDICT_ENUM) BENCH_VERDICTS };
@@ -42,8 +42,9 @@ void bench_map_scene(int place, int quick, struct bench_scene *scene);
 /* Steps of a level, 0 <= level < MAP_LEVELS. */
 int64_t bench_map_steps(int level);
 
-/* One cell; `coarser` is the cell of the level before, NULL for the first: a cell that would exceed the budget (s) is not run. */
-void bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
-                    const struct bench_cell *coarser, struct bench_cell *cell);
+/* One cell; `coarser` is the cell of the level before, NULL for the first: a cell that would exceed the budget (s) is not run.
+ * Nonzero: out of memory, no cell. */
+int bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
+                   const struct bench_cell *coarser, struct bench_cell *cell);
 
 #endif

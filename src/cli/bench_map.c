@@ -46,8 +46,7 @@ static void settings_line(const struct map *map, char *line, size_t size)
     size_t used = (size_t)snprintf(line, size, "# restitute %s, budget %g s, quick %d, methods", restitute_version(),
                                    plan->budget, map->settings->quick);
     for (int m = 0; m < BENCH_METHODS && used < size; m++)
-        if (plan->methods & 1u << m)
-            used += (size_t)snprintf(line + used, size - used, " %s", bench_methods[m].name);
+        if (plan->methods & 1u << m) used += (size_t)snprintf(line + used, size - used, " %s", bench_methods[m].name);
     if (used < size) snprintf(line + used, size - used, "\n");
 }
 
@@ -100,7 +99,8 @@ static bool fill_column(struct map *map, const struct bench_scene *scene, int me
                               fabs(cell->gamma / scene->gamma - 1) < 1e-5;
             if (!same) return refuse(why, "%.200s line %zu: is not of this map", map->partial_path, map->count + 2);
         } else {
-            bench_map_cell(scene, method, level, map->settings->plan.budget, level ? cell - 1 : NULL, cell);
+            if (bench_map_cell(scene, method, level, map->settings->plan.budget, level ? cell - 1 : NULL, cell))
+                return refuse(why, "out of memory");
             if (map->partial) {
                 bench_write_cell(cell, map->partial);
                 fflush(map->partial);
