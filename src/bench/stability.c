@@ -92,10 +92,11 @@ static int run_paper(const struct bench_scene *scene, const struct bench_method 
     return 0;
 }
 
-/* Ten times the steps, and from some elements on ten times these: a hundred times the work; a factor of two is left. */
+/* Ten times the steps, and from some elements on ten times these: a hundred times the work. A factor of four is left, since a
+ * short run may have met a busy machine. */
 static int foreseeably_slow(const struct bench_cell *coarser, double budget)
 {
-    return coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 2 * budget);
+    return coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 4 * budget);
 }
 
 int bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
