@@ -26,7 +26,7 @@ static const char *const names[TEXTS] = {"methods", "sets", "tolerances", "budge
 
 static const struct poptOption table[] = {
     FLAG("omissions", OPTION_OMISSIONS, "instead: the time saved by what is left out"),
-    FLAG("stability", OPTION_STABILITY, "instead: the map of stability over delta1 and gamma, half an hour and more"),
+    FLAG("stability", OPTION_STABILITY, "instead: the map of stability over delta1 and gamma, a quarter of an hour"),
     ENTRY("methods", TEXT_METHODS, "A,B,...", "some of the methods named below; default all"),
     ENTRY("sets", TEXT_SETS, "A,B,...", "some of truth, stiff, prony; default all"),
     ENTRY("tolerances", TEXT_TOLERANCES, "T,T,...", "from large to small, in [1e-8, 0.1]; default 1e-2,1e-3,...,1e-8"),
