@@ -19,12 +19,14 @@ static const double updates_per_second = 1e9;
  * by a method of first order; taken where there is no earlier run to tell. */
 static const double growth_tolerance = 100, growth_level = 4;
 
-int64_t bench_paper_elements(int level)
+/* Elements of the paper's algorithm at a level. */
+static int64_t paper_elements(int level)
 {
     return (int64_t)16 << level;
 }
 
-int64_t bench_paper_steps(int64_t elements)
+/* Its steps in a contact time: 32 an element makes errors of like size in space and time. */
+static int64_t paper_steps(int64_t elements)
 {
     return 32 * elements;
 }
@@ -127,7 +129,7 @@ static int run_paper(const struct bench_scene *scene, struct bench_run *run)
 {
     struct paper_run work = {.problem = bench_scene_paper(scene),
                              .settings = bench_paper_settings(scene, bench_methods[run->method].motion, run->resolution,
-                                                              bench_paper_steps(run->resolution))};
+                                                              paper_steps(run->resolution))};
     const struct bench_time time = bench_time_work(solve_by_paper, &work, long_work);
     if (work.end == PAPER_NO_MEMORY) return 1;
     run->seconds = time.seconds;
@@ -169,7 +171,7 @@ int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *sce
         struct bench_run run = {.scene = number,
                                 .method = method,
                                 .tolerance = library ? plan->tolerances[i] : NAN,
-                                .resolution = library ? 0 : bench_paper_elements(i),
+                                .resolution = library ? 0 : paper_elements(i),
                                 .ez = NAN,
                                 .ex = NAN,
                                 .error_ez = NAN,

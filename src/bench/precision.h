@@ -14,7 +14,7 @@ struct bench_plan {
     double tolerances[BENCH_SETTINGS];
     int n_tolerances;
     double budget;    /* s: no run that is expected to take longer is started */
-    int finest_level; /* of the paper's algorithm, see bench_paper_elements */
+    int finest_level; /* of the paper's algorithm, 0: 16 elements, doubled by each */
 };
 
 /* One run: a method, how finely, a scene. */
@@ -35,11 +35,6 @@ struct bench_runs {
     struct bench_run *runs;
     size_t count, capacity;
 };
-
-/* Elements of the paper's algorithm at a level, 16, 32, 64, ..., and its steps in a contact time: 32 an element, which
- * makes errors of like size in space and time. */
-int64_t bench_paper_elements(int level);
-int64_t bench_paper_steps(int64_t elements);
 
 /* What the paper's algorithm is told about a scene, favourably: radius and contact time, so that no element is wasted. */
 struct paper_settings bench_paper_settings(const struct bench_scene *scene, enum paper_motion motion, int64_t elements,

@@ -227,11 +227,6 @@ int bench_scene_complete(struct bench_scene *scene, double tolerance, int64_t ma
     return status;
 }
 
-double bench_scene_error(const struct bench_scene *scene, double ez, double ex)
-{
-    return fmax(fabs(ez - scene->ez), fabs(ex - scene->ex));
-}
-
 double bench_scene_uncertainty(const struct bench_scene *scene)
 {
     return fmax(scene->error_ez, scene->error_ex);

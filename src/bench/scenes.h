@@ -58,9 +58,6 @@ int bench_scene_complete(struct bench_scene *scene, double tolerance, int64_t ma
 restitute_impact bench_scene_impact(const struct bench_scene *scene);
 struct paper_problem bench_scene_paper(const struct bench_scene *scene);
 
-/* The larger of the errors of ez and ex against the reference. */
-double bench_scene_error(const struct bench_scene *scene, double ez, double ex);
-
 /* The larger of the errors of the reference itself. */
 double bench_scene_uncertainty(const struct bench_scene *scene);
 

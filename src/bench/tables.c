@@ -8,7 +8,8 @@
 
 enum { most_summaries = 128 };
 
-const char *bench_status_cell(int status)
+/* Text of a status for a cell: nothing for OK. */
+static const char *status_cell(int status)
 {
     return status == RESTITUTE_OK ? "" : restitute_status_text(status);
 }
@@ -62,7 +63,7 @@ void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs
         write_whole(stream, r->elements, ',');
         write_whole(stream, r->steps, ',');
         write_whole(stream, r->updates, ',');
-        write_text(stream, bench_status_cell(r->status), '\n');
+        write_text(stream, status_cell(r->status), '\n');
     }
 }
 
@@ -181,7 +182,7 @@ void bench_write_omissions(const struct bench_omission *rows, size_t n, FILE *st
         write_number(stream, "%.4g", r->seconds_full, ',');
         write_number(stream, "%.4g", r->seconds_lean, ',');
         write_number(stream, "%.3f", r->ratio, ',');
-        write_text(stream, bench_status_cell(r->status), '\n');
+        write_text(stream, status_cell(r->status), '\n');
     }
 }
 

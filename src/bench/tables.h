@@ -9,9 +9,6 @@
 #include "stability.h"
 #include "summary.h"
 
-/* Text of a status for a cell: "", or the status in words, quoted where needed by none of them. */
-const char *bench_status_cell(int status);
-
 void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *stream);
 
 /* One row a set, method and setting; the set "all" where there is more than one. */

@@ -23,7 +23,7 @@ static void on_signal(int number)
     interrupted = 1;
 }
 
-void bench_catch_signals(void)
+static void catch_signals(void)
 {
     static const int numbers[] = {SIGINT, SIGTERM};
     for (int i = 0; i < 2; i++) {
@@ -252,7 +252,7 @@ int bench_main(int count, char **arguments)
     } else if (reading == BENCH_GO_ON && !check_places(&settings, &why)) {
         status = complain("%s", why.text);
     } else if (reading == BENCH_GO_ON) {
-        bench_catch_signals();
+        catch_signals();
         status = settings.mode == MODE_OMISSIONS   ? omissions_run(&settings)
                  : settings.mode == MODE_STABILITY ? bench_map_run(&settings)
                                                    : precision_run(&settings);

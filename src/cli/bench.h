@@ -31,8 +31,7 @@ void bench_options_release(struct bench_settings *settings);
 /* The stability map: cells go into PREFIX-stability.csv.partial as they are done. Returns the exit status. */
 int bench_map_run(const struct bench_settings *settings);
 
-/* True after a signal that asked to stop; asked for once before long work. */
-void bench_catch_signals(void);
+/* True after a signal that asked to stop. */
 bool bench_interrupted(void);
 
 /* A line of progress on a terminal, written over by the next; NULL ends it. */
