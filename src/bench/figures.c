@@ -55,8 +55,7 @@ void bench_draw_precision(const struct bench_scenes *scenes, const struct bench_
     fprintf(commands,
             "set title 'Error against run time: median of %zu scenes, band from least to largest error'\n"
             "set logscale xy\nset format '10^{%%T}'\nset xlabel 'time of one impact  (s)'\n"
-            "set ylabel 'largest of the errors of e_z and e_x'\nset yrange [1e-10:1]\nset key outside bottom center "
-            "horizontal\n",
+            "set ylabel 'largest of the errors of e_z and e_x'\nset yrange [1e-10:1]\nset key bottom left opaque\n",
             scenes->count);
     const char *separator = "plot ";
     for (int m = 0; m < BENCH_METHODS; m++) {
