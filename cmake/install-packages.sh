@@ -6,6 +6,7 @@
 #   ci    test, a second compiler, and what compares binary interfaces
 #   package  run, and what cpack needs to make the Debian package
 #   docs  run, and what building the reference, checking the man page and converting figures needs
+# OpenMP comes with gcc; clang builds without it, unless libomp-dev is there.
 # Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 

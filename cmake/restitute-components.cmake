@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
+# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -34,11 +34,18 @@ function(restitute_decide option title result)
   endif()
 endfunction()
 
-foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN)
+foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
   if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
     message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
   endif()
 endforeach()
+
+# Without it batches are solved by one thread, with the same results.
+if(RESTITUTE_OPENMP)
+  find_package(OpenMP QUIET COMPONENTS C)
+endif()
+restitute_decide(RESTITUTE_OPENMP "batches by several threads" RESTITUTE_WITH_OPENMP #
+                 OpenMP_C_FOUND "OpenMP for C (Debian: gcc has it, clang wants libomp-dev)")
 
 if(RESTITUTE_FILES)
   restitute_find_pkg_config_library(JANSSON jansson)
@@ -73,4 +80,5 @@ if(RESTITUTE_TESTS)
 endif()
 
 message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
-               "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")
+               "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, OpenMP ${RESTITUTE_WITH_OPENMP}, "
+               "tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

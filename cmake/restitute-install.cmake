@@ -33,6 +33,11 @@ file(RELATIVE_PATH prefix_to_include "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_
 
 set(headers "${PROJECT_SOURCE_DIR}/include/restitute")
 restitute_install_component(core "${headers}/restitute.h" "${headers}/status.h")
+set(openmp_flags "")
+if(RESTITUTE_WITH_OPENMP)
+  list(TRANSFORM OpenMP_C_LIB_NAMES PREPEND " -l" OUTPUT_VARIABLE openmp_flags)
+  list(JOIN openmp_flags "" openmp_flags)
+endif()
 restitute_install_pkg_config(restitute.pc)
 if(RESTITUTE_WITH_FILES)
   restitute_install_component(files "${headers}/files.h")

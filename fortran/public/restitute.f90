@@ -39,6 +39,7 @@ module restitute
   public :: restitute_scene_numbers, restitute_method_euler, restitute_method_name
   public :: restitute_solver_create, restitute_solver_destroy, restitute_history_arrays
   public :: restitute_solve, restitute_solve_scene, restitute_collide
+  public :: restitute_solve_many, restitute_solve_scenes
   public :: restitute_pair, restitute_scene_pair, restitute_critical_psi
 
   !> Kinds of all numbers that go in and out.
@@ -445,6 +446,34 @@ module restitute
       integer(c_int) :: status
     end function c_solve_scene
 
+    function c_solve_many(options, n, impacts, results, statuses, threads, error) result(status) &
+      bind(c, name="restitute_solve_many")
+      import :: c_int, c_size_t, restitute_error, restitute_impact, restitute_options, restitute_result
+      implicit none (type, external)
+      type(restitute_options), intent(in), optional :: options
+      integer(c_size_t), intent(in), value :: n
+      type(restitute_impact), intent(in) :: impacts(*)
+      type(restitute_result), intent(inout), optional :: results(*)
+      integer(c_int), intent(inout), optional :: statuses(*)
+      integer(c_int), intent(in), value :: threads
+      type(restitute_error), intent(inout), optional :: error
+      integer(c_int) :: status
+    end function c_solve_many
+
+    function c_solve_scenes(options, n, scenes, results, statuses, threads, error) result(status) &
+      bind(c, name="restitute_solve_scenes")
+      import :: c_int, c_size_t, restitute_error, restitute_options, restitute_result, restitute_scene
+      implicit none (type, external)
+      type(restitute_options), intent(in), optional :: options
+      integer(c_size_t), intent(in), value :: n
+      type(restitute_scene), intent(in) :: scenes(*)
+      type(restitute_result), intent(inout), optional :: results(*)
+      integer(c_int), intent(inout), optional :: statuses(*)
+      integer(c_int), intent(in), value :: threads
+      type(restitute_error), intent(inout), optional :: error
+      integer(c_int) :: status
+    end function c_solve_scenes
+
     function c_collide(solver, contact, first, second, result, error) result(status) bind(c, name="restitute_collide")
       import :: c_int, c_ptr, restitute_body, restitute_contact, restitute_error, restitute_result
       implicit none (type, external)
@@ -710,6 +739,66 @@ contains
     integer(c_int) :: status
     status = c_solve_scene(solver%address, scene, result, ledger, history, error)
   end function restitute_solve_scene
+
+  !> As many impacts as the array has, by several threads; messages count them from 0, as C does.
+  function restitute_solve_many(impacts, results, statuses, options, threads, error) result(status)
+    type(restitute_impact), intent(in) :: impacts(:)
+    type(restitute_result), intent(inout), optional :: results(:)
+    integer(c_int), intent(inout), optional :: statuses(:)
+    type(restitute_options), intent(in), optional :: options
+    integer(c_int), intent(in), optional :: threads
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = check_lengths("impacts", size(impacts), results, statuses, error)
+    if (status /= RESTITUTE_OK) return
+    status = c_solve_many(options, size(impacts, kind=c_size_t), impacts, results, statuses, threads_of(threads), error)
+  end function restitute_solve_many
+
+  !> As many scenes as the array has; otherwise like restitute_solve_many.
+  function restitute_solve_scenes(scenes, results, statuses, options, threads, error) result(status)
+    type(restitute_scene), intent(in) :: scenes(:)
+    type(restitute_result), intent(inout), optional :: results(:)
+    integer(c_int), intent(inout), optional :: statuses(:)
+    type(restitute_options), intent(in), optional :: options
+    integer(c_int), intent(in), optional :: threads
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = check_lengths("scenes", size(scenes), results, statuses, error)
+    if (status /= RESTITUTE_OK) return
+    status = c_solve_scenes(options, size(scenes, kind=c_size_t), scenes, results, statuses, threads_of(threads), error)
+  end function restitute_solve_scenes
+
+  !> Absent: all.
+  pure function threads_of(threads) result(number)
+    integer(c_int), intent(in), optional :: threads
+    integer(c_int) :: number
+    number = 0
+    if (present(threads)) number = threads
+  end function threads_of
+
+  !> Results and statuses must be as many as the cases.
+  function check_lengths(cases, n, results, statuses, error) result(status)
+    character(len=*), intent(in) :: cases
+    integer, intent(in) :: n
+    type(restitute_result), intent(in), optional :: results(:)
+    integer(c_int), intent(in), optional :: statuses(:)
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = RESTITUTE_OK
+    if (present(results)) call compare("results", size(results))
+    if (present(statuses)) call compare("statuses", size(statuses))
+  contains
+    subroutine compare(name, length)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: length
+      character(len=80) :: message
+      if (length == n .or. status /= RESTITUTE_OK) return
+      status = RESTITUTE_ERROR_DOMAIN
+      if (.not. present(error)) return
+      write (message, "(4a, i0, a, i0)") name, ": must have as many values as ", cases, ", ", n, "; has ", length
+      call set_error(error, status, trim(message))
+    end subroutine compare
+  end function check_lengths
 
   function restitute_collide(solver, contact, first, second, result, error) result(status)
     type(restitute_solver), intent(in) :: solver

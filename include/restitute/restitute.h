@@ -361,6 +361,41 @@ RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitut
                                         restitute_result *result, restitute_ledger *ledger, restitute_history *history,
                                         restitute_error *error);
 
+/* ------------------------------------------------------------------------------------------------ many impacts */
+
+/** Solve many dimensionless impacts, by several threads. Every case gives the bits that @ref restitute_solve gives it,
+ *  whatever the number of threads.
+ *
+ *  A case that fails stops no other; its result stays as it was. For the message of each failed case, give it to
+ *  @ref restitute_solve by itself. A long batch that is to show progress or to be stopped goes in pieces: a call costs
+ *  no more than one solver a thread.
+ *
+ *  @param options   for all cases; NULL: the defaults
+ *  @param n         number of cases; 0 is allowed
+ *  @param impacts   n cases, each prepared by @ref restitute_impact_init
+ *  @param results   optional: n results, each prepared by @ref restitute_result_init
+ *  @param statuses  optional: n statuses, one a case
+ *  @param threads   in [0, 1024]; 0: as many as OpenMP offers (OMP_NUM_THREADS), 1: the calling thread alone. Never more
+ *                   than n; always the calling thread alone where the library was built without OpenMP
+ *  @param error     optional: of the case that gave the return value, e.g. "impact[17]: psi = -1: must be in [0, 1e12]"
+ *  @return OK if all cases are OK; else the status of the first failed case by index; if none failed, that of the first
+ *          with a remark. A call that is refused as a whole (ERROR_NULL, ERROR_MEMORY, ERROR_DOMAIN of options or threads,
+ *          ERROR_STRUCT_SIZE of options, impacts[0] or results[0], since the size is the distance to the next) touches
+ *          nothing, neither results nor statuses, and its message names no case
+ *
+ *      restitute_impact impacts[100]; restitute_result results[100]; int statuses[100];
+ *      for (int i = 0; i < 100; i++) {
+ *          restitute_impact_init(&impacts[i]); restitute_result_init(&results[i]);
+ *          impacts[i].psi = 0.1*i;
+ *      }
+ *      int status = restitute_solve_many(NULL, 100, impacts, results, statuses, 0, &error); */
+RESTITUTE_API int restitute_solve_many(const restitute_options *options, size_t n, const restitute_impact *impacts,
+                                       restitute_result *results, int *statuses, int threads, restitute_error *error);
+
+/** Solve many impacts in SI units, of any materials; otherwise like @ref restitute_solve_many ("scene[17]: ..."). */
+RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
+                                         restitute_result *results, int *statuses, int threads, restitute_error *error);
+
 /* ------------------------------------------------------------------------------------------- two bodies in space */
 
 /** A sphere, or a plane that nothing moves, in any frame of reference. SI units. */

@@ -15,7 +15,7 @@
 #include "partial.h"
 #include "provenance.h"
 
-/* Set by a signal, looked at between rows. */
+/* Set by a signal, looked at between chunks of rows. */
 static volatile sig_atomic_t interrupted;
 
 static void on_signal(int number)
@@ -45,6 +45,7 @@ struct batch {
     size_t done, failed;
     struct partial partial;
     double last_tick;
+    size_t chunk, least_chunk; /* rows to be solved at once */
 };
 
 static double seconds_now(void)
@@ -109,17 +110,47 @@ static bool prepare(struct batch *batch, struct reason *why)
                                          batch->rows, &batch->done, why);
 }
 
+/* A chunk has a row for every thread, and as many more as take about a tenth of a second: whoever looks on or
+ * interrupts sees rows, not chunks. */
+static void adapt_chunk(struct batch *batch, double seconds)
+{
+    const double wanted = 0.1;
+    const size_t most = 16384;
+    if (seconds < wanted / 2 && batch->chunk < most) batch->chunk *= 2;
+    if (seconds > wanted * 2) batch->chunk /= 2;
+    if (batch->chunk < batch->least_chunk) batch->chunk = batch->least_chunk;
+}
+
+static size_t threads_of(const struct settings *settings)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    if (settings->threads > 0) return (size_t)settings->threads;
+    return processors > 0 ? (size_t)processors : 1;
+}
+
+/* The next rows, from the cases to the file. */
+static void solve_chunk(struct batch *batch, FILE *stream)
+{
+    const size_t left = batch->cases.rows - batch->done, count = batch->chunk < left ? batch->chunk : left;
+    const double begin = seconds_now();
+    rows_solve(&batch->cases, batch->settings, &batch->materials, batch->solver, batch->done, count, batch->rows);
+    for (size_t i = batch->done; i < batch->done + count; i++) {
+        count_failure(batch, i);
+        if (stream) row_write(stream, &batch->cases, i, &batch->rows[i]);
+    }
+    batch->done += count;
+    adapt_chunk(batch, seconds_now() - begin);
+}
+
 static void solve_rows(struct batch *batch)
 {
     FILE *stream = batch->path ? batch->partial.stream : batch->settings->format == FORMAT_JSON ? NULL : stdout;
     for (size_t i = 0; i < batch->done; i++)
         count_failure(batch, i);
     if (!batch->path && stream) row_write_header(stream, &batch->cases);
-    for (size_t i = batch->done; i < batch->cases.rows && !interrupted; i++) {
-        row_solve(&batch->cases, batch->settings, &batch->materials, batch->solver, i, &batch->rows[i]);
-        count_failure(batch, i);
-        if (stream) row_write(stream, &batch->cases, i, &batch->rows[i]);
-        batch->done = i + 1;
+    batch->chunk = batch->least_chunk = threads_of(batch->settings);
+    while (batch->done < batch->cases.rows && !interrupted) {
+        solve_chunk(batch, stream);
         tick(batch, stream, false);
     }
     tick(batch, stream, true);

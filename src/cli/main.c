@@ -4,13 +4,15 @@
 #include <string.h>
 
 #include "batch.h"
+#include "bench.h"
 #include "history.h"
 #include "single.h"
 
 static const char usage[] =
     "Usage: restitute pair [OPTION...]       the restitution pair (ez, ex) of one impact or of many\n"
     "       restitute history [OPTION...]    forces, radii and velocities during one impact\n"
-    "       restitute pair --help, restitute history --help, restitute --version\n"
+    "       restitute bench [OPTION...]      error against run time of the methods, on a fixed set of impacts\n"
+    "       restitute pair --help, restitute history --help, restitute bench --help, restitute --version\n"
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
 
@@ -36,13 +38,15 @@ int main(int count, char **arguments)
     int status = EXIT_DONE;
     if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0)
         status = run_subcommand(count, arguments);
+    else if (strcmp(word, "bench") == 0)
+        status = bench_main(count, arguments);
     else if (strcmp(word, "--help") == 0)
         fputs(usage, stdout);
     else if (strcmp(word, "--version") == 0)
         printf("restitute %s\n", restitute_version());
     else
-        status = *word ? complain("unknown command \"%.64s\": must be pair or history; see restitute --help", word)
-                       : complain("a command is missing: pair or history; see restitute --help");
+        status = *word ? complain("unknown command \"%.64s\": must be pair, history or bench; see restitute --help", word)
+                       : complain("a command is missing: pair, history or bench; see restitute --help");
     if (fflush(stdout) != 0 && status == EXIT_DONE) status = complain("standard output cannot be written");
     return status;
 }

@@ -46,6 +46,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_RADIUS_LIMIT] = "radius-limit",
     [TEXT_DISPLACEMENT_LIMIT] = "displacement-limit",
     [TEXT_DUNDURS_LIMIT] = "dundurs-limit",
+    [TEXT_THREADS] = "threads",
 };
 
 static struct poptOption more_scene_options[] = {
@@ -81,6 +82,8 @@ static struct poptOption pair_output_options[] = {
           "speed=FROM:TO:N[:log],angle=FROM:TO:N[:log] (m/s, degrees): all impacts of the grid"),
     ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write here and not to standard output"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "with --grid: a figure of it, .svg or .png; needs gnuplot"),
+    ENTRY("threads", CODE_TEXT + TEXT_THREADS, "N",
+          "with --input and --grid: solve by so many threads, 1 to 1024; default all processors"),
     FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
     FLAG("help", CODE_HELP, "show this and stop"),
     POPT_TABLEEND};
@@ -193,7 +196,7 @@ static bool read_bounded(const struct settings *settings, enum text_option optio
 static bool read_solver(struct settings *settings, struct reason *why)
 {
     restitute_options *solver = &settings->solver;
-    double elements = 0, samples = 500, updates;
+    double elements = 0, samples = 500, threads = 0, updates;
     double step = 0;
     restitute_options_init(solver);
     updates = (double)solver->max_updates;
@@ -202,6 +205,7 @@ static bool read_solver(struct settings *settings, struct reason *why)
         !read_bounded(settings, TEXT_TIME_STEP, 1e-300, 1e300, false, &step, why) ||
         !read_bounded(settings, TEXT_MAX_UPDATES, 1, 1e18, true, &updates, why) ||
         !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why) ||
+        !read_bounded(settings, TEXT_THREADS, 1, 1024, true, &threads, why) ||
         !read_bounded(settings, TEXT_SPEED_LIMIT, 0, INFINITY, false, &solver->speed_limit, why) ||
         !read_bounded(settings, TEXT_RADIUS_LIMIT, 0, INFINITY, false, &solver->radius_limit, why) ||
         !read_bounded(settings, TEXT_DISPLACEMENT_LIMIT, 0, INFINITY, false, &solver->displacement_limit, why) ||
@@ -211,6 +215,7 @@ static bool read_solver(struct settings *settings, struct reason *why)
     solver->time_step = step;
     solver->max_updates = (int64_t)updates;
     settings->samples = (size_t)samples;
+    settings->threads = (int)threads;
     return true;
 }
 

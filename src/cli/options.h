@@ -24,6 +24,7 @@ enum text_option {
     TEXT_RADIUS_LIMIT,
     TEXT_DISPLACEMENT_LIMIT,
     TEXT_DUNDURS_LIMIT,
+    TEXT_THREADS,
     TEXT_COUNT
 };
 
@@ -37,6 +38,7 @@ struct settings {
     restitute_options solver;
     enum format format;
     size_t samples;
+    int threads; /* 0: all */
     bool resume;
     char *text[TEXT_COUNT];   /* as given; NULL: not given */
     char *field[FIELD_COUNT]; /* likewise */

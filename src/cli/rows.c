@@ -45,26 +45,90 @@ void row_from_result(int status, const restitute_result *result, struct row *row
     row->status = remark(status, result->flags);
 }
 
-void row_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,
-               restitute_solver *solver, size_t index, struct row *row)
+/* The rows that are impacts, as the library takes them; all are of one kind (cases_check). */
+struct chunk {
+    size_t n;
+    bool physical;
+    size_t *index; /* of the row */
+    restitute_impact *impacts;
+    restitute_scene *scenes;
+    restitute_result *results;
+    int *statuses;
+};
+
+static struct chunk chunk_new(size_t capacity)
 {
-    struct values values;
-    struct problem problem;
-    struct reason why;
-    restitute_result result;
+    return (struct chunk){.index = allocate(capacity, sizeof(size_t)),
+                          .impacts = allocate(capacity, sizeof(restitute_impact)),
+                          .scenes = allocate(capacity, sizeof(restitute_scene)),
+                          .results = allocate(capacity, sizeof(restitute_result)),
+                          .statuses = allocate(capacity, sizeof(int))};
+}
+
+static void chunk_release(struct chunk *chunk)
+{
+    free(chunk->index);
+    free(chunk->impacts);
+    free(chunk->scenes);
+    free(chunk->results);
+    free(chunk->statuses);
+}
+
+static void chunk_add(struct chunk *chunk, size_t index, const struct problem *problem)
+{
+    const size_t n = chunk->n++;
+    chunk->physical = problem->physical;
+    chunk->index[n] = index;
+    chunk->impacts[n] = problem->impact;
+    chunk->scenes[n] = problem->scene;
+    chunk->statuses[n] = RESTITUTE_ERROR_MEMORY; /* as long as nobody has solved it */
+    restitute_result_init(&chunk->results[n]);
+}
+
+static void chunk_solve(struct chunk *chunk, const struct settings *settings)
+{
+    if (chunk->physical)
+        restitute_solve_scenes(&settings->solver, chunk->n, chunk->scenes, chunk->results, chunk->statuses,
+                               settings->threads, NULL);
+    else
+        restitute_solve_many(&settings->solver, chunk->n, chunk->impacts, chunk->results, chunk->statuses,
+                             settings->threads, NULL);
+}
+
+/* A row that failed among the others is solved by itself: the batch tells a status a row, this tells why. */
+static void take_solution(const struct chunk *chunk, size_t n, restitute_solver *solver, struct row *row)
+{
+    const struct problem problem = {
+        .physical = chunk->physical, .impact = chunk->impacts[n], .scene = chunk->scenes[n]};
+    int status = chunk->statuses[n];
     restitute_error error;
-    memset(row, 0, sizeof *row);
-    restitute_result_init(&result);
-    if (!cases_values(cases, settings, index, &values, &why) ||
-        !problem_build(&values, NAME_COLUMNS, materials, &problem, &why)) {
-        row->status = copy_of(why.text);
-        return;
-    }
-    const int status = problem_solve(solver, &problem, &result, NULL, NULL, &error);
+    if (status < 0) status = problem_solve(solver, &problem, &chunk->results[n], NULL, NULL, &error);
     if (status < 0)
         row->status = copy_of(error.message);
     else
-        row_from_result(status, &result, row);
+        row_from_result(status, &chunk->results[n], row);
+}
+
+/* Files are read and messages made by this thread alone; the library's threads see finished impacts. */
+void rows_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,
+                restitute_solver *solver, size_t first, size_t count, struct row *rows)
+{
+    struct chunk chunk = chunk_new(count);
+    for (size_t i = first; i < first + count; i++) {
+        struct values values;
+        struct problem problem;
+        struct reason why;
+        memset(&rows[i], 0, sizeof rows[i]);
+        if (cases_values(cases, settings, i, &values, &why) &&
+            problem_build(&values, NAME_COLUMNS, materials, &problem, &why))
+            chunk_add(&chunk, i, &problem);
+        else
+            rows[i].status = copy_of(why.text);
+    }
+    chunk_solve(&chunk, settings);
+    for (size_t n = 0; n < chunk.n; n++)
+        take_solution(&chunk, n, solver, &rows[chunk.index[n]]);
+    chunk_release(&chunk);
 }
 
 void cell_write(FILE *stream, const char *cell)

@@ -19,9 +19,10 @@ struct row {
 
 void rows_release(struct row *rows, size_t count);
 
-/* Solve row number `index` of the cases. A row that fails says why in its status. */
-void row_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,
-               restitute_solver *solver, size_t index, struct row *row);
+/* Solve `count` rows of the cases from number `first` on, into rows[first] and on. A row that fails says why in its
+ * status. `solver` is for rows that need a second look. */
+void rows_solve(const struct cases *cases, const struct settings *settings, struct materials *materials,
+                restitute_solver *solver, size_t first, size_t count, struct row *rows);
 
 /* The results of a solved impact as a row. */
 void row_from_result(int status, const restitute_result *result, struct row *row);

@@ -10,4 +10,5 @@ if ! command -v valgrind >/dev/null; then
     echo "skipped: no valgrind here"
     exit 77
 fi
-exec valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=all --errors-for-leak-kinds=all "$1"
+exec valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=all --errors-for-leak-kinds=all \
+    --suppressions="$(dirname -- "$0")/openmp.supp" "$1"

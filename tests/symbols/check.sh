@@ -4,8 +4,8 @@
 #   - it defines nothing but restitute_*
 #   - it calls nothing of a Fortran run-time library
 #   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
-#     on the processor
-# NM and READELF come from the environment.
+#     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads
+# NM, READELF and WITH_OPENMP come from the environment.
 set -eu
 library=$1
 wrong=0
@@ -31,6 +31,8 @@ for file in "$@"; do
     runtime=$(echo "$needed" | grep -E 'gfortran|quadmath|flang|FortranRuntime|libifcore' || true)
     [ -z "$runtime" ] || complain "$file needs a Fortran run-time library:" $runtime
     ! echo "$needed" | grep -q mvec || complain "$file needs the vector mathematics library libmvec"
+    openmp=$(echo "$needed" | grep -E '^lib(gomp|omp|iomp5)\.' || true)
+    [ "$WITH_OPENMP" = ON ] || [ -z "$openmp" ] || complain "$file needs OpenMP in a build without it:" $openmp
     echo "$file needs:" $needed
 done
 echo "$library defines:" $defined

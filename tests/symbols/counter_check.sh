@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Shows that check.sh can fail: all its complaints must come for a library that deserves them.  counter_check.sh LIBRARY
 set -eu
+openmp=$WITH_OPENMP # the library has it only where there is one
+WITH_OPENMP=OFF
+export WITH_OPENMP
 if sh "$(dirname -- "$0")/check.sh" "$1" >complaints 2>&1; then
     echo "check.sh finds nothing wrong with $1" >&2
     exit 1
@@ -10,3 +13,4 @@ for complaint in "other names than restitute_\*: leaky_name" "calls the Fortran 
     "needs a Fortran run-time library: libgfortran"; do
     grep "$complaint" complaints || { cat complaints; echo "no complaint '$complaint'" >&2; exit 1; }
 done
+[ "$openmp" = OFF ] || grep "needs OpenMP in a build without it: lib" complaints || { cat complaints; exit 1; }

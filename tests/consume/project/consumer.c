@@ -5,7 +5,7 @@
 
 #include <restitute/restitute.h>
 
-enum { SAMPLES = 20 };
+enum { SAMPLES = 20, BATCH = 8 };
 
 /* An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip limit of the
  * literature); the default tolerance is 1e-3. */
@@ -51,11 +51,32 @@ static int rubber_ball_rebounds(restitute_material *rubber, restitute_solver *so
     return result.ez > 0 && result.ez < 1 && fabs(result.ex) < 1 && history.count == SAMPLES;
 }
 
+/* Two threads, so that a static library's user must link what they need; the angles are told apart. */
+static int batch_is_solved(void)
+{
+    restitute_impact impacts[BATCH];
+    restitute_result results[BATCH];
+    restitute_error error;
+    for (int i = 0; i < BATCH; i++) {
+        restitute_impact_init(&impacts[i]);
+        restitute_result_init(&results[i]);
+        impacts[i].psi = 3.0 + i;
+    }
+    if (restitute_solve_many(NULL, BATCH, impacts, results, NULL, 2, &error) != RESTITUTE_OK) {
+        printf("failed: %s\n", error.message);
+        return 0;
+    }
+    printf("batch: ex = %.4f to %.4f\n", results[0].ex, results[BATCH - 1].ex);
+    for (int i = 1; i < BATCH; i++)
+        if (!(results[i].ex < results[i - 1].ex)) return 0;
+    return 1;
+}
+
 int main(void)
 {
     restitute_material *rubber = NULL;
     restitute_solver *solver = NULL;
-    int good = no_slip_is_right();
+    int good = no_slip_is_right() && batch_is_solved();
     if (restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &rubber, NULL) == RESTITUTE_OK &&
         restitute_solver_create(NULL, &solver, NULL) == RESTITUTE_OK)
         good = rubber_ball_rebounds(rubber, solver) && good;

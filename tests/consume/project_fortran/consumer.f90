@@ -8,6 +8,7 @@ program consumer
   good = no_slip_is_right()
   good = rubber_ball_rebounds() .and. good
   good = materials_are_right() .and. good
+  good = batches_are_right() .and. good
   if (.not. good) error stop 1
 
 contains
@@ -88,4 +89,49 @@ contains
     call restitute_material_destroy(polymer)
     call restitute_material_destroy(polymer) ! a second time does no harm
   end function materials_are_right
+
+  !> Every second element of an array, the results of single calls, a refused case, and lengths that do not fit.
+  function batches_are_right() result(good)
+    logical :: good
+    integer, parameter :: n = 6
+    type(restitute_impact) :: impacts(2*n)
+    type(restitute_scene) :: scenes(n)
+    type(restitute_material) :: rubber
+    type(restitute_result) :: results(n), single
+    type(restitute_solver) :: solver
+    type(restitute_error) :: error
+    integer :: k, statuses(n), status
+    do k = 1, n
+      impacts(2*k - 1:2*k) = restitute_impact()
+      impacts(2*k)%psi = 0.5_rk*k
+      results(k) = restitute_result()
+    end do
+    good = restitute_solve_many(impacts(2::2), results, error=error) == RESTITUTE_OK
+    good = good .and. restitute_solver_create(solver) == RESTITUTE_OK
+    single = restitute_result()
+    do k = 1, n
+      status = restitute_solve(solver, impacts(2*k), single)
+      ! The same bits: a difference of 0, not a small one.
+      good = good .and. status == RESTITUTE_OK .and. .not. abs(single%ex - results(k)%ex) > 0
+    end do
+    call restitute_solver_destroy(solver)
+
+    good = good .and. restitute_material_elastic(1e6_rk, 0.5_rk, rubber) == RESTITUTE_OK
+    do k = 1, n
+      scenes(k) = restitute_scene()
+      scenes(k)%material = rubber
+      scenes(k)%radius1 = 0.01_rk
+      scenes(k)%mass1 = 4e-3_rk
+      scenes(k)%normal_speed = k - 4
+    end do
+    status = restitute_solve_scenes(scenes, results, statuses, threads=2, error=error)
+    good = good .and. status == RESTITUTE_ERROR_DOMAIN .and. all(statuses(:4) == status) .and. all(statuses(5:) == 0)
+    good = good .and. index(restitute_message(error), "scene[0]: normal_speed (m/s) = -3") == 1
+    status = restitute_solve_scenes(scenes, results(2:), error=error)
+    good = good .and. status == RESTITUTE_ERROR_DOMAIN
+    good = good .and. restitute_message(error) == "results: must have as many values as scenes, 6; has 5"
+    status = restitute_solve_many(impacts, statuses=statuses, error=error)
+    good = good .and. status == RESTITUTE_ERROR_DOMAIN .and. index(restitute_message(error), "statuses: ") == 1
+    call restitute_material_destroy(rubber)
+  end function batches_are_right
 end program consumer

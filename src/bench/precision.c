@@ -1,0 +1,187 @@
+/* The runs behind the work-precision tables. A sweep goes from coarse to fine and ends before a run that would
+ * take longer than the budget, as the growth of the two before it tells.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "precision.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "timing.h"
+
+/* Work longer than this (s) is timed once. */
+static const double long_work = 0.05;
+
+/* No method does more element updates in a second, so this bounds the time of a call from below. */
+static const double updates_per_second = 1e9;
+
+/* A tenth of the tolerance, or twice the elements at a quarter of the step's square root, costs at most this much more
+ * by a method of first order; taken where there is no earlier run to tell. */
+static const double growth_tolerance = 100, growth_level = 4;
+
+/* Elements of the paper's algorithm at a level. */
+static int64_t paper_elements(int level)
+{
+    return (int64_t)16 << level;
+}
+
+/* Its steps in a contact time: 32 an element makes errors of like size in space and time. */
+static int64_t paper_steps(int64_t elements)
+{
+    return 32 * elements;
+}
+
+struct paper_settings bench_paper_settings(const struct bench_scene *scene, enum paper_motion motion, int64_t elements,
+                                           int64_t steps)
+{
+    return (struct paper_settings){.motion = motion,
+                                   .elements = elements + elements / 16 + 1, /* a coarse run may go deeper */
+                                   .spacing = scene->radius / (double)elements,
+                                   .step = scene->contact_time / (double)steps,
+                                   .max_steps = 20 * steps};
+}
+
+static int append(const struct bench_run *run, struct bench_runs *runs)
+{
+    if (runs->count == runs->capacity) {
+        const size_t capacity = runs->capacity ? 2 * runs->capacity : 256;
+        struct bench_run *grown = realloc(runs->runs, capacity * sizeof *grown);
+        if (!grown) return 1;
+        runs->runs = grown;
+        runs->capacity = capacity;
+    }
+    runs->runs[runs->count++] = *run;
+    return 0;
+}
+
+void bench_runs_release(struct bench_runs *runs)
+{
+    free(runs->runs);
+    *runs = (struct bench_runs){NULL, 0, 0};
+}
+
+double bench_run_error(const struct bench_run *run)
+{
+    return fmax(run->error_ez, run->error_ex);
+}
+
+static void judge(const struct bench_scene *scene, struct bench_run *run)
+{
+    run->error_ez = fabs(run->ez - scene->ez);
+    run->error_ex = fabs(run->ex - scene->ex);
+}
+
+/* A run by the library, as bench_time_work() wants it. */
+struct library_run {
+    restitute_solver *solver;
+    restitute_impact impact;
+    restitute_result result;
+    int status;
+};
+
+static void solve_by_library(void *context)
+{
+    struct library_run *run = context;
+    run->status = restitute_solve(run->solver, &run->impact, &run->result, NULL, NULL, NULL);
+}
+
+/* Nonzero: no memory for a solver. The status of the solution is in `run`. */
+static int run_library(const struct bench_plan *plan, const struct bench_scene *scene, struct bench_run *run)
+{
+    struct library_run work = {.impact = bench_scene_impact(scene)};
+    restitute_options options;
+    restitute_options_init(&options);
+    restitute_result_init(&work.result);
+    options.method = bench_methods[run->method].handle();
+    options.tolerance = run->tolerance;
+    options.max_updates = (int64_t)fmax(1, plan->budget * updates_per_second);
+    if (restitute_solver_create(&options, &work.solver, NULL)) return 1;
+    const struct bench_time time = bench_time_work(solve_by_library, &work, long_work);
+    restitute_solver_destroy(work.solver);
+    run->seconds = time.seconds;
+    run->repeats = time.repeats;
+    run->status = work.status;
+    if (work.status < 0) return 0;
+    run->ez = work.result.ez;
+    run->ex = work.result.ex;
+    run->estimate = fmax(work.result.error_ez, work.result.error_ex);
+    run->elements = work.result.elements;
+    run->steps = work.result.steps;
+    run->updates = work.result.updates;
+    judge(scene, run);
+    return 0;
+}
+
+struct paper_run {
+    struct paper_problem problem;
+    struct paper_settings settings;
+    struct paper_result result;
+    enum paper_end end;
+};
+
+static void solve_by_paper(void *context)
+{
+    struct paper_run *run = context;
+    run->end = paper_solve(&run->problem, &run->settings, &run->result);
+}
+
+static int run_paper(const struct bench_scene *scene, struct bench_run *run)
+{
+    struct paper_run work = {.problem = bench_scene_paper(scene),
+                             .settings = bench_paper_settings(scene, bench_methods[run->method].motion, run->resolution,
+                                                              paper_steps(run->resolution))};
+    const struct bench_time time = bench_time_work(solve_by_paper, &work, long_work);
+    if (work.end == PAPER_NO_MEMORY) return 1;
+    run->seconds = time.seconds;
+    run->repeats = time.repeats;
+    run->elements = run->resolution;
+    run->status = work.end == PAPER_SEPARATED ? RESTITUTE_OK : RESTITUTE_ERROR_UNSTABLE_STEP;
+    if (run->status) return 0;
+    run->ez = work.result.ez;
+    run->ex = work.result.ex;
+    run->steps = work.result.steps;
+    run->updates = work.result.updates;
+    judge(scene, run);
+    return 0;
+}
+
+/* How long the next run may be expected to take. */
+static double expected(const double *seconds, int done, double growth)
+{
+    if (done == 0) return 0;
+    if (done == 1) return seconds[0] * growth;
+    return seconds[done - 1] * fmin(growth, fmax(1, seconds[done - 1] / seconds[done - 2]));
+}
+
+/* Whether a run would be compared with itself, or with a coarser one of the same method. */
+static int proves_nothing(const struct bench_scene *scene, const struct bench_run *run)
+{
+    return scene->reference_method && bench_methods[run->method].handle &&
+           strcmp(scene->reference_method, bench_methods[run->method].name) == 0 &&
+           run->tolerance <= scene->reference_tolerance;
+}
+
+int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
+                    struct bench_runs *runs)
+{
+    const int library = bench_methods[method].handle != NULL;
+    const int levels = library ? plan->n_tolerances : plan->finest_level + 1;
+    double seconds[64];
+    for (int i = 0; i < levels; i++) {
+        struct bench_run run = {.scene = number,
+                                .method = method,
+                                .tolerance = library ? plan->tolerances[i] : NAN,
+                                .resolution = library ? 0 : paper_elements(i),
+                                .ez = NAN,
+                                .ex = NAN,
+                                .error_ez = NAN,
+                                .error_ex = NAN,
+                                .estimate = NAN};
+        if (proves_nothing(scene, &run)) break;
+        if (expected(seconds, i, library ? growth_tolerance : growth_level) > plan->budget) break;
+        const int failed = library ? run_library(plan, scene, &run) : run_paper(scene, &run);
+        if (failed || append(&run, runs)) return 1;
+        seconds[i] = run.seconds;
+    }
+    return 0;
+}

@@ -1,0 +1,217 @@
+/* The options of `restitute bench`, read with popt.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "bench.h"
+
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <restitute/files.h>
+
+enum { OPTION_QUICK = 1, OPTION_OMISSIONS, OPTION_STABILITY, OPTION_RESUME, OPTION_HELP, OPTION_TEXT };
+
+enum { TEXT_METHODS, TEXT_SETS, TEXT_TOLERANCES, TEXT_BUDGET, TEXT_OUTPUT, TEXT_FIGURE, TEXTS };
+
+static const char *const names[TEXTS] = {"methods", "sets", "tolerances", "budget", "output", "figure"};
+
+#define ENTRY(name, text, argument, help)                                                                              \
+    {                                                                                                                  \
+        name, '\0', POPT_ARG_STRING, NULL, OPTION_TEXT + (text), help, argument                                        \
+    }
+#define FLAG(name, code, help)                                                                                         \
+    {                                                                                                                  \
+        name, '\0', POPT_ARG_NONE, NULL, code, help, NULL                                                              \
+    }
+
+static const struct poptOption table[] = {
+    FLAG("omissions", OPTION_OMISSIONS, "instead: the time saved by what is left out"),
+    FLAG("stability", OPTION_STABILITY, "instead: the map of stability over delta1 and gamma, a quarter of an hour"),
+    ENTRY("methods", TEXT_METHODS, "A,B,...", "some of the methods named below; default all"),
+    ENTRY("sets", TEXT_SETS, "A,B,...", "some of truth, stiff, prony; default all"),
+    ENTRY("tolerances", TEXT_TOLERANCES, "T,T,...", "from large to small, in [1e-8, 0.1]; default 1e-2,1e-3,...,1e-8"),
+    ENTRY("budget", TEXT_BUDGET, "S",
+          "longest time of one run, or of a cell of the map, s, in [1e-3, 3600]; default 2"),
+    FLAG("quick", OPTION_QUICK, "few scenes, coarse: seconds instead of minutes"),
+    ENTRY("output", TEXT_OUTPUT, "PREFIX",
+          "write PREFIX-runs.csv, PREFIX-summary.csv, PREFIX-speed.csv, or PREFIX-omissions.csv, or "
+          "PREFIX-stability.csv"),
+    ENTRY("figure", TEXT_FIGURE, "FILE", "a figure, .svg or .png; needs gnuplot"),
+    FLAG("resume", OPTION_RESUME, "with --stability and --output: go on from PREFIX-stability.csv.partial"),
+    FLAG("help", OPTION_HELP, "show this and stop"),
+    POPT_TABLEEND};
+
+static const char footer[] =
+    "\n\nError against run time of the methods over a fixed set of scenes with known pairs, beside the algorithm of "
+    "the\n"
+    "paper as it was published (paper-euler; paper-verlet moves the sphere by velocity Verlet). Without --output only "
+    "the\n"
+    "summary is printed. Times depend on the machine: only ratios within one run mean something.\n"
+    "\nExamples:\n"
+    "  restitute bench --quick\n"
+    "  restitute bench --output report --figure report.svg\n"
+    "  restitute bench --stability --output report --figure stability.svg\n"
+    "\nExit status: 0 done, 2 bad usage or output that cannot be written, 130 interrupted.\n";
+
+/* The first word of a comma-separated list: its length; what comes after it, NULL at the end. */
+static size_t next_word(const char *list, const char **after)
+{
+    const size_t length = strcspn(list, ",");
+    *after = list[length] ? list + length + 1 : NULL;
+    return length;
+}
+
+static int set_index(const char *name, size_t length)
+{
+    for (int i = 0; i < BENCH_SETS; i++)
+        if (strlen(bench_set_names[i]) == length && memcmp(bench_set_names[i], name, length) == 0) return i;
+    return -1;
+}
+
+/* Bits of the names in a list. `find` gives the index of a name, -1 for none; `allowed` says which there are. */
+static bool read_names(const char *option, const char *list, int (*find)(const char *, size_t), const char *allowed,
+                       unsigned *bits, struct reason *why)
+{
+    *bits = 0;
+    for (const char *word = list; word;) {
+        const char *after;
+        const size_t length = next_word(word, &after);
+        const int index = find(word, length);
+        if (index < 0)
+            return refuse(why, "--%s: \"%.*s\": must be among %s", option, (int)(length < 64 ? length : 64), word,
+                          allowed);
+        *bits |= 1u << index;
+        word = after;
+    }
+    return true;
+}
+
+static bool read_number(const char *option, const char *text, double low, double high, double *value,
+                        struct reason *why)
+{
+    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high) return true;
+    return refuse(why, "--%s = \"%.64s\": must be a number in [%g, %g]", option, text, low, high);
+}
+
+static bool read_tolerances(const char *list, struct bench_plan *plan, struct reason *why)
+{
+    plan->n_tolerances = 0;
+    for (const char *word = list; word;) {
+        const char *after;
+        char text[40];
+        const size_t length = next_word(word, &after);
+        snprintf(text, sizeof text, "%.*s", (int)(length < sizeof text ? length : sizeof text - 1), word);
+        if (plan->n_tolerances == BENCH_SETTINGS)
+            return refuse(why, "--tolerances: at most %d are possible", BENCH_SETTINGS);
+        double *value = &plan->tolerances[plan->n_tolerances];
+        if (!read_number("tolerances", text, 1e-8, 0.1, value, why)) return false;
+        if (plan->n_tolerances > 0 && !(value[0] < value[-1]))
+            return refuse(why, "--tolerances: %s after %g: must go from large to small", text, value[-1]);
+        plan->n_tolerances++;
+        word = after;
+    }
+    return true;
+}
+
+static bool take_words(char *const *text, struct bench_settings *settings, struct reason *why)
+{
+    char methods[200] = "", sets[64] = "";
+    for (int i = 0; i < BENCH_METHODS; i++)
+        snprintf(methods + strlen(methods), sizeof methods - strlen(methods), "%s%s", i ? ", " : "",
+                 bench_methods[i].name);
+    for (int i = 0; i < BENCH_SETS; i++)
+        snprintf(sets + strlen(sets), sizeof sets - strlen(sets), "%s%s", i ? ", " : "", bench_set_names[i]);
+    struct bench_plan *plan = &settings->plan;
+    return (!text[TEXT_METHODS] ||
+            read_names("methods", text[TEXT_METHODS], bench_method_index, methods, &plan->methods, why)) &&
+           (!text[TEXT_SETS] || read_names("sets", text[TEXT_SETS], set_index, sets, &settings->sets, why)) &&
+           (!text[TEXT_TOLERANCES] || read_tolerances(text[TEXT_TOLERANCES], plan, why)) &&
+           (!text[TEXT_BUDGET] || read_number("budget", text[TEXT_BUDGET], 1e-3, 3600, &plan->budget, why));
+}
+
+/* What is not given. A quick run stops where a full one begins to be interesting. */
+static void set_defaults(bool quick, struct bench_settings *settings)
+{
+    struct bench_plan *plan = &settings->plan;
+    plan->methods = (1u << BENCH_METHODS) - 1;
+    plan->budget = quick ? 0.1 : 2;
+    plan->finest_level = quick ? 3 : 10;
+    plan->n_tolerances = quick ? 3 : 7;
+    for (int i = 0; i < plan->n_tolerances; i++) {
+        static const double decades[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+        plan->tolerances[i] = decades[i];
+    }
+    settings->sets = (1u << BENCH_SETS) - 1;
+}
+
+/* Options that belong to another mode are refused rather than passed over. */
+static bool check_mode(const struct bench_settings *settings, char *const *text, bool omissions, bool stability,
+                       struct reason *why)
+{
+    if (omissions && stability) return refuse(why, "--omissions and --stability exclude each other");
+    if ((omissions || stability) && (text[TEXT_SETS] || text[TEXT_TOLERANCES]))
+        return refuse(why, "--%s: has scenes and resolutions of its own; without --sets and --tolerances",
+                      omissions ? "omissions" : "stability");
+    if (omissions && text[TEXT_BUDGET]) return refuse(why, "--budget: not with --omissions");
+    if (settings->resume && !(stability && text[TEXT_OUTPUT]))
+        return refuse(why, "--resume: only with --stability and --output");
+    return true;
+}
+
+static bool read_arguments(poptContext context, struct bench_settings *settings, char **text, bool *help,
+                           struct reason *why)
+{
+    int code;
+    bool omissions = false, stability = false;
+    while ((code = poptGetNextOpt(context)) > 0) {
+        if (code == OPTION_QUICK) settings->quick = true;
+        if (code == OPTION_RESUME) settings->resume = true;
+        if (code == OPTION_OMISSIONS) omissions = true;
+        if (code == OPTION_STABILITY) stability = true;
+        if (code == OPTION_HELP) return *help = true;
+        if (code < OPTION_TEXT) continue;
+        if (text[code - OPTION_TEXT]) return refuse(why, "--%s is given twice", names[code - OPTION_TEXT]);
+        text[code - OPTION_TEXT] = poptGetOptArg(context);
+    }
+    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
+    const char *extra = poptGetArg(context);
+    if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
+    settings->mode = omissions ? MODE_OMISSIONS : stability ? MODE_STABILITY : MODE_PRECISION;
+    set_defaults(settings->quick, settings);
+    return check_mode(settings, text, omissions, stability, why) && take_words(text, settings, why);
+}
+
+enum bench_reading bench_options_read(int count, char **arguments, struct bench_settings *settings)
+{
+    char *text[TEXTS] = {NULL};
+    struct reason why;
+    bool help = false;
+    *settings = (struct bench_settings){.argument_count = count, .arguments = (const char *const *)arguments};
+    /* popt shows its first word as the name of the program. */
+    const char **words = allocate((size_t)count, sizeof *words);
+    words[0] = "restitute bench";
+    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
+    poptContext context = poptGetContext("restitute", count - 1, words, table, 0);
+    const bool good = read_arguments(context, settings, text, &help, &why);
+    if (help) {
+        poptPrintHelp(context, stdout, 0);
+        fputs("\nMethods:", stdout);
+        for (int i = 0; i < BENCH_METHODS; i++)
+            printf(" %s", bench_methods[i].name);
+        fputs(footer, stdout);
+    }
+    if (!good) complain("%s", why.text);
+    poptFreeContext(context);
+    free(words);
+    settings->output = text[TEXT_OUTPUT];
+    settings->figure = text[TEXT_FIGURE];
+    for (int i = 0; i < TEXT_OUTPUT; i++)
+        free(text[i]);
+    return help ? BENCH_STOP : good ? BENCH_GO_ON : BENCH_FAILED;
+}
+
+void bench_options_release(struct bench_settings *settings)
+{
+    free(settings->output);
+    free(settings->figure);
+}
