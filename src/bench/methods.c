@@ -6,6 +6,7 @@
 
 const struct bench_method bench_methods[BENCH_METHODS] = {
     {.name = "euler", .handle = restitute_method_euler, .takes_time_step = 1, .finest = 1e-5, .fine = 1e-4},
+    {.name = "sync", .handle = restitute_method_sync, .finest = 1e-8, .fine = 1e-8},
     {.name = "paper-euler", .motion = PAPER_EULER, .takes_time_step = 1},
     {.name = "paper-verlet", .motion = PAPER_VERLET, .takes_time_step = 1},
     {.name = "paper-forward", .motion = PAPER_FORWARD, .takes_time_step = 1},
