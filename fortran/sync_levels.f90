@@ -243,7 +243,7 @@ contains
     acceleration = rest - drag*a*velocity
     dx = -(a*cosine - sine*velocity)/(velocity/(2*a)*cosine - sine*acceleration)
     dx = max(-0.5_dp*x, min(x, dx))
-    change = max(change, abs(dx*acceleration))
+    change = max(change, abs(dx)*(abs(velocity) + abs(acceleration)))
     depth = max(depth + dx*velocity, tiny(1.0_dp))
     velocity = velocity + dx*acceleration
     a = sqrt(depth)
@@ -344,7 +344,7 @@ contains
         end do
         dx = max(-0.5_dp*x(q), min(x(q), -excess/slope))
         if (slope >= 0) dx = x(q)
-        change = max(change, abs(dx*push(q)), abs(next*mass_factor + push(q))*x(2))
+        change = max(change, abs(dx)*(abs(v(q)) + abs(push(q))), abs(next*mass_factor + push(q))*x(2))
         x(q) = x(q) + dx
         push(q) = -mass_factor*next
       end do

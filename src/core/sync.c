@@ -8,13 +8,16 @@
 #include "kernels.h"
 #include "status.h"
 
-/* Solutions at n and n/2 levels are compared. Errors fall by 8 (tangential, third order) or 16 (normal, fourth order)
- * from one to the other, so the change is 7 or 15 times the error; what the estimate keeps of it covers cases that are less
- * regular (docs/accuracy.md). */
-static const double share_of_change_ez = 1.0 / 3, share_of_change_ex = 1.0 / 3;
+/* Solutions at n and n/2 levels are compared. e_z is of fourth order: the change is 15 times the error of the finer one, which
+ * is taken off. e_x is of third order where kinks fall regularly between nodes; half of what that would take off is best. */
+static const double part_taken_ez = 1.0 / 15, part_taken_ex = 1.0 / 14;
 
-/* What rounding leaves in the velocities, whatever the number of levels. */
-static const double rounding = 2e-12;
+/* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
+ * so that of e_x does not stand alone: the error of the median impact, 12 max(1, chi) n^-3, is added. */
+static const double share_of_change_ez = 0.2, share_of_change_ex = 0.4, usual_error = 12;
+
+/* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
+static const double closeness = 0.02, rounding = 1e-12;
 
 /* Most levels that a run may have; work grows with the square. */
 static const int64_t most_levels = 1 << 20;
@@ -110,16 +113,20 @@ static double largest_force(const struct sync_level *level, int64_t n)
     return bend < 0 ? level[i].force - slope * slope / (4 * bend) : level[i].force;
 }
 
+static double closeness_of(const struct rst_problem *problem)
+{
+    return fmax(rounding, closeness * problem->tolerance);
+}
+
 /* One impact at one resolution; nonzero if its iterations did not settle. */
 static int run_once(const struct rst_problem *problem, const struct rst_workspace *workspace,
                     const struct sync_grid *grid, struct run *run, struct store *store)
 {
     const struct rst_solid *s = &problem->solid;
     const int64_t n = run->levels;
-    const double closeness = fmax(1e-13, 1e-3 * problem->tolerance);
     int64_t failed;
     lay_out(workspace->elements, n, s->n_terms, store);
-    rst_normal_levels(grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, n, closeness, store->level, store->memory,
+    rst_normal_levels(grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, n, closeness_of(problem), store->level, store->memory,
                       store->loading, store->node, &failed);
     if (failed || !isfinite(store->level[2 * n].velocity)) return 1;
     run->velocity = store->level[2 * n].velocity;
@@ -137,23 +144,32 @@ static int run_once(const struct rst_problem *problem, const struct rst_workspac
     return !isfinite(run->shear_velocity);
 }
 
-static void fill(const struct run *run, double error_ez, double error_ex, int64_t updates,
-                 struct rst_outcome *outcome)
+/* Two runs, the second with twice the levels: the extrapolated pair and its error. */
+static void compare(const struct rst_problem *problem, const struct run *before, const struct run *now,
+                    int64_t updates, struct rst_outcome *outcome)
 {
-    *outcome = (struct rst_outcome){.velocity = run->velocity,
-                                    .shear_velocity = run->shear_velocity,
-                                    .error_ez = error_ez,
-                                    .error_ex = error_ex,
-                                    .contact_time = run->contact_time,
-                                    .followed_time = run->contact_time,
-                                    .max_indentation = run->depth,
-                                    .max_contact_radius = sqrt(run->depth),
-                                    .max_normal_force = 15.0 / 8.0 * run->force,
-                                    .spacing = sqrt(run->depth) / (double)run->levels,
-                                    .step = run->contact_time / (double)(2 * run->levels),
-                                    .elements = run->levels,
-                                    .steps = 2 * run->levels,
-                                    .updates = updates};
+    const double change = now->velocity - before->velocity;
+    const double shear_change = now->shear_velocity - before->shear_velocity;
+    const double velocity = now->velocity + change * part_taken_ez;
+    const int slides = !sticks(problem, -velocity);
+    *outcome = (struct rst_outcome){
+        .velocity = velocity,
+        .shear_velocity = slides ? full_slip(problem, velocity) : now->shear_velocity + shear_change * part_taken_ex,
+        .error_ez = share_of_change_ez * fabs(change) + closeness_of(problem),
+        .contact_time = now->contact_time,
+        .followed_time = now->contact_time,
+        .max_indentation = now->depth,
+        .max_contact_radius = sqrt(now->depth),
+        .max_normal_force = 15.0 / 8.0 * now->force,
+        .spacing = sqrt(now->depth) / (double)now->levels,
+        .step = now->contact_time / (double)(2 * now->levels),
+        .elements = now->levels,
+        .steps = 2 * now->levels,
+        .updates = updates};
+    if (problem->mode == RST_FRICTIONLESS) return;
+    const double usual = usual_error * fmax(1, problem->chi) * pow((double)now->levels, -3);
+    outcome->error_ex = slides ? 2 * problem->chi * outcome->error_ez / problem->psi
+                               : share_of_change_ex * fabs(shear_change) / problem->psi + usual + outcome->error_ez;
 }
 
 /* A solid without equilibrium modulus that the sphere sinks into (THEORY 4.9): both velocities end at nothing, unless it
@@ -172,19 +188,14 @@ static int64_t even(double count)
     return 2 * (int64_t)ceil(fmin(count, (double)most_levels) / 2);
 }
 
-/* The counts that the error of the median impact asks for: e_x ~ 13 n^-3, e_z ~ 20 n^-4 (docs/accuracy.md). The tangential
- * oscillation in stick is faster than the normal one by sqrt(2 chi). */
-static int64_t levels_to_start(const struct rst_problem *problem)
+/* The counts that the median impact needs for its estimate to meet the tolerance (docs/accuracy.md). The tangential oscillation
+ * in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
+static double levels_to_start(const struct rst_problem *problem)
 {
-    const double normal = pow(20 / problem->tolerance, 0.25);
-    if (!sticks(problem, 1)) return even(fmax(8, normal));
+    const double normal = 1.5 * pow(problem->tolerance, -0.25);
+    if (!sticks(problem, 1)) return fmax(8, normal);
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
-    return even(fmax(8, fmax(normal, faster * cbrt(25 / problem->tolerance))));
-}
-
-static double error_from(double change, double share)
-{
-    return share * change + rounding;
+    return fmax(16, fmax(normal, 3 * faster / cbrt(problem->tolerance)));
 }
 
 static int too_much(const struct rst_problem *problem, int64_t levels, int64_t spent)
@@ -193,52 +204,62 @@ static int too_much(const struct rst_problem *problem, int64_t levels, int64_t s
     return levels > most_levels || (double)spent + cost > (double)problem->max_updates;
 }
 
-static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                      struct rst_outcome *outcome, restitute_error *error)
+static int give_up(const struct rst_problem *problem, int64_t levels, restitute_error *error)
+{
+    if (levels > most_levels)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "no result with %lld levels", (long long)most_levels);
+    if (problem->elements > 0)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "elements = %lld: too few for this solid; take more",
+                          (long long)problem->elements);
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "max_updates = %lld: spent before there was a result; raise it", (long long)problem->max_updates);
+}
+
+/* Levels are doubled until two runs on end agree. With the number of levels given: that one and its half. */
+static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace,
+                          struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
-    struct run runs[2] = {{0}};
+    struct run now, before = {0};
     struct sync_grid grid;
     struct store store;
-    int64_t updates = 0, found = 0;
-    int known = 0; /* whether the run before is of use */
-    (void)keep_ledger;
-    if (s->can_sink) {
-        double depth, time;
-        int64_t sinks;
-        double *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
-        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance,
-                              stress, &depth, &time, &sinks);
-        if (sinks) return solve_sunk(problem, outcome, error);
-    }
+    int64_t updates = 0, last = problem->elements > 0 ? even((double)problem->elements) : INT64_MAX;
+    int known = 0, found = 0; /* whether there is a run before, a result */
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
-    int64_t levels = problem->elements > 0 ? even((double)problem->elements / 2) : even(levels_to_start(problem) / 2);
-    for (int last = 0;; levels *= 2) {
-        struct run *now = &runs[1], *before = &runs[0];
-        if (too_much(problem, levels, updates)) break;
+    int64_t levels = even((last < INT64_MAX ? (double)last : levels_to_start(problem)) / 2);
+    for (; levels <= last && !too_much(problem, levels, updates); levels *= 2) {
         if (rst_workspace_elements(workspace, lay_out(NULL, levels, s->n_terms, &store)))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
-        *before = *now;
-        *now = (struct run){.levels = levels};
-        int unsettled = run_once(problem, workspace, &grid, now, &store);
-        updates += now->updates;
+        now = (struct run){.levels = levels};
+        int unsettled = run_once(problem, workspace, &grid, &now, &store);
+        updates += now.updates;
         if (!unsettled && known) {
-            double error_ez = error_from(fabs(now->velocity - before->velocity), share_of_change_ez);
-            double error_ex = error_from(fabs(now->shear_velocity - before->shear_velocity) / problem->psi,
-                                         share_of_change_ex);
-            fill(now, error_ez, problem->mode == RST_FRICTIONLESS ? 0 : error_ex, updates, outcome);
+            compare(problem, &before, &now, updates, outcome);
             found = 1;
             if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
         }
         known = !unsettled;
-        if (problem->elements > 0 && last++) break;
+        before = now;
     }
-    if (!found)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: spent before there was a result; raise it",
-                          (long long)problem->max_updates);
+    if (!found) return give_up(problem, levels, error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld levels; more were not allowed",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
+}
+
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    const struct rst_solid *s = &problem->solid;
+    (void)keep_ledger;
+    if (s->can_sink) {
+        double depth, time, *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
+        int64_t sinks;
+        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance,
+                              stress, &depth, &time, &sinks);
+        if (sinks) return solve_sunk(problem, outcome, error);
+    }
+    return solve_refining(problem, workspace, outcome, error);
 }
 
 static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
