@@ -55,75 +55,81 @@ static double order_of(const double *error, int runs)
     return weighted / weights;
 }
 
-/* Below this an error of e_z is that of iterations and of rounding, some 1e-12 a level. */
+/* Below this an error is that of iterations and of rounding, some 1e-12 a level. */
 static const double rounding = 3e-10;
 
-/* Half an order either way: a part of the next order that is as large as the first one on the coarsest of four grids and an
+/* Runs whose error still comes from the number of levels. Too few of them: then it must be small from the beginning. */
+static int runs_with_an_order(const double *error, struct grid grid, const char *what)
+{
+    int runs = 0;
+    while (runs < grid.runs && error[runs] > rounding)
+        runs++;
+    if (runs >= 3) return runs;
+    CHECK(error[0] < 1e-7, "%s: no order can be seen from an error of %.1e", what, error[0]);
+    return 0;
+}
+
+/* Orders from `least` to 4 for e_x, from 3.5 to 5 for e_z. Half an order: a part of the next order that is as large as the first one on the coarsest of four grids and an
  * eighth of it on the finest would bend the line by that; above, cancellation may let errors fall faster. */
-static void check_orders(const restitute_impact impact[impacts], struct grid grid, const char *what)
+static void check_orders(const restitute_impact impact[impacts], struct grid grid, double least, const char *what)
 {
     const struct errors e = errors_of(impact, grid);
-    int runs = 0;
-    while (runs < grid.runs && e.ez[runs] > rounding)
-        runs++;
-    const double x = order_of(e.ex, grid.runs);
-    CHECK(x >= 2.5 && x <= 4, "%s: order %.2f of ex (%.1e to %.1e)", what, x, e.ex[0], e.ex[grid.runs - 1]);
-    if (runs < 3) {
-        CHECK(e.ez[0] < 1e-7, "%s: no order can be seen from an error of ez of %.1e", what, e.ez[0]);
-        return;
-    }
-    const double z = order_of(e.ez, runs);
-    CHECK(z >= 3.5 && z <= 5, "%s: order %.2f of ez (%.1e to %.1e)", what, z, e.ez[0], e.ez[runs - 1]);
+    const int runs_z = runs_with_an_order(e.ez, grid, what), runs_x = runs_with_an_order(e.ex, grid, what);
+    const double z = runs_z ? order_of(e.ez, runs_z) : 4, x = runs_x ? order_of(e.ex, runs_x) : 3;
+    CHECK(z >= 3.5 && z <= 5, "%s: order %.2f of ez (%.1e to %.1e)", what, z, e.ez[0], e.ez[grid.runs - 1]);
+    CHECK(x >= least && x <= 4, "%s: order %.2f of ex (%.1e to %.1e)", what, x, e.ex[0], e.ex[grid.runs - 1]);
 }
 
 static const struct grid usual = {32, 4, 1024};
 
-static void check_standard(double delta1, double gamma, struct grid grid, const char *what)
+static const double usual_order = 2.5;
+
+static void check_standard(double delta1, double gamma, struct grid grid, double least, const char *what)
 {
     uint64_t random = 4;
     restitute_impact impact[impacts];
     for (int i = 0; i < impacts; i++)
         impact[i] = impact_of(random_in(&random, 0.5, 2), some_psi(&random), delta1, gamma);
-    check_orders(impact, grid, what);
+    check_orders(impact, grid, least, what);
 }
 
 static void elastic(void **state)
 {
     (void)state;
-    check_standard(0, INFINITY, usual, "elastic");
+    check_standard(0, INFINITY, usual, usual_order, "elastic");
 }
 
 static void standard_solid(void **state)
 {
     (void)state;
-    check_standard(0.3, 0.5, usual, "standard, delta1 = 0.3");
-    check_standard(1, 1, usual, "standard, delta1 = 1");
-    check_standard(10, 0.1, usual, "standard, delta1 = 10");
-    check_standard(100, 1, usual, "standard, delta1 = 100");
+    check_standard(0.3, 0.5, usual, usual_order, "standard, delta1 = 0.3");
+    check_standard(1, 1, usual, usual_order, "standard, delta1 = 1");
+    check_standard(10, 0.1, usual, usual_order, "standard, delta1 = 10");
+    check_standard(100, 1, usual, usual_order, "standard, delta1 = 100");
 }
 
 static void kelvin_voigt(void **state)
 {
     (void)state;
-    check_standard(0.1, 0, usual, "Kelvin-Voigt, delta1 = 0.1");
-    check_standard(1, 0, usual, "Kelvin-Voigt, delta1 = 1");
+    check_standard(0.1, 0, usual, usual_order, "Kelvin-Voigt, delta1 = 0.1");
+    check_standard(1, 0, usual, usual_order, "Kelvin-Voigt, delta1 = 1");
 }
 
 /* The contact shrinks to a small part of its size at once: more levels are needed before an order is seen. */
 static void strongly_damped_kelvin_voigt(void **state)
 {
-    const struct grid fine = {256, 3, 2048};
     (void)state;
-    check_standard(10, 0, fine, "Kelvin-Voigt, delta1 = 10");
-    check_standard(100, 0, fine, "Kelvin-Voigt, delta1 = 100");
+    check_standard(10, 0, (struct grid){64, 4, 1024}, usual_order, "Kelvin-Voigt, delta1 = 10");
+    check_standard(100, 0, (struct grid){256, 4, 4096}, usual_order, "Kelvin-Voigt, delta1 = 100");
 }
 
-/* A relaxation time below every step, which must act as the dashpot that it is. */
+/* A relaxation time below every step (1.5e-4 T), which must act as the dashpot that it is; and one (1.5e-3 T) that is so on the
+ * coarser grids but not on the finest ones, between which an order is lost. */
 static void stiff_standard_solid(void **state)
 {
     (void)state;
-    check_standard(1, 1e-4, usual, "stiff, delta1 = 1");
-    check_standard(10, 1e-4, (struct grid){256, 3, 2048}, "stiff, delta1 = 10");
+    check_standard(1, 1e-4, usual, usual_order, "stiff, delta1 = 1");
+    check_standard(10, 1e-4, (struct grid){128, 4, 2048}, 2, "stiff, delta1 = 10");
 }
 
 static void check_solid(const restitute_material *solid, const char *what)
@@ -132,7 +138,7 @@ static void check_solid(const restitute_material *solid, const char *what)
     restitute_impact impact[impacts];
     for (int i = 0; i < impacts; i++)
         impact[i] = impact_on(solid, random_in(&random, 0.5, 2), some_psi(&random));
-    check_orders(impact, usual, what);
+    check_orders(impact, usual, usual_order, what);
 }
 
 static void maxwell_body_that_rebounds(void **state)

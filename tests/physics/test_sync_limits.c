@@ -14,7 +14,7 @@ static const double sphere = 7.0 / 6;
 static const double elastic_contact_time = 2.9432751843;
 
 /* Steps of the reference in each phase; even. */
-enum { steps = 2000 };
+enum { steps = 4000 };
 
 /* D, D' (as they are at sigma of the compression), U, U', Q. */
 struct motion {
@@ -113,7 +113,7 @@ static void strong_friction_reaches_no_slip(void **state)
                 solve_impact(sync_to(1e-5), impact_of(chis[i], 0, solids[j][0], solids[j][1]));
             for (double psi = 0.1; psi > 0.5e-11; psi /= 10) {
                 restitute_options options = sync_to(1e-5);
-                options.max_updates = 100000000; /* a second at most */
+                options.max_updates = 300000000; /* a second at most */
                 const struct solution s =
                     solve_impact(options, impact_of(chis[i], psi, solids[j][0], solids[j][1]));
                 if (s.status == RESTITUTE_OK && fabs(s.result.ex - limit.result.ex) <= psi + 2e-5) continue;
@@ -152,7 +152,7 @@ static void ex_is_continuous_where_gross_slip_begins_and_where_it_lasts(void **s
 /* (27) is how e_x is computed there: only the rounding of a few operations on numbers of the size of psi. */
 static void full_slip_is_exact(void **state)
 {
-    const double chis[] = {1.0 / 3, 7.0 / 6, 1000}, factors[] = {1 + 1e-6, 1.5, 1e3, 1e9};
+    const double chis[] = {1.0 / 3, 7.0 / 6, 1000}, factors[] = {1 + 1e-6, 1.5, 1e3, 1e8};
     (void)state;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
@@ -311,16 +311,16 @@ static void a_term_may_be_split(void **state)
     restitute_material_destroy(split);
 }
 
-/* e_z = 0, and e_x = 0 unless slip persists: then (27) with e_z = 0, beyond psi_c = 2 chi (1 if 2 chi < 1). The default
- * method knows it too, to its 1e-3. */
+/* e_z = 0, and e_x = 0 unless slip persists: then (27) with e_z = 0, beyond psi_c = 2 chi. The default method knows it too, to
+ * its 1e-3. */
 static void maxwell_body_with_a_short_time_never_rebounds(void **state)
 {
-    const double tau[] = {0.2}, g[] = {1}, chis[] = {0.4, 7.0 / 6, 3}, factors[] = {0, 0.1, 0.99, 1.01, 3};
+    const double tau[] = {0.2}, g[] = {1}, chis[] = {0.55, 7.0 / 6, 3}, factors[] = {0, 0.1, 0.99, 1.01, 3};
     restitute_material *solid = solid_of(0, 0, 1, tau, g);
     (void)state;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 5; j++) {
-            const double critical = fmax(1, 2 * chis[i]), psi = factors[j] * critical;
+            const double critical = 2 * chis[i], psi = factors[j] * critical;
             const double limit = factors[j] > 1 ? 2 * chis[i] / psi - 1 : 0;
             const struct solution s = solve_impact(sync_to(1e-6), impact_on(solid, chis[i], psi));
             const struct solution euler = solve_impact(to_tolerance(1e-3), impact_on(solid, chis[i], psi));
@@ -335,7 +335,25 @@ static void maxwell_body_with_a_short_time_never_rebounds(void **state)
     restitute_material_destroy(solid);
 }
 
-/* A light shell of rotation: the tangential oscillation is sqrt(2 chi) times faster than the normal one. */
+/* The impulse of the force is 1, so that of friction takes at most 2 chi from U': for 2 chi < psi < 1 the contact begins to stick
+ * and yet the contact point cannot stop, |U'| >= psi - 2 chi. */
+static void what_sinks_does_not_stop_what_friction_cannot(void **state)
+{
+    const double tau[] = {0.2}, g[] = {1}, psis[] = {0.7, 0.85, 0.95, 0.999};
+    restitute_material *solid = solid_of(0, 0, 1, tau, g);
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const struct solution s = solve_impact(sync_to(1e-6), impact_on(solid, 1.0 / 3, psis[i]));
+        const struct solution euler = solve_impact(to_tolerance(1e-3), impact_on(solid, 1.0 / 3, psis[i]));
+        CHECK(s.status == RESTITUTE_NO_REBOUND, "psi %g: status %d", psis[i], s.status);
+        CHECK(s.result.ex <= 2.0 / 3 / psis[i] - 1 + 1e-6, "psi %g: ex %g", psis[i], s.result.ex);
+        CHECK_NEAR(s.result.ex, euler.result.ex, 1.001e-3, "psi %g", psis[i]);
+    }
+    restitute_material_destroy(solid);
+}
+
+/* A sphere that is easily turned: its tangential oscillation is sqrt(2 chi) times as fast as the normal one, up to forty-five
+ * times. The default method needs a second for the last ones. */
 static void extreme_chi_works(void **state)
 {
     const double chis[] = {1.0 / 3, 0.5, 10, 100, 1000}, psis[] = {0, 0.3, 0.95, 1.5};
@@ -345,14 +363,11 @@ static void extreme_chi_works(void **state)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 2; k++) {
                 const restitute_impact impact = impact_of(chis[i], psis[j], k, 1);
-                const struct solution s = solve_impact(sync_to(1e-5), impact), fine = solve_impact(sync_to(1e-7), impact);
-                const struct solution euler = solve_impact(to_tolerance(3e-3), impact);
-                if (s.status == RESTITUTE_OK && fabs(s.result.ex - fine.result.ex) <= 1.01e-5 &&
-                    fabs(euler.result.ex - fine.result.ex) <= 3e-3)
-                    continue;
-                print_error("chi %g, psi %g, delta1 %d: status %d, ex %g; at 1e-7 %g, status %d; euler %g +- %g\n", chis[i],
-                            psis[j], k, s.status, s.result.ex, fine.result.ex, fine.status, euler.result.ex,
-                            euler.result.error_ex);
+                const struct solution s = solve_impact(sync_to(1e-4), impact);
+                const struct solution euler = solve_impact(to_tolerance(2e-3), impact);
+                if (s.status == RESTITUTE_OK && fabs(s.result.ex - euler.result.ex) <= 2.1e-3) continue;
+                print_error("chi %g, psi %g, delta1 %d: status %d, ex %g, estimate %g; euler %g +- %g\n", chis[i], psis[j], k,
+                            s.status, s.result.ex, s.result.error_ex, euler.result.ex, euler.result.error_ex);
                 wrong++;
             }
     CHECK(wrong == 0, "%d of 40", wrong);
@@ -399,6 +414,7 @@ int main(void)
         cmocka_unit_test(limits_of_single_terms_hold),
         cmocka_unit_test(a_term_may_be_split),
         cmocka_unit_test(maxwell_body_with_a_short_time_never_rebounds),
+        cmocka_unit_test(what_sinks_does_not_stop_what_friction_cannot),
         cmocka_unit_test(extreme_chi_works),
         cmocka_unit_test(polyisobutylene_agrees_with_euler_at_all_speeds),
     };
