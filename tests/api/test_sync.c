@@ -70,14 +70,15 @@ static void same_bits_whatever_was_solved_before(void **state)
 }
 
 /* A remark with the best result, or an error with none; the message names the limit. From no work at all on, twice as much is
- * allowed from call to call until it is enough. */
+ * allowed from call to call until it is enough. A sphere that is easily turned needs more levels than the method
+ * expects, so that there are runs to be left out. */
 static void work_that_is_not_allowed_is_not_done(void **state)
 {
     int remarks = 0, refusals = 0, status = -1;
     (void)state;
     for (int64_t most = 1; status != RESTITUTE_OK; most *= 2) {
-        restitute_options options = sync_to(1e-8);
-        restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
+        restitute_options options = sync_to(1e-5);
+        restitute_impact impact = impact_of(1000, 0.01, 1, 1);
         restitute_solver *solver;
         restitute_result r;
         restitute_error error;
@@ -91,14 +92,14 @@ static void work_that_is_not_allowed_is_not_done(void **state)
         if (status == RESTITUTE_OK) continue;
         CHECK(strstr(error.message, "max_updates = ") != NULL, "%s", error.message);
         if (status == RESTITUTE_TOLERANCE_NOT_REACHED) {
-            CHECK(r.error_ex > 1e-8 || r.error_ez > 1e-8, "estimates %g, %g", r.error_ez, r.error_ex);
-            CHECK(strstr(error.message, "tolerance = 1e-08") != NULL, "%s", error.message);
+            CHECK(r.error_ex > 1e-5 || r.error_ez > 1e-5, "estimates %g, %g", r.error_ez, r.error_ex);
+            CHECK(strstr(error.message, "tolerance = 1e-05") != NULL, "%s", error.message);
             remarks++;
         } else {
             CHECK(status == RESTITUTE_ERROR_TOO_MUCH_WORK && r.ex == 42, "status %d, ex %g", status, r.ex);
             refusals++;
         }
-        CHECK(most < 1000000000, "an everyday impact costs more than 1e9 updates");
+        CHECK(most < 10000000000, "more than 1e10 updates");
     }
     CHECK(refusals >= 1 && remarks >= 1, "%d refusals, %d remarks", refusals, remarks);
 }
