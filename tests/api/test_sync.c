@@ -24,7 +24,8 @@ static void time_step_is_refused(void **state)
     options.time_step = 0.25;
     CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_ERROR_DOMAIN && solver == NULL, "status %d",
           error.status);
-    CHECK(strcmp(error.message, "time_step = 0.25: must be 0 with the method sync, which chooses its steps itself") == 0,
+    CHECK(strcmp(error.message, "time_step = 0.25: must be 0 with the method sync, which chooses its steps itself") ==
+              0,
           "%s", error.message);
     options.method = restitute_method_euler();
     CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
@@ -62,8 +63,8 @@ static void same_bits_whatever_was_solved_before(void **state)
                   memcmp(&again.contact_time, &fresh.result.contact_time, sizeof again.contact_time) == 0 &&
                   memcmp(&again.error_ex, &fresh.result.error_ex, sizeof again.error_ex) == 0 &&
                   again.updates == fresh.result.updates,
-              "impact %d (chi %g psi %g delta1 %g gamma %g) differs: ex by %g", i, impact.chi, impact.psi, impact.delta1,
-              impact.gamma, again.ex - fresh.result.ex);
+              "impact %d (chi %g psi %g delta1 %g gamma %g) differs: ex by %g", i, impact.chi, impact.psi,
+              impact.delta1, impact.gamma, again.ex - fresh.result.ex);
     }
     restitute_solver_destroy(used);
     restitute_material_destroy(solid);

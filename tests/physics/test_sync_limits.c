@@ -114,12 +114,12 @@ static void strong_friction_reaches_no_slip(void **state)
             for (double psi = 0.1; psi > 0.5e-11; psi /= 10) {
                 restitute_options options = sync_to(1e-5);
                 options.max_updates = 300000000; /* a second at most */
-                const struct solution s =
-                    solve_impact(options, impact_of(chis[i], psi, solids[j][0], solids[j][1]));
+                const struct solution s = solve_impact(options, impact_of(chis[i], psi, solids[j][0], solids[j][1]));
                 if (s.status == RESTITUTE_OK && fabs(s.result.ex - limit.result.ex) <= psi + 2e-5) continue;
-                print_error("chi %g, delta1 %g, gamma %g, psi %g: %g from the limit, status %d, estimate %g, %d levels\n",
-                            chis[i], solids[j][0], solids[j][1], psi, s.result.ex - limit.result.ex, s.status,
-                            s.result.error_ex, (int)s.result.elements);
+                print_error(
+                    "chi %g, delta1 %g, gamma %g, psi %g: %g from the limit, status %d, estimate %g, %d levels\n",
+                    chis[i], solids[j][0], solids[j][1], psi, s.result.ex - limit.result.ex, s.status,
+                    s.result.error_ex, (int)s.result.elements);
                 wrong++;
             }
         }
@@ -366,8 +366,9 @@ static void extreme_chi_works(void **state)
                 const struct solution s = solve_impact(sync_to(1e-4), impact);
                 const struct solution euler = solve_impact(to_tolerance(2e-3), impact);
                 if (s.status == RESTITUTE_OK && fabs(s.result.ex - euler.result.ex) <= 2.1e-3) continue;
-                print_error("chi %g, psi %g, delta1 %d: status %d, ex %g, estimate %g; euler %g +- %g\n", chis[i], psis[j], k,
-                            s.status, s.result.ex, s.result.error_ex, euler.result.ex, euler.result.error_ex);
+                print_error("chi %g, psi %g, delta1 %d: status %d, ex %g, estimate %g; euler %g +- %g\n", chis[i],
+                            psis[j], k, s.status, s.result.ex, s.result.error_ex, euler.result.ex,
+                            euler.result.error_ex);
                 wrong++;
             }
     CHECK(wrong == 0, "%d of 40", wrong);
@@ -390,7 +391,8 @@ static void polyisobutylene_agrees_with_euler_at_all_speeds(void **state)
         for (int j = 0; j < 2; j++) {
             scene.normal_speed = speed;
             scene.tangential_speed = (j ? 2 : 0.7) * 0.45 * speed; /* psi = 2 and 0.7 */
-            const struct solution s = solve_scene(sync_to(1e-6), &scene), euler = solve_scene(to_tolerance(1e-4), &scene);
+            const struct solution s = solve_scene(sync_to(1e-6), &scene),
+                                  euler = solve_scene(to_tolerance(1e-4), &scene);
             CHECK(s.status == RESTITUTE_OK && euler.status == RESTITUTE_OK, "%g m/s: statuses %d, %d", speed, s.status,
                   euler.status);
             CHECK_NEAR(s.result.ez, euler.result.ez, 1.01e-4, "%g m/s", speed);
