@@ -80,9 +80,9 @@ static void tolerance_is_met(void **state)
     for (int k = 0; k < tolerances; k++)
         for (int i = 0; i < impacts; i++) {
             const struct sample *s = &samples[i];
-            CHECK(estimate_keeps_tolerance(&s->solution[k], tolerance_of[k]), "impact %d: status %d", i,
-                  s->solution[k].status);
-            if (error_z(s, k) <= tolerance_of[k] && error_x(s, k) <= tolerance_of[k]) continue;
+            if (estimate_keeps_tolerance(&s->solution[k], tolerance_of[k]) && error_z(s, k) <= tolerance_of[k] &&
+                error_x(s, k) <= tolerance_of[k])
+                continue;
             print_sample(s, k);
             missed++;
         }

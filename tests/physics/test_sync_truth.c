@@ -175,8 +175,7 @@ static void largest_indentation_and_contact_time_are_right(void **state)
             const double depth = fabs(r->max_indentation - t->max_indentation);
             const double time = fabs(r->contact_time - t->contact_time);
             CHECK_NEAR(r->max_contact_radius, sqrt(r->max_indentation), 1e-15, "row %d", i);
-            if (depth <= tolerance_of[k] + 1e-10 &&
-                time <= tolerance_of[k] * t->contact_time * (1 + 1 / t->ez) + 1e-10)
+            if (depth <= tolerance_of[k] + 1e-10 && time <= tolerance_of[k] * t->contact_time * (1 + 1 / t->ez) + 1e-10)
                 continue;
             print_error("row %d at %g: largest indentation off by %g, contact time by %g (ez %g)\n", i, tolerance_of[k],
                         depth, time, t->ez);

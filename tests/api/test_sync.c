@@ -1,0 +1,151 @@
+/* What the header promises of the method `sync` beside its numbers.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
+#include "../support/random.h"
+#include "../support/sync.h"
+
+static void it_is_found_by_handle_and_named_in_the_result(void **state)
+{
+    (void)state;
+    CHECK(strcmp(restitute_method_name(restitute_method_sync()), "sync") == 0, "name");
+    const struct solution s = solve_impact(sync_to(1e-3), impact_of(7.0 / 6, 2, 1, 1));
+    CHECK(strcmp(s.result.method, "sync") == 0, "result: %s", s.result.method);
+    CHECK(s.result.steps == 2 * s.result.elements && s.result.updates > 0, "%d elements, %d steps",
+          (int)s.result.elements, (int)s.result.steps);
+}
+
+static void time_step_is_refused(void **state)
+{
+    restitute_options options = sync_to(1e-3);
+    restitute_solver *solver = NULL;
+    restitute_error error;
+    (void)state;
+    options.time_step = 0.25;
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_ERROR_DOMAIN && solver == NULL, "status %d",
+          error.status);
+    CHECK(strcmp(error.message, "time_step = 0.25: must be 0 with the method sync, which chooses its steps itself") ==
+              0,
+          "%s", error.message);
+    options.method = restitute_method_euler();
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    restitute_solver_destroy(solver);
+}
+
+static restitute_impact random_impact(uint64_t *random, const restitute_material *solid, int i)
+{
+    restitute_impact impact = impact_of(random_in(random, 0.4, 4), random_log(random, 0.05, 5),
+                                        random_log(random, 1e-3, 100), random_log(random, 1e-3, 1e3));
+    if (i % 4 == 0) impact.solid = solid;
+    if (i % 4 == 1) impact.gamma = 0;
+    if (i % 4 == 2) impact.psi = 0;
+    return impact;
+}
+
+/* Also when a finer run, or one with more terms, left its numbers in the workspace. */
+static void same_bits_whatever_was_solved_before(void **state)
+{
+    const double tau[] = {0.05, 0.5, 5, 50}, g[] = {1, 2, 1, 0.5};
+    restitute_material *solid = solid_of(1, 0, 4, tau, g);
+    const restitute_options options = sync_to(1e-5);
+    restitute_solver *used;
+    uint64_t random = 7;
+    (void)state;
+    CHECK(restitute_solver_create(&options, &used, NULL) == RESTITUTE_OK, "solver");
+    for (int i = 0; i < 60; i++) {
+        const restitute_impact impact = random_impact(&random, solid, i);
+        const struct solution fresh = solve_impact(options, impact);
+        restitute_result again;
+        restitute_result_init(&again);
+        CHECK(restitute_solve(used, &impact, &again, NULL, NULL, NULL) == fresh.status, "impact %d: status", i);
+        CHECK(memcmp(&again.ez, &fresh.result.ez, sizeof again.ez) == 0 &&
+                  memcmp(&again.ex, &fresh.result.ex, sizeof again.ex) == 0 &&
+                  memcmp(&again.contact_time, &fresh.result.contact_time, sizeof again.contact_time) == 0 &&
+                  memcmp(&again.error_ex, &fresh.result.error_ex, sizeof again.error_ex) == 0 &&
+                  again.updates == fresh.result.updates,
+              "impact %d (chi %g psi %g delta1 %g gamma %g) differs: ex by %g", i, impact.chi, impact.psi,
+              impact.delta1, impact.gamma, again.ex - fresh.result.ex);
+    }
+    restitute_solver_destroy(used);
+    restitute_material_destroy(solid);
+}
+
+/* A remark with the best result, or an error with none; the message names the limit. From no work at all on, twice as much is
+ * allowed from call to call until it is enough. A sphere that is easily turned needs more levels than the method
+ * expects, so that there are runs to be left out. */
+static void work_that_is_not_allowed_is_not_done(void **state)
+{
+    int remarks = 0, refusals = 0, status = -1;
+    (void)state;
+    for (int64_t most = 1; status != RESTITUTE_OK; most *= 2) {
+        restitute_options options = sync_to(1e-5);
+        restitute_impact impact = impact_of(1000, 0.01, 1, 1);
+        restitute_solver *solver;
+        restitute_result r;
+        restitute_error error;
+        options.max_updates = most;
+        restitute_result_init(&r);
+        r.ex = 42;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
+        restitute_solver_destroy(solver);
+        CHECK(status < 0 || r.updates <= most, "%d updates of %d", (int)r.updates, (int)most);
+        if (status == RESTITUTE_OK) continue;
+        CHECK(strstr(error.message, "max_updates = ") != NULL, "%s", error.message);
+        if (status == RESTITUTE_TOLERANCE_NOT_REACHED) {
+            CHECK(r.error_ex > 1e-5 || r.error_ez > 1e-5, "estimates %g, %g", r.error_ez, r.error_ex);
+            CHECK(strstr(error.message, "tolerance = 1e-05") != NULL, "%s", error.message);
+            remarks++;
+        } else {
+            CHECK(status == RESTITUTE_ERROR_TOO_MUCH_WORK && r.ex == 42, "status %d, ex %g", status, r.ex);
+            refusals++;
+        }
+        CHECK(most < 10000000000, "more than 1e10 updates");
+    }
+    CHECK(refusals >= 1 && remarks >= 1, "%d refusals, %d remarks", refusals, remarks);
+}
+
+/* Elements given: that many, whatever the tolerance; the remark says that it is missed. */
+static void elements_may_be_given(void **state)
+{
+    (void)state;
+    for (int64_t elements = 8; elements <= 512; elements *= 4) {
+        const struct solution s = solve_impact(sync_with(elements), impact_of(7.0 / 6, 0.7, 1, 1));
+        CHECK(s.result.elements == elements, "%d, not %d", (int)s.result.elements, (int)elements);
+        CHECK(s.status == RESTITUTE_TOLERANCE_NOT_REACHED && s.result.error_ex > 1e-8, "status %d", s.status);
+    }
+}
+
+/* Too few levels for a solid may fail, but that is no lack of updates. */
+static void message_tells_the_reason(void **state)
+{
+    (void)state;
+    for (int64_t elements = 4; elements <= 64; elements *= 2)
+        for (double delta1 = 10; delta1 < 2e6; delta1 *= 10) {
+            restitute_options options = sync_with(elements);
+            restitute_impact impact = impact_of(7.0 / 6, 0.7, delta1, 0);
+            restitute_solver *solver;
+            restitute_error error;
+            CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+            const int status = restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
+            restitute_solver_destroy(solver);
+            CHECK(status >= 0 || strstr(error.message, "elements = ") != NULL, "%d elements, delta1 %g: %s",
+                  (int)elements, delta1, error.message);
+            /* what was found is not the fault of 1e12 updates either */
+            CHECK(strstr(error.message, "max_updates") == NULL, "%d elements, delta1 %g: %s", (int)elements, delta1,
+                  error.message);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_is_found_by_handle_and_named_in_the_result),
+        cmocka_unit_test(time_step_is_refused),
+        cmocka_unit_test(same_bits_whatever_was_solved_before),
+        cmocka_unit_test(work_that_is_not_allowed_is_not_done),
+        cmocka_unit_test(elements_may_be_given),
+        cmocka_unit_test(message_tells_the_reason),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,116 @@
+/* Once a solver has solved an impact of a kind, `sync` takes no more memory: calls of the allocator are counted.
+ *
+ * The program defines malloc and its kin itself, on top of those of the C library; the sanitizers do the same, so with
+ * them, and with another C library than that of GNU, there is nothing to count and the test is skipped.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+
+#include "../support/random.h"
+#include "../support/sync.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define COUNTS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define COUNTS 0
+#endif
+#endif
+#ifndef COUNTS
+#define COUNTS 1
+#endif
+
+static long calls;
+
+#if COUNTS
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+
+void *malloc(size_t size)
+{
+    calls++;
+    return __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    calls++;
+    return __libc_calloc(count, size);
+}
+
+void *realloc(void *block, size_t size)
+{
+    calls++;
+    return __libc_realloc(block, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    calls++;
+    return __libc_memalign(alignment, size);
+}
+#endif
+
+static void the_counter_counts(void **state)
+{
+    (void)state;
+    if (!COUNTS) skip();
+    const long before = calls;
+    void *volatile block = malloc(100); /* volatile: or the compiler leaves both out */
+    free(block);
+    CHECK(calls == before + 1, "%ld calls counted", calls - before);
+}
+
+/* Standard solids from the second call on; the first one at each tolerance makes room, for the largest number of levels too. */
+static void solver_in_use_takes_no_memory(void **state)
+{
+    (void)state;
+    if (!COUNTS) skip();
+    for (double tolerance = 1e-4; tolerance > 5e-9; tolerance /= 10) {
+        const restitute_options options = sync_to(tolerance);
+        restitute_solver *solver;
+        restitute_result result;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        restitute_result_init(&result);
+        for (int round = 0; round < 2; round++) {
+            uint64_t random = 11;
+            const long before = calls;
+            for (int i = 0; i < 30; i++) {
+                const restitute_impact impact = impact_of(random_in(&random, 0.4, 2), random_in(&random, 0.05, 3),
+                                                          random_log(&random, 1e-2, 10), random_log(&random, 1e-1, 10));
+                CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, NULL) == RESTITUTE_OK, "impact %d", i);
+            }
+            CHECK(round == 0 || calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
+        }
+        restitute_solver_destroy(solver);
+    }
+}
+
+/* ... and one impact needs no second call to learn how much it will need. */
+static void second_call_takes_no_memory(void **state)
+{
+    (void)state;
+    if (!COUNTS) skip();
+    for (double tolerance = 1e-4; tolerance > 5e-9; tolerance /= 10) {
+        const restitute_options options = sync_to(tolerance);
+        const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
+        restitute_solver *solver;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, NULL) == RESTITUTE_OK, "first call");
+        const long before = calls;
+        CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, NULL) == RESTITUTE_OK, "second call");
+        CHECK(calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
+        restitute_solver_destroy(solver);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_counter_counts),
+        cmocka_unit_test(solver_in_use_takes_no_memory),
+        cmocka_unit_test(second_call_takes_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
