@@ -6,7 +6,7 @@ module rst_sync_elements
   public :: step_type, sums_type, term_type, element_loop, lanes
   public :: column_x2, column_weight, column_alpha, column_kappa, columns
 
-  integer(ip), parameter :: lanes = 8  !! element arrays are padded to a multiple of it
+  integer(ip), parameter :: lanes = 8  !! element arrays are longer by as many than the nodes
 
   !> Columns of the array of elements: G_inf X^2, weight of the trapezoidal rule, alpha, slip velocity kappa.
   integer(ip), parameter :: column_x2 = 1, column_weight = 2, column_alpha = 3, column_kappa = 4, columns = 4
@@ -18,7 +18,7 @@ module rst_sync_elements
     real(dp) :: spring             !! G_inf h/2
     real(dp) :: start_response, end_response  !! of a force to the velocities at both ends of the step
     real(dp) :: drop
-    integer(ip) :: first, last     !! nodes to be moved; first is a multiple of lanes
+    integer(ip) :: first, last     !! nodes to be moved, and those that fill the last group of lanes, which are not in contact
     integer(ip) :: n_terms, capacity
   end type step_type
 

@@ -443,8 +443,9 @@ contains
     end do
     if (.not. restitution) then ! the edge has just been touched and answers with the same modulus both ways
       ratio = max(-1.0_dp, min(1.0_dp, velocity/max(normal%velocity, tiny(1.0_dp))))
-    else if (state%front == step%last .and. step%last >= 3 .and. .not. trial) then
-      do k = 2, 0, -1
+    else if (state%front == step%last .and. .not. trial) then
+      q = 0
+      do k = min(2_ip, step%last), 0, -1
         call node_forces(scene, tau, level, memory, step, body, beta, faded, state, step%last - k, slack(0), q(k))
       end do
       total = sums%q + stuck_edge(scene, body, step%last, slack(0), q)
@@ -482,6 +483,10 @@ contains
     integer(ip), intent(in) :: last
     real(dp), intent(in) :: body(0:scene%capacity - 1, columns), slack, q(0:2)
     real(dp) :: missing, edge, y(0:2), reach
+    if (last < 3) then ! the contact is all but over: to its end with the force of the outermost node
+      missing = q(0)*body(last, column_weight)/2
+      return
+    end if
     edge = 3*q(0) - 3*q(1) + q(2)
     y(0) = edge*body(last + 1, column_weight)
     y(1) = q(0)*body(last, column_weight)
