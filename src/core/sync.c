@@ -7,6 +7,7 @@
 
 #include "kernels.h"
 #include "status.h"
+#include "sync_run.h"
 
 /* Solutions at n and n/2 levels are compared. Errors fall by 8 (tangential, third order) or 16 (normal, fourth order)
  * from one to the other, so the change is 7 or 15 times the error; what the estimate keeps of it covers cases that are less
@@ -24,17 +25,6 @@ struct run {
     double velocity, shear_velocity;
     double contact_time, depth, force;
     int64_t updates;
-};
-
-/* What a run works on, laid out in the workspace. */
-struct store {
-    int64_t capacity;         /* of the arrays of elements */
-    struct sync_level *level; /* 2n + 1 */
-    struct sync_node *node;   /* n + 1 */
-    struct sync_term *term;   /* n_terms */
-    double *memory, *loading; /* n_terms times 2n + 1 and n + 1 */
-    double *body;             /* columns times capacity */
-    double *beta, *faded;     /* n_terms times capacity */
 };
 
 static int64_t padded(int64_t count)
@@ -69,7 +59,7 @@ static size_t lay_out(double *block, int64_t levels, int64_t n_terms, struct sto
 }
 
 /* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2). */
-static int sticks(const struct rst_problem *problem, double rebound)
+int rst_sync_sticks(const struct rst_problem *problem, double rebound)
 {
     if (problem->mode == RST_FRICTIONLESS) return 0;
     if (problem->mode != RST_GROSS_SLIP) return 1;
@@ -81,18 +71,23 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store)
+{
+    return (struct sync_scene){.chi = problem->chi,
+                               .psi = problem->psi,
+                               .g_inf = problem->solid.g_inf,
+                               .eta = problem->solid.eta,
+                               .n_terms = problem->solid.n_terms,
+                               .n = levels,
+                               .capacity = store->capacity,
+                               .no_slip = problem->mode == RST_NO_SLIP};
+}
+
 static void follow_shear(const struct rst_problem *problem, sync_loop *loop, int64_t n, const struct store *store,
                          struct sync_shear *shear)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = {.chi = problem->chi,
-                                     .psi = problem->psi,
-                                     .g_inf = s->g_inf,
-                                     .eta = s->eta,
-                                     .n_terms = s->n_terms,
-                                     .n = n,
-                                     .capacity = store->capacity,
-                                     .no_slip = problem->mode == RST_NO_SLIP};
+    const struct sync_scene scene = rst_sync_scene(problem, n, store);
     rst_follow_shear(&scene, loop, s->g, s->tau, store->level, store->memory, store->node, store->body, store->beta,
                      store->faded, store->term, shear);
 }
@@ -110,29 +105,49 @@ static double largest_force(const struct sync_level *level, int64_t n)
     return bend < 0 ? level[i].force - slope * slope / (4 * bend) : level[i].force;
 }
 
-/* One impact at one resolution; nonzero if its iterations did not settle. */
-static int run_once(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                    const struct sync_grid *grid, struct run *run, struct store *store)
+static int solve_normal(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                        const struct sync_grid *grid, int64_t n, struct store *store)
 {
     const struct rst_solid *s = &problem->solid;
-    const int64_t n = run->levels;
     const double closeness = fmax(1e-13, 1e-3 * problem->tolerance);
     int64_t failed;
     lay_out(workspace->elements, n, s->n_terms, store);
     rst_normal_levels(grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, n, closeness, store->level, store->memory,
                       store->loading, store->node, &failed);
-    if (failed || !isfinite(store->level[2 * n].velocity)) return 1;
+    return failed || !isfinite(store->level[2 * n].velocity);
+}
+
+int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels, size_t more,
+                    struct store *store, double **room, restitute_error *error)
+{
+    const struct rst_solid *s = &problem->solid;
+    struct sync_grid grid;
+    const size_t taken = lay_out(NULL, levels, s->n_terms, store);
+    if (rst_workspace_elements(workspace, taken + more))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
+    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
+    solve_normal(problem, workspace, &grid, levels, store); /* it has settled before */
+    *room = workspace->elements + taken;
+    return RESTITUTE_OK;
+}
+
+/* One impact at one resolution; nonzero if its iterations did not settle. */
+static int run_once(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                    const struct sync_grid *grid, struct run *run, struct store *store)
+{
+    const int64_t n = run->levels;
+    if (solve_normal(problem, workspace, grid, n, store)) return 1;
     run->velocity = store->level[2 * n].velocity;
     run->contact_time = store->level[2 * n].time;
     run->depth = store->level[n].depth;
     run->force = largest_force(store->level, n);
     run->updates = 2 * n;
     run->shear_velocity = full_slip(problem, run->velocity);
-    if (sticks(problem, -run->velocity)) {
+    if (rst_sync_sticks(problem, -run->velocity)) {
         struct sync_shear shear;
         follow_shear(problem, workspace->loop, n, store, &shear);
         run->shear_velocity = shear.velocity;
-        run->updates += shear.updates * (1 + s->n_terms);
+        run->updates += shear.updates * (1 + problem->solid.n_terms);
     }
     return !isfinite(run->shear_velocity);
 }
@@ -160,7 +175,7 @@ static void fill(const struct run *run, double error_ez, double error_ex, int64_
  * slips to the end. */
 static int solve_sunk(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
 {
-    const int slides = !sticks(problem, 0);
+    const int slides = !rst_sync_sticks(problem, 0);
     *outcome = (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0,
                                     .contact_time = INFINITY,
                                     .sunk = 1};
@@ -177,7 +192,7 @@ static int64_t even(double count)
 static int64_t levels_to_start(const struct rst_problem *problem)
 {
     const double normal = pow(20 / problem->tolerance, 0.25);
-    if (!sticks(problem, 1)) return even(fmax(8, normal));
+    if (!rst_sync_sticks(problem, 1)) return even(fmax(8, normal));
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
     return even(fmax(8, fmax(normal, faster * cbrt(25 / problem->tolerance))));
 }
@@ -193,8 +208,8 @@ static int too_much(const struct rst_problem *problem, int64_t levels, int64_t s
     return levels > most_levels || (double)spent + cost > (double)problem->max_updates;
 }
 
-static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                      struct rst_outcome *outcome, restitute_error *error)
+static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace,
+                          struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
     struct run runs[2] = {{0}};
@@ -202,7 +217,6 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     struct store store;
     int64_t updates = 0, found = 0;
     int known = 0; /* whether the run before is of use */
-    (void)keep_ledger;
     if (s->can_sink) {
         double depth, time;
         int64_t sinks;
@@ -241,11 +255,13 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
 }
 
-static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
-                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
 {
-    (void)problem, (void)workspace, (void)outcome, (void)history;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "history: not yet");
+    const int status = solve_refining(problem, workspace, outcome, error);
+    if (status < 0 || !keep_ledger) return status;
+    const int kept = rst_sync_ledger(problem, workspace, outcome, error);
+    return kept ? kept : status;
 }
 
-const struct restitute_method rst_method_sync = {.name = "sync", .solve = sync_solve, .record = sync_record};
+const struct restitute_method rst_method_sync = {.name = "sync", .solve = sync_solve, .record = rst_sync_record};
