@@ -235,7 +235,7 @@ contains
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
-    real(c_double), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 1)
+    real(c_double), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
     type(ledger_type), intent(out) :: ledger
     procedure(element_loop), pointer :: loop
     call c_f_procpointer(elements, loop)

@@ -42,7 +42,7 @@ contains
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
-    real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 1)
+    real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
     type(ledger_type), intent(out) :: ledger
     type(shear_type) :: state
     real(dp) :: gross
@@ -164,7 +164,7 @@ contains
     real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(inout), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
-    real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 1)
+    real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
     type(shear_type), intent(inout) :: state
     type(ledger_type), intent(inout) :: ledger
     type(term_type) :: now(scene%n_terms)
@@ -187,7 +187,7 @@ contains
     end do
   end subroutine post_shear
 
-  !> beta and kappa of the nodes 0 to edge, as they are before a step. Passive nodes keep beta as it was at their entry.
+  !> beta, alpha and kappa of the nodes 0 to edge, as they are before a step. Passive nodes keep beta as it was at their entry.
   pure subroutine remember_nodes(scene, tau, level, edge, body, beta, state, before)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: tau(scene%n_terms)
@@ -195,7 +195,7 @@ contains
     integer(ip), intent(in) :: edge
     real(dp), intent(in) :: body(0:scene%capacity - 1, columns), beta(0:scene%capacity - 1, scene%n_terms)
     type(shear_type), intent(in) :: state
-    real(dp), intent(inout) :: before(0:scene%capacity - 1, scene%n_terms + 1)
+    real(dp), intent(inout) :: before(0:scene%capacity - 1, scene%n_terms + 2)
     integer(ip) :: i, k
     do k = 1, scene%n_terms
       do i = 0, edge
@@ -203,12 +203,13 @@ contains
         if (i < state%first) before(i, k) = exp(-(state%time - level(i)%time)/tau(k))*beta(i, k)
       end do
     end do
-    before(0:edge, scene%n_terms + 1) = body(0:edge, column_kappa)
+    before(0:edge, scene%n_terms + 1) = body(0:edge, column_alpha)
+    before(0:edge, scene%n_terms + 2) = body(0:edge, column_kappa)
   end subroutine remember_nodes
 
-  !> Post what the nodes 0 to edge did in a step. The slip velocity went from `kept` to `slip` (module rst_sync_elements), which
-  !> also says what alpha and beta were before and are after it. In the restitution the outermost node leaves at the end
-  !> of the step: friction lets go of all force that it still had.
+  !> Post what the nodes 0 to edge did in a step. The slip velocity went from `kept` to `slip` (module rst_sync_shear), which
+  !> also says what alpha and beta have become. In the restitution the outermost node leaves at the end of the step:
+  !> friction lets go of all force that it still had. (The loop over elements may or may not have moved it.)
   pure subroutine post_nodes(scene, g, edge, step, loss, now, term, velocity, shift, body, before, state, ledger)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), velocity, shift
@@ -216,7 +217,7 @@ contains
     type(step_type), intent(in) :: step
     type(loss_type), intent(in) :: loss(scene%n_terms)
     type(term_type), intent(in) :: now(scene%n_terms), term(scene%n_terms)  !! before and after the step
-    real(dp), intent(in) :: body(0:scene%capacity - 1, columns), before(0:scene%capacity - 1, scene%n_terms + 1)
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns), before(0:scene%capacity - 1, scene%n_terms + 2)
     type(shear_type), intent(in) :: state
     type(ledger_type), intent(inout) :: ledger
     real(dp) :: scale, kept, slip, kappa, alpha, beta, v(0:1), q(0:1), viscous, friction, left
@@ -227,17 +228,15 @@ contains
     left = 0
     do i = 0, edge
       leaves = i == edge .and. state%level > scene%n
-      kappa = before(i, scene%n_terms + 1)
+      alpha = before(i, scene%n_terms + 1)
+      kappa = before(i, scene%n_terms + 2)
       slip = body(i, column_kappa)
       if (leaves) slip = last_slip()
       kept = (1 - step%drop)*kappa + step%drop*slip
-      alpha = body(i, column_alpha)
-      if (leaves) then
-        alpha = alpha + step%spring*(kept + slip)
-        left = elongated(state%shift, alpha)**2/2*scene%g_inf
-      end if
       v = [velocity - kept, state%velocity - slip]
-      q(0) = scene%g_inf*elongated(shift, alpha - step%spring*(kept + slip)) + scene%eta*(velocity - kappa)
+      q(0) = scene%g_inf*elongated(shift, alpha) + scene%eta*(velocity - kappa)
+      alpha = alpha + step%spring*(kept + slip)
+      if (leaves) left = elongated(state%shift, alpha)**2/2*scene%g_inf
       q(1) = scene%g_inf*elongated(state%shift, alpha) + scene%eta*v(1)
       viscous = viscous + body(i, column_weight)*scene%eta*squared(step%h, v(0), v(1))
       do k = 1, scene%n_terms
@@ -267,7 +266,7 @@ contains
       real(dp) :: slip
       slip = 0
       if (scene%no_slip /= 0) return
-      slip = scene%g_inf*state%shift - body(i, column_alpha) + scene%eta*state%velocity - step%start_response*(1 - step%drop)*kappa
+      slip = scene%g_inf*state%shift - alpha + scene%eta*state%velocity - step%start_response*(1 - step%drop)*kappa
       slip = slip + sum(term%stress) - sum(now%decay*before(i, 1:scene%n_terms))
       slip = slip/(step%end_response + step%drop*step%start_response)
     end function last_slip

@@ -42,7 +42,7 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
         return RESTITUTE_OK;
     }
     const size_t nodes = (size_t)outcome->elements + 1 + rst_sync_lanes; /* not less than the capacity */
-    int status = rst_sync_repeat(problem, workspace, outcome->elements, nodes * ((size_t)s->n_terms + 1), &store,
+    int status = rst_sync_repeat(problem, workspace, outcome->elements, nodes * ((size_t)s->n_terms + 2), &store,
                                  &before, error);
     if (status) return status;
     const struct sync_scene scene = rst_sync_scene(problem, outcome->elements, &store);
