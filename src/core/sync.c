@@ -152,8 +152,7 @@ static int run_once(const struct rst_problem *problem, const struct rst_workspac
     return !isfinite(run->shear_velocity);
 }
 
-static void fill(const struct run *run, double error_ez, double error_ex, int64_t updates,
-                 struct rst_outcome *outcome)
+static void fill(const struct run *run, double error_ez, double error_ex, int64_t updates, struct rst_outcome *outcome)
 {
     *outcome = (struct rst_outcome){.velocity = run->velocity,
                                     .shear_velocity = run->shear_velocity,
@@ -176,9 +175,8 @@ static void fill(const struct run *run, double error_ez, double error_ex, int64_
 static int solve_sunk(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
 {
     const int slides = !rst_sync_sticks(problem, 0);
-    *outcome = (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0,
-                                    .contact_time = INFINITY,
-                                    .sunk = 1};
+    *outcome =
+        (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0, .contact_time = INFINITY, .sunk = 1};
     return rst_done(error);
 }
 
@@ -238,8 +236,8 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         updates += now->updates;
         if (!unsettled && known) {
             double error_ez = error_from(fabs(now->velocity - before->velocity), share_of_change_ez);
-            double error_ex = error_from(fabs(now->shear_velocity - before->shear_velocity) / problem->psi,
-                                         share_of_change_ex);
+            double error_ex =
+                error_from(fabs(now->shear_velocity - before->shear_velocity) / problem->psi, share_of_change_ex);
             fill(now, error_ez, problem->mode == RST_FRICTIONLESS ? 0 : error_ex, updates, outcome);
             found = 1;
             if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
@@ -248,7 +246,8 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         if (problem->elements > 0 && last++) break;
     }
     if (!found)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: spent before there was a result; raise it",
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_updates = %lld: spent before there was a result; raise it",
                           (long long)problem->max_updates);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
