@@ -35,6 +35,11 @@ endfunction()
 restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off)
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextra -ffp-contract=off -fopenmp-simd)
 
+# In a shared library every procedure could be replaced by one of the same name from outside, so compilers do not inline
+# them, unless told that nobody will.
+restitute_accepted_flags(Fortran interposition_flags -fno-semantic-interposition)
+list(APPEND RESTITUTE_FORTRAN_FLAGS ${interposition_flags})
+
 # Programs in Fortran, which may use the system's intrinsic modules and the Fortran run-time library.
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_PROGRAM_FLAGS -std=f2018 -Wall -Wextra)
 

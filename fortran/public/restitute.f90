@@ -36,7 +36,7 @@ module restitute
   public :: restitute_material_kelvin_voigt, restitute_material_maxwell, restitute_material_pair
   public :: restitute_material_dundurs, restitute_material_destroy, restitute_material_modulus
   public :: restitute_material_poisson_ratio, restitute_material_terms
-  public :: restitute_scene_numbers, restitute_method_euler, restitute_method_name
+  public :: restitute_scene_numbers, restitute_method_euler, restitute_method_sync, restitute_method_name
   public :: restitute_solver_create, restitute_solver_destroy, restitute_history_arrays
   public :: restitute_solve, restitute_solve_scene, restitute_collide
   public :: restitute_solve_many, restitute_solve_scenes
@@ -408,6 +408,12 @@ module restitute
       type(c_ptr) :: method
     end function c_method_euler
 
+    function c_method_sync() result(method) bind(c, name="restitute_method_sync")
+      import :: c_ptr
+      implicit none (type, external)
+      type(c_ptr) :: method
+    end function c_method_sync
+
     function c_method_name(method) result(name) bind(c, name="restitute_method_name")
       import :: c_ptr
       implicit none (type, external)
@@ -688,6 +694,11 @@ contains
     type(restitute_method) :: method
     method%address = c_method_euler()
   end function restitute_method_euler
+
+  function restitute_method_sync() result(method)
+    type(restitute_method) :: method
+    method%address = c_method_sync()
+  end function restitute_method_sync
 
   function name_of_method(method) result(name)
     type(restitute_method), intent(in) :: method

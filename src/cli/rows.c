@@ -188,6 +188,7 @@ bool row_read(const restitute_csv *csv, size_t index, size_t first, const restit
     if (!method_cell || !status) return false;
     row->solved = *method_cell != '\0';
     row->method = restitute_method_name(method);
+    if (row->solved && strcmp(method_cell, row->method) != 0) return false;
     for (int i = 0; i < ROW_NUMBERS && row->solved; i++) {
         const char *cell = restitute_csv_cell(csv, index, first + (size_t)i);
         if (restitute_number_read(cell, &row->number[i]) != RESTITUTE_OK) return false;

@@ -359,4 +359,5 @@ static int euler_record(const struct rst_problem *problem, struct rst_workspace 
     return RESTITUTE_OK;
 }
 
-const struct restitute_method rst_method_euler = {.name = "euler", .solve = euler_solve, .record = euler_record};
+const struct restitute_method rst_method_euler = {
+    .name = "euler", .takes_time_step = 1, .solve = euler_solve, .record = euler_record};

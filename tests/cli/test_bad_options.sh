@@ -48,9 +48,11 @@ refused '--material is missing' pair --radius 1 --density 1 --friction 0.3 --vel
 refused 'no-such-file.json: cannot be read' pair --material no-such-file.json --radius 1 --density 1 --friction 0 --velocity 1
 refused 'must end in .json or .csv' pair --material /dev/null --radius 1 --density 1 --friction 0 --velocity 1
 
-for method in cvode bem sync; do
-    refused 'is not in this build' pair --psi 1 --method $method
+for method in cvode bem Euler synch ''; do
+    refused "--method = \"$method\": is not in this build; must be among euler, sync" pair --psi 1 --method "$method"
 done
+refused '--method is given twice' pair --psi 1 --method euler --method sync
+refused 'time_step = 0.01: must be 0 with the method sync' pair --psi 1 --method sync --time-step 0.01
 refused '--tolerance = "0": must be a number in [1e-08, 0.1]' pair --psi 1 --tolerance 0
 refused '--tolerance = "nan"' pair --psi 1 --tolerance nan
 refused '--elements = "3": must be a whole number in [4, 1e+06]' pair --psi 1 --elements 3

@@ -9,6 +9,7 @@ program consumer
   good = rubber_ball_rebounds() .and. good
   good = materials_are_right() .and. good
   good = batches_are_right() .and. good
+  good = other_method_is_right() .and. good
   if (.not. good) error stop 1
 
 contains
@@ -27,6 +28,28 @@ contains
     call restitute_solver_destroy(solver)
     print "(3a, 2f8.5)", "restitute ", restitute_version(), ", elastic without slip:", result%ez, result%ex
   end function no_slip_is_right
+
+  !> The same limit by the precise method, to the five digits in which it is published; it takes no time step, and says so.
+  function other_method_is_right() result(good)
+    logical :: good
+    type(restitute_solver) :: solver
+    type(restitute_options) :: options
+    type(restitute_result) :: result
+    type(restitute_error) :: error
+    options = restitute_options()
+    options%method = restitute_method_sync()
+    options%tolerance = 1e-7_rk
+    options%time_step = 1e-2_rk
+    good = restitute_solver_create(solver, options, error) == RESTITUTE_ERROR_DOMAIN
+    good = good .and. index(restitute_message(error), "time_step = 0.01: must be 0 with the method sync") == 1
+    options%time_step = 0
+    good = good .and. restitute_solver_create(solver, options) == RESTITUTE_OK
+    result = restitute_result()
+    good = good .and. restitute_solve(solver, restitute_impact(), result) == RESTITUTE_OK
+    good = good .and. restitute_method_name(result) == "sync" .and. result%error_ez <= 1e-7_rk
+    good = good .and. abs(result%ex - 0.10397_rk) < 5.1e-6_rk .and. abs(result%ez - 1) < 1e-7_rk
+    call restitute_solver_destroy(solver)
+  end function other_method_is_right
 
   !> With every optional output, and a refused scene, whose message must name the value.
   function rubber_ball_rebounds() result(good)

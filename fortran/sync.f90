@@ -1,0 +1,7 @@
+! The method sync as one unit: compilers inline across the modules of one file, and its small functions are called so often
+! that calls would cost more than what they compute.
+include "memory.f90"
+include "cubic.f90"
+include "sync_levels.f90"
+include "sync_elements.f90"
+include "sync_shear.f90"

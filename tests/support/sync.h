@@ -1,0 +1,43 @@
+/* Short ways to options of the method `sync`, and comparisons that know both errors.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TEST_SYNC_H
+#define TEST_SYNC_H
+
+#include "solve.h"
+
+static inline restitute_options sync_to(double tolerance)
+{
+    restitute_options options = to_tolerance(tolerance);
+    options.method = restitute_method_sync();
+    return options;
+}
+
+/* A number of levels instead of a tolerance; small tolerance: nothing is merged, iterations are finished. */
+static inline restitute_options sync_with(int64_t levels)
+{
+    restitute_options options = sync_to(1e-8);
+    options.elements = levels;
+    options.max_updates = INT64_C(1000000000000);
+    return options;
+}
+
+/* What a call must not leave open: the tolerance is met by the estimates, or the status says that it is not. */
+static inline int estimate_keeps_tolerance(const struct solution *s, double tolerance)
+{
+    if (s->status == RESTITUTE_TOLERANCE_NOT_REACHED) return 1;
+    return s->status == RESTITUTE_OK && s->result.error_ez <= tolerance && s->result.error_ex <= tolerance;
+}
+
+/* The error that is certain: what is left after the error of the reference itself. */
+static inline double certain_error(double value, double reference, double reference_error)
+{
+    return fmax(0, fabs(value - reference) - reference_error);
+}
+
+static inline int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+#endif
