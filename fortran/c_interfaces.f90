@@ -12,6 +12,9 @@ module rst_c_interfaces
   use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
   use rst_sync_elements, only: element_loop, term_type, columns
   use rst_sync_shear, only: sync_scene_type => scene_type, shear_type, follow_shear
+  use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
+  use rst_sync_ledger, only: keep_ledger
+  use rst_ledger, only: ledger_type
   implicit none (type, external)
   private
 contains
@@ -182,4 +185,60 @@ contains
     call c_f_procpointer(elements, loop)
     call follow_shear(scene, loop, g, tau, level, memory, node, body, beta, faded, term, state)
   end subroutine rst_follow_shear
+
+  subroutine rst_trace_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, n_knots, knot) &
+    bind(c, name="rst_trace_shear")
+    type(sync_scene_type), intent(in) :: scene
+    type(c_funptr), intent(in), value :: elements
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
+    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    integer(c_int64_t), intent(out) :: n_knots
+    type(knot_type), intent(out) :: knot(0:2*scene%n)
+    procedure(element_loop), pointer :: loop
+    call c_f_procpointer(elements, loop)
+    call trace_shear(scene, loop, g, tau, level, memory, node, body, beta, faded, term, n_knots, knot)
+  end subroutine rst_trace_shear
+
+  pure subroutine rst_edge_rates(scene, g, tau, level, memory, rate) bind(c, name="rst_edge_rates")
+    type(sync_scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(c_double), intent(out) :: rate(scene%n:2*scene%n)
+    call edge_rates(scene, g, tau, level, memory, rate)
+  end subroutine rst_edge_rates
+
+  pure subroutine rst_sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample) &
+    bind(c, name="rst_sample_impact")
+    type(sync_scene_type), intent(in) :: scene
+    integer(c_int64_t), intent(in), value :: slides, n_knots, l, i
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(c_double), intent(in) :: rate(scene%n:2*scene%n)
+    type(knot_type), intent(in) :: knot(0:2*scene%n)
+    real(c_double), intent(in), value :: time
+    type(sample_type), intent(out) :: sample
+    call sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample)
+  end subroutine rst_sample_impact
+
+  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, memory, node, body, beta, faded, term, before, ledger) &
+    bind(c, name="rst_keep_ledger")
+    type(sync_scene_type), intent(in) :: scene
+    integer(c_int64_t), intent(in), value :: kind
+    type(c_funptr), intent(in), value :: elements
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
+    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    real(c_double), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
+    type(ledger_type), intent(out) :: ledger
+    procedure(element_loop), pointer :: loop
+    call c_f_procpointer(elements, loop)
+    call keep_ledger(scene, kind, loop, g, tau, level, memory, node, body, beta, faded, term, before, ledger)
+  end subroutine rst_keep_ledger
 end module rst_c_interfaces

@@ -28,6 +28,7 @@ module rst_sync_shear
   implicit none (type, external)
   private
   public :: scene_type, shear_type, follow_shear
+  public :: start_shear, advance_shear, place_nodes, measure_step, stick_radius  !! of the history and the ledger, level by level
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   real(dp), parameter :: explicit_below = 0.1_dp  !! feedback of a step below which one evaluation is enough

@@ -316,8 +316,9 @@ RESTITUTE_API void restitute_result_init(restitute_result *result);
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the foundation */
-    double residual_z;                   /**< what the method loses: 1 - the three; of first order in the step. In x
-                                            it grows as psi -> 0 (about step/psi), since psi^2 is its unit */
+    double residual_z;                   /**< what the method loses: 1 - the three; of first order in the step (method
+                                            sync: of second). In x it grows as psi -> 0 (about step/psi), since psi^2
+                                            is its unit */
     double rebound_x, friction_x, viscous_x, left_x;
     double residual_x;
 } restitute_ledger;
@@ -325,7 +326,8 @@ typedef struct restitute_ledger {
 RESTITUTE_API void restitute_ledger_init(restitute_ledger *ledger);
 
 /** Time history, into arrays of the caller; a NULL array is not wanted. Samples are evenly spaced, first touch and the
- *  end of contact included. Units as in @ref restitute_result; in the dimensionless case the tangential quantities
+ *  end of contact included; of a sphere that sinks in (NO_REBOUND) the method sync gives first touch alone. Units as in
+ *  @ref restitute_result; in the dimensionless case the tangential quantities
  *  are U' and the force over mu. In SI tangential quantities have the sign of the incoming contact-point velocity taken
  *  as positive. */
 typedef struct restitute_history {

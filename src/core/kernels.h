@@ -76,6 +76,14 @@ struct sync_term {
     double faded_sum, beta_sum, faded_guard, beta_guard;
 };
 
+/* Twin of knot_type of fortran/sync_record.f90. */
+struct sync_knot {
+    double time, velocity, force, stick;
+};
+
+/* What fortran/sync_ledger.f90 is told of the tangential side. */
+enum sync_sliding { RST_HAS_NO_FRICTION = 0, RST_SLIPS_TO_THE_END = 1, RST_STICKS = 2 };
+
 /* The loop over elements, which only Fortran calls, and the layout of its arrays. */
 struct sync_step;
 struct sync_sums;
@@ -120,5 +128,19 @@ void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, i
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
                       const struct sync_level *level, const double *memory, const struct sync_node *node, double *body,
                       double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
+
+struct rst_sample;
+void rst_trace_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
+                     const struct sync_level *level, const double *memory, const struct sync_node *node, double *body,
+                     double *beta, double *faded, struct sync_term *term, int64_t *n_knots, struct sync_knot *knot);
+void rst_edge_rates(const struct sync_scene *scene, const double *g, const double *tau, const struct sync_level *level,
+                    const double *memory, double *rate);
+void rst_sample_impact(const struct sync_scene *scene, int64_t slides, const struct sync_level *level,
+                       const struct sync_node *node, const double *rate, int64_t n_knots, const struct sync_knot *knot,
+                       int64_t l, int64_t i, double time, struct rst_sample *sample);
+void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, sync_loop *elements, const double *g,
+                     const double *tau, const struct sync_level *level, const double *memory,
+                     const struct sync_node *node, double *body, double *beta, double *faded, struct sync_term *term,
+                     double *before, struct euler_ledger *ledger);
 
 #endif

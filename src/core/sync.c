@@ -8,6 +8,7 @@
 #include "euler.h"
 #include "kernels.h"
 #include "status.h"
+#include "sync_run.h"
 
 /* Solutions at n and n/2 levels are compared. e_z is of fourth order: the change is 15 times the error of the finer one, which
  * is taken off. e_x is of third order where kinks fall regularly between nodes; half of what that would take off is best. */
@@ -31,17 +32,6 @@ struct run {
     double velocity, shear_velocity;
     double contact_time, depth, force;
     int64_t updates;
-};
-
-/* What a run works on, laid out in the workspace. */
-struct store {
-    int64_t capacity;         /* of the arrays of elements */
-    struct sync_level *level; /* 2n + 1 */
-    struct sync_node *node;   /* n + 1 */
-    struct sync_term *term;   /* n_terms */
-    double *memory, *loading; /* n_terms times 2n + 1 and n + 1 */
-    double *body;             /* columns times capacity */
-    double *beta, *faded;     /* n_terms times capacity */
 };
 
 static int64_t padded(int64_t count)
@@ -76,7 +66,7 @@ static size_t lay_out(double *block, int64_t levels, int64_t n_terms, struct sto
 }
 
 /* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2). */
-static int sticks(const struct rst_problem *problem, double rebound)
+int rst_sync_sticks(const struct rst_problem *problem, double rebound)
 {
     if (problem->mode == RST_FRICTIONLESS) return 0;
     if (problem->mode != RST_GROSS_SLIP) return 1;
@@ -88,18 +78,23 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store)
+{
+    return (struct sync_scene){.chi = problem->chi,
+                               .psi = problem->psi,
+                               .g_inf = problem->solid.g_inf,
+                               .eta = problem->solid.eta,
+                               .n_terms = problem->solid.n_terms,
+                               .n = levels,
+                               .capacity = store->capacity,
+                               .no_slip = problem->mode == RST_NO_SLIP};
+}
+
 static void follow_shear(const struct rst_problem *problem, sync_loop *loop, int64_t n, const struct store *store,
                          struct sync_shear *shear)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = {.chi = problem->chi,
-                                     .psi = problem->psi,
-                                     .g_inf = s->g_inf,
-                                     .eta = s->eta,
-                                     .n_terms = s->n_terms,
-                                     .n = n,
-                                     .capacity = store->capacity,
-                                     .no_slip = problem->mode == RST_NO_SLIP};
+    const struct sync_scene scene = rst_sync_scene(problem, n, store);
     rst_follow_shear(&scene, loop, s->g, s->tau, store->level, store->memory, store->node, store->body, store->beta,
                      store->faded, store->term, shear);
 }
@@ -122,28 +117,49 @@ static double closeness_of(const struct rst_problem *problem)
     return fmax(rounding, closeness * problem->tolerance);
 }
 
-/* One impact at one resolution; nonzero if its iterations did not settle. */
-static int run_once(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                    const struct sync_grid *grid, struct run *run, struct store *store)
+/* Nonzero if its iterations did not settle. */
+static int solve_normal(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                        const struct sync_grid *grid, int64_t n, struct store *store)
 {
     const struct rst_solid *s = &problem->solid;
-    const int64_t n = run->levels;
     int64_t failed;
     lay_out(workspace->elements, n, s->n_terms, store);
     rst_normal_levels(grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, n, closeness_of(problem), store->level, store->memory,
                       store->loading, store->node, &failed);
-    if (failed || !isfinite(store->level[2 * n].velocity)) return 1;
+    return failed || !isfinite(store->level[2 * n].velocity);
+}
+
+int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels, size_t more,
+                    struct store *store, double **room, restitute_error *error)
+{
+    const struct rst_solid *s = &problem->solid;
+    struct sync_grid grid;
+    const size_t taken = lay_out(NULL, levels, s->n_terms, store);
+    if (rst_workspace_elements(workspace, taken + more))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
+    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
+    solve_normal(problem, workspace, &grid, levels, store); /* it has settled before */
+    *room = workspace->elements + taken;
+    return RESTITUTE_OK;
+}
+
+/* One impact at one resolution; nonzero if its iterations did not settle. */
+static int run_once(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                    const struct sync_grid *grid, struct run *run, struct store *store)
+{
+    const int64_t n = run->levels;
+    if (solve_normal(problem, workspace, grid, n, store)) return 1;
     run->velocity = store->level[2 * n].velocity;
     run->contact_time = store->level[2 * n].time;
     run->depth = store->level[n].depth;
     run->force = largest_force(store->level, n);
     run->updates = 2 * n;
     run->shear_velocity = full_slip(problem, run->velocity);
-    if (sticks(problem, -run->velocity)) {
+    if (rst_sync_sticks(problem, -run->velocity)) {
         struct sync_shear shear;
         follow_shear(problem, workspace->loop, n, store, &shear);
         run->shear_velocity = shear.velocity;
-        run->updates += shear.updates * (1 + s->n_terms);
+        run->updates += shear.updates * (1 + problem->solid.n_terms);
     }
     return !isfinite(run->shear_velocity);
 }
@@ -155,7 +171,7 @@ static void compare(const struct rst_problem *problem, const struct run *before,
     const double change = now->velocity - before->velocity;
     const double shear_change = now->shear_velocity - before->shear_velocity;
     const double velocity = now->velocity + change * part_taken_ez;
-    const int slides = !sticks(problem, -velocity);
+    const int slides = !rst_sync_sticks(problem, -velocity);
     *outcome = (struct rst_outcome){
         .velocity = velocity,
         .shear_velocity = slides ? full_slip(problem, velocity) : now->shear_velocity + shear_change * part_taken_ex,
@@ -181,10 +197,9 @@ static void compare(const struct rst_problem *problem, const struct run *before,
  * being blocked, it falls more slowly and what is left has no closed form. */
 static int solve_sunk(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
 {
-    const int slides = !sticks(problem, 0);
-    *outcome = (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0,
-                                    .contact_time = INFINITY,
-                                    .sunk = 1};
+    const int slides = !rst_sync_sticks(problem, 0);
+    *outcome =
+        (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0, .contact_time = INFINITY, .sunk = 1};
     return rst_done(error);
 }
 
@@ -198,7 +213,7 @@ static int64_t even(double count)
 static double levels_to_start(const struct rst_problem *problem)
 {
     const double normal = 1.5 * pow(problem->tolerance, -0.25);
-    if (!sticks(problem, 1)) return fmax(8, normal);
+    if (!rst_sync_sticks(problem, 1)) return fmax(8, normal);
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
     return fmax(16, fmax(normal, 3 * faster / cbrt(problem->tolerance)));
 }
@@ -252,27 +267,28 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
+/* Whether the sphere sinks in for good; only a solid without equilibrium modulus lets it. */
+static int sinks(const struct rst_problem *problem, const struct rst_workspace *workspace)
+{
+    const struct rst_solid *s = &problem->solid;
+    double depth, time, *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
+    int64_t sinks = 0;
+    if (s->can_sink)
+        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance,
+                              stress, &depth, &time, &sinks);
+    return sinks != 0;
+}
+
 static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                       struct rst_outcome *outcome, restitute_error *error)
 {
-    const struct rst_solid *s = &problem->solid;
-    if (s->can_sink) {
-        double depth, time, *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
-        int64_t sinks;
-        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance,
-                              stress, &depth, &time, &sinks);
-        if (sinks && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
-            return rst_method_euler.solve(problem, workspace, keep_ledger, outcome, error);
-        if (sinks) return solve_sunk(problem, outcome, error);
-    }
-    return solve_refining(problem, workspace, outcome, error);
+    const int sunk = sinks(problem, workspace);
+    if (sunk && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
+        return rst_method_euler.solve(problem, workspace, keep_ledger, outcome, error);
+    const int status = sunk ? solve_sunk(problem, outcome, error) : solve_refining(problem, workspace, outcome, error);
+    if (status < 0 || !keep_ledger) return status;
+    const int kept = rst_sync_ledger(problem, workspace, outcome, error);
+    return kept ? kept : status;
 }
 
-static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
-                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
-{
-    (void)problem, (void)workspace, (void)outcome, (void)history;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "history: not yet");
-}
-
-const struct restitute_method rst_method_sync = {.name = "sync", .solve = sync_solve, .record = sync_record};
+const struct restitute_method rst_method_sync = {.name = "sync", .solve = sync_solve, .record = rst_sync_record};
