@@ -21,6 +21,9 @@ module rst_sync_levels
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   integer(ip), parameter :: most_sweeps = 100
+  integer(ip), parameter :: first_levels = 8        !! of the compression, where sqrt(s) is most curved
+  real(dp), parameter :: longest_panel = 6.0_dp     !! roughly, in D_max/n
+  real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
 
   !> How levels are spread: by u = tan(phi/2), tan(phi) = A/(radius D'), from 0 at first touch to 1 at the turning point.
   !> In strongly damped impacts the contact shrinks to a small part of its size at once, and the sphere all but stops before it
@@ -92,7 +95,7 @@ contains
     type(grid_type), intent(in) :: grid
     integer(ip), intent(in) :: n_terms, n  !! n even
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms)
-    real(dp), intent(in) :: closeness  !! iterations stop when velocities change by less
+    real(dp), intent(in) :: closeness  !! iterations stop when velocities, and times relatively, change by less
     type(level_type), intent(out) :: level(0:2*n)
     real(dp), intent(out) :: memory(n_terms, 0:2*n)   !! g_k M_k
     real(dp), intent(out) :: loading(n_terms, 0:n)    !! g_k P_k of the compression
@@ -153,12 +156,13 @@ contains
     real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
     type(node_type), intent(inout) :: node(0:n)
     logical, intent(out) :: failed
-    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), change, previous, drag, next, echo
+    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), change, previous, drag, resolved, next, echo
     type(parabola_type) :: push, cubes
     integer(ip) :: q, sweep
     logical :: done
 
     drag = mass_factor*eta
+    resolved = merge(0.0_dp, longest_panel*grid%radius**2/real(n, dp), l < first_levels)
     d(0) = level(l)%depth
     v(0) = level(l)%velocity
     a(0) = node(l)%radius
@@ -183,13 +187,14 @@ contains
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
       do q = 1, 2
-        call load_terms(n_terms, g, tau, x, q, v, a, a3, memory(:, l), memory(:, l + q), loading(:, l), loading(:, l + q), echo)
+        call load_terms(n_terms, resolved, g, tau, x, q, v, a, a3, memory(:, l), memory(:, l + q), loading(:, l), &
+                        loading(:, l + q), echo)
         next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + sum(loading(:, l + q)))
         next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo) ! as for the dashpot
         change = max(change, abs(next - rest(q))*x(2))
         rest(q) = next
       end do
-      call settle(change, closeness, previous, done)
+      call settle(sweep, change, closeness, previous, done)
       if (done) exit
     end do
     failed = .not. done
@@ -237,13 +242,14 @@ contains
     type(grid_type), intent(in) :: grid
     real(dp), intent(in) :: u, drag, rest
     real(dp), intent(inout) :: x, depth, velocity, a, change
-    real(dp) :: cosine, sine, acceleration, dx
+    real(dp) :: cosine, sine, acceleration, miss, dx
     cosine = (1 - u)*(1 + u)
     sine = 2*u*grid%radius
     acceleration = rest - drag*a*velocity
-    dx = -(a*cosine - sine*velocity)/(velocity/(2*a)*cosine - sine*acceleration)
+    miss = a*cosine - sine*velocity
+    dx = -miss/(velocity/(2*a)*cosine - sine*acceleration)
     dx = max(-0.5_dp*x, min(x, dx))
-    change = max(change, abs(dx)*(abs(velocity) + abs(acceleration)))
+    if (abs(miss) > rounding*sine) change = max(change, abs(dx)/x)
     depth = max(depth + dx*velocity, tiny(1.0_dp))
     velocity = velocity + dx*acceleration
     a = sqrt(depth)
@@ -261,11 +267,13 @@ contains
     slope = rho*cosine/(2*grid%radius)/(cosine**2/(2*grid%radius**2) - sine**2*acceleration)*2/(1 + u*u)
   end function edge_advance
 
-  !> M_k and P_k at point q. Short steps take int A D' exp by parts, (2/3) A^3 being smoother than A D' at first touch;
-  !> long ones directly, since by parts would cancel. `echo` is the derivative of sum g_k P_k by the velocity.
-  pure subroutine load_terms(n_terms, g, tau, x, q, v, a, a3, memory, memory_q, loading, loading_q, &
+  !> M_k and P_k at point q. A D' ~ sqrt(s) is no parabola at first touch; int A D' exp is taken by parts, with (2/3) A^3 in its
+  !> place, by the first panels, and by all of them where they resolve tau_k: a change between both within the run would show.
+  !> With longer panels by parts would cancel. `echo`: derivative of sum g_k P_k by the velocity.
+  pure subroutine load_terms(n_terms, resolved, g, tau, x, q, v, a, a3, memory, memory_q, loading, loading_q, &
                              echo)
     integer(ip), intent(in) :: n_terms, q
+    real(dp), intent(in) :: resolved  !! the panels of a run resolve longer relaxation times
     real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2), memory(n_terms), loading(n_terms)
     real(dp), intent(inout) :: memory_q(n_terms), loading_q(n_terms)
     real(dp), intent(out) :: echo
@@ -280,7 +288,7 @@ contains
     do k = 1, n_terms
       m = memory_of(x(q)/tau(k))
       memory_q(k) = m%decay*memory(k) + g(k)*remembered(m, x(q), speeds)
-      if (x(2) < tau(k)) then
+      if (x(2) < tau(k) .and. tau(k) > resolved) then
         loading_q(k) = m%decay*loading(k) + (2.0_dp/3.0_dp)*g(k)*(a3(q) - m%decay*a3(0) - remembered(m, x(q), cubes)/tau(k))
       else
         loading_q(k) = m%decay*loading(k) + g(k)*remembered(m, x(q), sweeps)
@@ -299,7 +307,7 @@ contains
     real(dp), intent(inout) :: memory(n_terms, 0:2*n)
     type(node_type), intent(in) :: node(0:n)
     logical, intent(out) :: failed
-    real(dp) :: x(2), d(0:2), v(0:2), push(0:2), before(0:2), change, previous, next, excess, slope, dx, faded
+    real(dp) :: x(2), d(0:2), v(0:2), push(0:2), before(0:2), change, previous, next, excess, noise, slope, dx, faded
     type(parabola_type) :: pushes, speeds
     type(memory_type) :: m
     integer(ip) :: q, j, k, sweep
@@ -332,6 +340,7 @@ contains
       do q = 1, 2
         j = 2*n - l - q
         excess = g_inf*(d(q) - node(j)%radius**2) + eta*v(q)
+        noise = rounding*(g_inf*d(q) + eta)
         slope = g_inf*v(q) + eta*push(q)
         next = (2.0_dp/3.0_dp)*g_inf*node(j)%radius**3
         do k = 1, n_terms
@@ -339,17 +348,19 @@ contains
           memory(k, l + q) = m%decay*memory(k, l) + g(k)*remembered(m, x(q), speeds)
           faded = exp(-(level(l)%time + x(q) - level(j)%time)/tau(k))
           excess = excess + memory(k, l + q) - faded*memory(k, j)
+          noise = noise + rounding*(g(k)*d(q) + faded*abs(memory(k, j)))
           slope = slope + g(k)*v(q) - (memory(k, l + q) - faded*memory(k, j))/tau(k)
           next = next + faded*loading(k, j)
         end do
         dx = max(-0.5_dp*x(q), min(x(q), -excess/slope))
         if (slope >= 0) dx = x(q)
-        change = max(change, abs(dx)*(abs(v(q)) + abs(push(q))), abs(next*mass_factor + push(q))*x(2))
+        if (abs(excess) > noise) change = max(change, abs(dx)/x(q))
+        change = max(change, abs(next*mass_factor + push(q))*x(2))
         x(q) = x(q) + dx
         push(q) = -mass_factor*next
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
-      call settle(change, closeness, previous, done)
+      call settle(sweep, change, closeness, previous, done)
       if (done) exit
     end do
     failed = .not. done
@@ -388,12 +399,15 @@ contains
   end function first_return
 
   !> Sweeps end when they change little, or when rounding lets them change less no more.
-  pure subroutine settle(change, closeness, previous, yes)
+  pure subroutine settle(sweep, change, closeness, previous, yes)
+    integer(ip), intent(in) :: sweep
     real(dp), intent(in) :: change, closeness
     real(dp), intent(inout) :: previous
     logical, intent(out) :: yes
-    real(dp), parameter :: rounding = 1.0e-11_dp
-    yes = change < closeness .or. (change < rounding .and. change >= previous)
+    real(dp), parameter :: stagnates_below = 1.0e-11_dp, enough_at_last = 1.0e-9_dp
+    integer(ip), parameter :: many = 30
+    yes = change < closeness .or. (change < stagnates_below .and. change >= previous) &
+          .or. (sweep >= many .and. change < enough_at_last)
     previous = change
   end subroutine settle
 

@@ -442,17 +442,17 @@ contains
     do k = 1, scene%n_terms
       f = f - term(k)%faded_sum
     end do
+    ratio = sign(1.0_dp, step%q - body(step%last, column_alpha) - sum(beta(step%last, :))) ! of an edge that slips
     if (.not. restitution) then ! the edge has just been touched and answers with the same modulus both ways
       ratio = max(-1.0_dp, min(1.0_dp, velocity/max(normal%velocity, tiny(1.0_dp))))
-    else if (state%front == step%last .and. .not. trial) then
+    end if
+    if (abs(ratio) >= 1 .and. state%front == step%last .and. (restitution .or. scene%no_slip == 0) .and. .not. trial) then
       q = 0
       do k = min(2_ip, step%last), 0, -1
         call node_forces(scene, tau, level, memory, step, body, beta, faded, state, step%last - k, slack(0), q(k))
       end do
       total = sums%q + stuck_edge(scene, body, step%last, slack(0), q)
       return
-    else ! the edge slips, in the direction of what is near it
-      ratio = sign(1.0_dp, step%q - body(step%last, column_alpha) - sum(beta(step%last, :)))
     end if
     total = ratio*(normal%force - f) + sums%q
     if (scene%no_slip /= 0 .and. .not. restitution) then

@@ -218,14 +218,15 @@ static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
 }
 
 /* e_z -> (4/(5 theta))^(2/3)/theta; at delta1 = 10 it is 10 % away (the closed ODE of test_kelvin_voigt.c), at ten times the
- * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. */
+ * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. From delta1 = 1e5 on a
+ * rebound below 1e-8 is lost in rounding, and refused. */
 static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
 {
     const double tolerances[] = {1e-3, 1e-5, 1e-7};
     double part = 0.12;
     int wrong = 0;
     (void)state;
-    for (double delta1 = 10; delta1 < 2e6; delta1 *= 10, part /= 2)
+    for (double delta1 = 10; delta1 < 2e5; delta1 *= 10, part /= 2)
         for (int k = 0; k < 3; k++) {
             const double theta = THETA_OF_DELTA1 * delta1, ez = pow(4 / (5 * theta), 2.0 / 3) / theta;
             restitute_options options = sync_to(tolerances[k]);
@@ -237,12 +238,13 @@ static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
             CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
             const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
             restitute_solver_destroy(solver);
-            if (status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k])) continue;
+            if (delta1 > 5e4 && status == RESTITUTE_ERROR_TOO_MUCH_WORK && strstr(error.message, "damping")) continue;
+            if (delta1 < 5e4 && status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k])) continue;
             print_error("delta1 %g at %g: status %d, ez %g, not %g; %s\n", delta1, tolerances[k], status, r.ez, ez,
                         error.message);
             wrong++;
         }
-    CHECK(wrong == 0, "%d of 18", wrong);
+    CHECK(wrong == 0, "%d of 15", wrong);
 }
 
 /* A frozen dashpot: elastic with G1 + G2, lengths and times by (1 + 1/gamma)^(-2/5); what is left of the damping is bounded
@@ -343,7 +345,7 @@ static void what_sinks_does_not_stop_what_friction_cannot(void **state)
     restitute_material *solid = solid_of(0, 0, 1, tau, g);
     (void)state;
     for (int i = 0; i < 4; i++) {
-        const struct solution s = solve_impact(sync_to(1e-6), impact_on(solid, 1.0 / 3, psis[i]));
+        const struct solution s = solve_impact(sync_to(1e-3), impact_on(solid, 1.0 / 3, psis[i]));
         const struct solution euler = solve_impact(to_tolerance(1e-3), impact_on(solid, 1.0 / 3, psis[i]));
         CHECK(s.status == RESTITUTE_NO_REBOUND, "psi %g: status %d", psis[i], s.status);
         CHECK(s.result.ex <= 2.0 / 3 / psis[i] - 1 + 1e-6, "psi %g: ex %g", psis[i], s.result.ex);
