@@ -224,7 +224,7 @@ static double levels_to_start(const struct rst_problem *problem)
     const double normal = 1.5 * pow(problem->tolerance, -0.25);
     if (!rst_sync_sticks(problem, 1)) return fmax(8, normal);
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
-    return fmax(16, fmax(normal, 4 * faster / cbrt(problem->tolerance)));
+    return fmax(16, fmax(normal, 5.2 * faster / cbrt(problem->tolerance)));
 }
 
 /* Element updates ahead: without slip no element is stepped. */
