@@ -6,8 +6,8 @@ module rst_memory
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: memory_type, memory_of, parabola_type, parabola_through, remembered, integrated, integrated_twice, &
-            own_share, own_memory
+  public :: memory_type, memory_of, parabola_type, spacing_type, spacing_of, parabola_through
+  public :: remembered, integrated, integrated_twice, own_share, own_memory
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -18,6 +18,11 @@ module rst_memory
   type :: parabola_type
     real(dp) :: start, slope, bend, middle
   end type parabola_type
+
+  !> Of the three points of a parabola, the first at 0: x1, and 1/x1, 1/(x2-x1), 1/x2, which many parabolas share.
+  type :: spacing_type
+    real(dp) :: x1, first, between, last
+  end type spacing_type
 
 contains
 
@@ -38,14 +43,21 @@ contains
     end if
   end function memory_of
 
-  !> Through (0, y0), (x1, y1), (x2, y2).
-  pure function parabola_through(x1, x2, y0, y1, y2) result(p)
-    real(dp), intent(in) :: x1, x2, y0, y1, y2
+  pure function spacing_of(x) result(s)
+    real(dp), intent(in) :: x(2)
+    type(spacing_type) :: s
+    s = spacing_type(x(1), 1/x(1), 1/(x(2) - x(1)), 1/x(2))
+  end function spacing_of
+
+  !> Through (0, y(0)) and (x1, y(1)), (x2, y(2)) of the spacing.
+  pure function parabola_through(s, y) result(p)
+    type(spacing_type), intent(in) :: s
+    real(dp), intent(in) :: y(0:2)
     type(parabola_type) :: p
-    p%start = y0
-    p%slope = (y1 - y0)/x1
-    p%bend = ((y2 - y1)/(x2 - x1) - p%slope)/x2
-    p%middle = x1
+    p%start = y(0)
+    p%slope = (y(1) - y(0))*s%first
+    p%bend = ((y(2) - y(1))*s%between - p%slope)*s%last
+    p%middle = s%x1
   end function parabola_through
 
   !> int_0^x exp(-(x-t)/tau) p(t) dt, m = memory_of(x/tau)

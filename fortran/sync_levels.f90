@@ -13,8 +13,8 @@
 !> stand for elongations (M_k and P_k times g_k), so that tau_k -> 0 at constant g_k tau_k is a dashpot.
 module rst_sync_levels
   use rst_precision, only: dp, ip
-  use rst_memory, only: memory_type, memory_of, parabola_type, parabola_through, remembered, integrated, integrated_twice, &
-                        own_share, own_memory
+  use rst_memory, only: memory_type, memory_of, parabola_type, spacing_type, spacing_of, parabola_through, remembered, integrated, &
+                        integrated_twice, own_share, own_memory
   implicit none (type, external)
   private
   public :: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
@@ -156,7 +156,8 @@ contains
     real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
     type(node_type), intent(inout) :: node(0:n)
     logical, intent(out) :: failed
-    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), change, previous, drag, resolved, next, echo
+    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), echo(2), change, previous, drag, resolved, next
+    type(spacing_type) :: spacing
     type(parabola_type) :: push, cubes
     integer(ip) :: q, sweep
     logical :: done
@@ -172,25 +173,29 @@ contains
     call guess_compression(grid, g_inf, eta, n_terms, g, n, l, u, level, node, x, a, a3, rest)
     previous = huge(1.0_dp)
     do sweep = 1, most_sweeps
-      push = parabola_through(x(1), x(2), rest(0), rest(1), rest(2))
-      cubes = parabola_through(x(1), x(2), 0.0_dp, (2.0_dp/3.0_dp)*drag*(a3(1) - a3(0)), (2.0_dp/3.0_dp)*drag*(a3(2) - a3(0)))
+      spacing = spacing_of(x)
+      push = parabola_through(spacing, rest)
+      if (drag > 0) cubes = parabola_through(spacing, (2.0_dp/3.0_dp)*drag*(a3 - a3(0)))
       change = 0
       do q = 1, 2
-        next = d(0) + x(q)*v(0) + integrated_twice(x(q), push) - integrated(x(q), cubes)
-        ! a strong dashpot answers more depth with less velocity, hence less depth: Newton's step instead of the sweep's
-        next = a(q)**2 + (next - a(q)**2)/(1 + drag*own_share(q, x)*a(q))
-        d(q) = max(next, 0.25_dp*a(q)**2)
+        d(q) = d(0) + x(q)*v(0) + integrated_twice(x(q), push)
+        v(q) = v(0) + integrated(x(q), push)
+        if (drag > 0) then
+          ! a strong dashpot answers more depth with less velocity, hence less depth: Newton's step instead of the sweep's
+          next = a(q)**2 + (d(q) - integrated(x(q), cubes) - a(q)**2)/(1 + drag*own_share(q, x)*a(q))
+          d(q) = max(next, 0.25_dp*a(q)**2)
+          v(q) = v(q) - (2.0_dp/3.0_dp)*drag*(d(q)*sqrt(d(q)) - a3(0))
+        end if
+        d(q) = max(d(q), 0.25_dp*a(q)**2)
         a(q) = sqrt(d(q))
-        v(q) = v(0) + integrated(x(q), push) - (2.0_dp/3.0_dp)*drag*(d(q)*a(q) - a3(0))
         call meet_edge(grid, u(q), drag, rest(q), x(q), d(q), v(q), a(q), change)
         a3(q) = d(q)*a(q)
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
+      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory(:, l:l + 2), loading(:, l:l + 2), echo)
       do q = 1, 2
-        call load_terms(n_terms, resolved, g, tau, x, q, v, a, a3, memory(:, l), memory(:, l + q), loading(:, l), &
-                        loading(:, l + q), echo)
         next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + sum(loading(:, l + q)))
-        next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo) ! as for the dashpot
+        next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
         change = max(change, abs(next - rest(q))*x(2))
         rest(q) = next
       end do
@@ -267,33 +272,37 @@ contains
     slope = rho*cosine/(2*grid%radius)/(cosine**2/(2*grid%radius**2) - sine**2*acceleration)*2/(1 + u*u)
   end function edge_advance
 
-  !> M_k and P_k at point q. A D' ~ sqrt(s) is no parabola at first touch; int A D' exp is taken by parts, with (2/3) A^3 in its
+  !> M_k and P_k at both points. A D' ~ sqrt(s) is no parabola at first touch; int A D' exp is taken by parts, with (2/3) A^3 in its
   !> place, by the first panels, and by all of them where they resolve tau_k: a change between both within the run would show.
   !> With longer panels by parts would cancel. `echo`: derivative of sum g_k P_k by the velocity.
-  pure subroutine load_terms(n_terms, resolved, g, tau, x, q, v, a, a3, memory, memory_q, loading, loading_q, &
-                             echo)
-    integer(ip), intent(in) :: n_terms, q
+  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory, loading, echo)
+    integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: resolved  !! the panels of a run resolve longer relaxation times
-    real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2), memory(n_terms), loading(n_terms)
-    real(dp), intent(inout) :: memory_q(n_terms), loading_q(n_terms)
-    real(dp), intent(out) :: echo
+    real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2)
+    real(dp), intent(inout) :: memory(n_terms, 0:2), loading(n_terms, 0:2)
+    real(dp), intent(out) :: echo(2)
+    type(spacing_type) :: spacing
     type(parabola_type) :: speeds, cubes, sweeps
     type(memory_type) :: m
-    integer(ip) :: k
+    integer(ip) :: k, q
     echo = 0
     if (n_terms == 0) return
-    speeds = parabola_through(x(1), x(2), v(0), v(1), v(2))
-    cubes = parabola_through(x(1), x(2), a3(0), a3(1), a3(2))
-    sweeps = parabola_through(x(1), x(2), a(0)*v(0), a(1)*v(1), a(2)*v(2))
+    spacing = spacing_of(x)
+    speeds = parabola_through(spacing, v)
+    cubes = parabola_through(spacing, a3)
+    sweeps = parabola_through(spacing, a*v)
     do k = 1, n_terms
-      m = memory_of(x(q)/tau(k))
-      memory_q(k) = m%decay*memory(k) + g(k)*remembered(m, x(q), speeds)
-      if (x(2) < tau(k) .and. tau(k) > resolved) then
-        loading_q(k) = m%decay*loading(k) + (2.0_dp/3.0_dp)*g(k)*(a3(q) - m%decay*a3(0) - remembered(m, x(q), cubes)/tau(k))
-      else
-        loading_q(k) = m%decay*loading(k) + g(k)*remembered(m, x(q), sweeps)
-        echo = echo + g(k)*a(q)*own_memory(m, q, x)
-      end if
+      do q = 1, 2
+        m = memory_of(x(q)/tau(k))
+        memory(k, q) = m%decay*memory(k, 0) + g(k)*remembered(m, x(q), speeds)
+        if (x(2) < tau(k) .and. tau(k) > resolved) then
+          loading(k, q) = m%decay*loading(k, 0) &
+                          + (2.0_dp/3.0_dp)*g(k)*(a3(q) - m%decay*a3(0) - remembered(m, x(q), cubes)/tau(k))
+        else
+          loading(k, q) = m%decay*loading(k, 0) + g(k)*remembered(m, x(q), sweeps)
+          echo(q) = echo(q) + g(k)*a(q)*own_memory(m, q, x)
+        end if
+      end do
     end do
   end subroutine load_terms
 
@@ -308,6 +317,7 @@ contains
     type(node_type), intent(in) :: node(0:n)
     logical, intent(out) :: failed
     real(dp) :: x(2), d(0:2), v(0:2), push(0:2), before(0:2), change, previous, next, excess, noise, slope, dx, faded
+    type(spacing_type) :: spacing
     type(parabola_type) :: pushes, speeds
     type(memory_type) :: m
     integer(ip) :: q, j, k, sweep
@@ -330,12 +340,13 @@ contains
     end if
     previous = huge(1.0_dp)
     do sweep = 1, most_sweeps
-      pushes = parabola_through(x(1), x(2), push(0), push(1), push(2))
+      spacing = spacing_of(x)
+      pushes = parabola_through(spacing, push)
       do q = 1, 2
         d(q) = d(0) + x(q)*v(0) + integrated_twice(x(q), pushes)
         v(q) = v(0) + integrated(x(q), pushes)
       end do
-      speeds = parabola_through(x(1), x(2), v(0), v(1), v(2))
+      speeds = parabola_through(spacing, v)
       change = 0
       do q = 1, 2
         j = 2*n - l - q

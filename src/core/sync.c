@@ -4,6 +4,7 @@
 #include "sync.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "euler.h"
 #include "kernels.h"
@@ -15,12 +16,14 @@
 static const double part_taken_ez = 1.0 / 15, part_taken_ex = 1.0 / 14;
 
 /* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
- * so that of e_x does not stand alone: twice the error of the median impact, 30 max(1, chi) n^-3, is added, and twice that where
- * psi is so small that few nodes slip. */
-static const double share_of_change_ez = 0.2, share_of_change_ex = 0.6, usual_error = 30, thin_slip = 0.1;
+ * so it does not stand alone: it is not taken for less than an eighth of the change before, and for e_x twice the error of
+ * the median impact, 30 max(1, chi)^(3/2) n^-3, is added, and twice that where psi is so small that few nodes slip. */
+static const double share_of_change_ez = 0.6, share_of_change_ex = 0.6, usual_error = 30, thin_slip = 0.1;
+static const double fall_at_least = 1.0 / 8;
 
-/* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
-static const double closeness = 0.005, rounding = 1e-12;
+/* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves; what rounding
+ * leaves of the tangential velocity in a level adds up. */
+static const double closeness = 0.002, rounding = 1e-12, rounding_of_level = 1e-12;
 
 /* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a small
  * part of the tolerance. */
@@ -32,8 +35,8 @@ static const double acceptance = 0.9;
 /* asinh of the impact speed over that of the creep at the turning point (sync_grid.turn): 1e8. */
 static const double strongest_damping = 19.1;
 
-/* Most levels that a run may have; work grows with the square. */
-static const int64_t most_levels = 1 << 20;
+/* Most levels that a run may have: with more, rounding adds up to more than they gain. */
+static const int64_t most_levels = 1 << 15;
 
 struct run {
     int64_t levels;
@@ -77,8 +80,7 @@ static size_t lay_out(double *block, int64_t levels, int64_t n_terms, struct sto
 int rst_sync_sticks(const struct rst_problem *problem, double rebound)
 {
     if (problem->mode == RST_FRICTIONLESS) return 0;
-    if (problem->mode != RST_GROSS_SLIP) return 1;
-    return problem->psi < rst_critical_psi(problem->chi, rebound);
+    return problem->mode == RST_NO_SLIP || problem->psi < rst_critical_psi(problem->chi, rebound);
 }
 
 static double full_slip(const struct rst_problem *problem, double velocity)
@@ -172,33 +174,35 @@ static int run_once(const struct rst_problem *problem, const struct rst_workspac
     return !isfinite(run->shear_velocity);
 }
 
-/* Two runs, the second with twice the levels: the extrapolated pair and its error. */
+/* Two runs, the second with twice the levels: the extrapolated pair and its error. change_before: of the velocity, between the
+ * first of them and the one before it; 0 if there was none. */
 static void compare(const struct rst_problem *problem, const struct run *before, const struct run *now,
-                    int64_t updates, struct rst_outcome *outcome)
+                    double change_before, int64_t updates, struct rst_outcome *outcome)
 {
-    const double change = now->velocity - before->velocity;
+    const double n = (double)now->levels, change = now->velocity - before->velocity;
     const double shear_change = now->shear_velocity - before->shear_velocity;
     const double velocity = now->velocity + change * part_taken_ez;
+    const double lost = 1.5 * closeness_of(problem);
     const int slides = !rst_sync_sticks(problem, -velocity);
     *outcome = (struct rst_outcome){
         .velocity = velocity,
         .shear_velocity = slides ? full_slip(problem, velocity) : now->shear_velocity + shear_change * part_taken_ex,
-        .error_ez = share_of_change_ez * fabs(change) + 2 * closeness_of(problem),
+        .error_ez = share_of_change_ez * fmax(fabs(change), fall_at_least * fabs(change_before)) + lost,
         .contact_time = now->contact_time,
         .followed_time = now->contact_time,
         .max_indentation = now->depth,
         .max_contact_radius = sqrt(now->depth),
         .max_normal_force = 15.0 / 8.0 * now->force,
-        .spacing = sqrt(now->depth) / (double)now->levels,
-        .step = now->contact_time / (double)(2 * now->levels),
+        .spacing = sqrt(now->depth) / n,
+        .step = now->contact_time / (2 * n),
         .elements = now->levels,
         .steps = 2 * now->levels,
         .updates = updates};
     if (problem->mode == RST_FRICTIONLESS) return;
-    const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * fmax(1, problem->chi) *
-                         pow((double)now->levels, -3);
+    const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
     outcome->error_ex = slides ? 2 * problem->chi * outcome->error_ez / problem->psi
-                               : share_of_change_ex * fabs(shear_change) / problem->psi + usual + outcome->error_ez;
+                               : share_of_change_ex * fabs(shear_change) / problem->psi + usual / (n * n * n) +
+                                     rounding_of_level * n + outcome->error_ez;
 }
 
 /* A solid without equilibrium modulus that the sphere sinks into (THEORY 4.9). The tangential velocity ends at nothing too, unless it
@@ -212,9 +216,10 @@ static int solve_sunk(const struct rst_problem *problem, struct rst_outcome *out
     return rst_done(error);
 }
 
-static int64_t even(double count)
+/* Panels have two levels, and a run has half as many as the next. */
+static int64_t multiple_of(int64_t unit, double count)
 {
-    return 2 * (int64_t)ceil(fmin(count, (double)most_levels) / 2);
+    return unit * (int64_t)ceil(fmax(1, fmin(count, 2 * (double)most_levels) / (double)unit));
 }
 
 /* The counts that the median impact needs for its estimate to meet the tolerance (docs/accuracy.md). The tangential oscillation
@@ -227,60 +232,96 @@ static double levels_to_start(const struct rst_problem *problem)
     return fmax(16, fmax(normal, 5.2 * faster / cbrt(problem->tolerance)));
 }
 
-/* Element updates ahead: without slip no element is stepped. */
-static int too_much(const struct rst_problem *problem, int64_t levels, int64_t spent)
+/* Whether the updates ahead are not allowed. The first run is judged by its elements, the next by four times what the last
+ * took. Without slip no element is stepped. */
+static int too_much(const struct rst_problem *problem, int64_t levels, int64_t spent, int64_t last)
 {
     const double stepped = problem->mode == RST_NO_SLIP || !rst_sync_sticks(problem, 1) ? 2 : (double)levels;
-    const double cost = (double)levels * stepped * (double)(1 + problem->solid.n_terms);
-    return levels > most_levels || (double)spent + cost > (double)problem->max_updates;
+    const double first = (double)levels * stepped * (double)(1 + problem->solid.n_terms);
+    return (double)spent + (last > 0 ? 4 * (double)last : first) > (double)problem->max_updates;
 }
 
-static int give_up(const struct rst_problem *problem, int64_t levels, restitute_error *error)
+/* No two runs on end have settled. */
+static int give_up(const struct rst_problem *problem, int64_t levels, int64_t updates, int64_t last, int told,
+                   restitute_error *error)
 {
-    if (levels > most_levels)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "no result with %lld levels", (long long)most_levels);
-    if (problem->elements > 0)
+    if (levels <= most_levels && too_much(problem, levels, updates, last))
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_updates = %lld: spent before there was a result; raise it", (long long)problem->max_updates);
+    if (told && levels > most_levels)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "elements = %lld: the method sync takes up to %lld",
+                          (long long)problem->elements, (long long)most_levels);
+    if (told)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "elements = %lld: too few for this solid; take more",
                           (long long)problem->elements);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                      "max_updates = %lld: spent before there was a result; raise it", (long long)problem->max_updates);
+                      "iterations do not settle with up to %lld levels; take the method euler for this solid",
+                      (long long)most_levels);
 }
 
-/* Levels are doubled until two runs on end agree. With the number of levels given: that one and its half. */
+static int not_reached(const struct rst_problem *problem, const struct rst_outcome *outcome, int64_t last, int told,
+                       restitute_error *error)
+{
+    char limit[64] = "rounding adds up";
+    if (told) snprintf(limit, sizeof limit, "elements = %lld", (long long)problem->elements);
+    else if (too_much(problem, 2 * outcome->elements, outcome->updates, last))
+        snprintf(limit, sizeof limit, "max_updates = %lld", (long long)problem->max_updates);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld levels; %s: no more allowed",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
+}
+
+/* Levels of the first run: half or, where that is cheap, a quarter of those that the median impact needs; less if the updates
+ * allowed do not suffice. */
+static int64_t first_levels(const struct rst_problem *problem)
+{
+    const double needed = levels_to_start(problem);
+    int64_t levels = multiple_of(2, needed / (rst_sync_sticks(problem, 1) ? 2 : 4));
+    while (levels > 4 && too_much(problem, 2 * levels, 0, 0))
+        levels = multiple_of(2, (double)levels / 2);
+    return levels;
+}
+
+/* Levels are doubled until runs on end agree: two, or three of those without elements, which begin coarse. With the number of
+ * levels given: that one and its half. */
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace,
                           struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
+    const int told = problem->elements > 0;
     struct run now, before = {0};
     struct sync_grid grid;
     struct store store;
-    const int64_t told = problem->elements > 0 ? even((double)problem->elements) : 0;
-    int64_t levels = even((told > 0 ? (double)told : levels_to_start(problem)) / 2), updates = 0;
-    int known = 0, found = 0; /* whether there is a run before, a result */
+    int64_t levels = told ? multiple_of(4, (double)problem->elements) / 2 : first_levels(problem), updates = 0;
+    int settled = 0, found = 0; /* runs on end, and whether there is a result */
+    double change = 0;
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
     if (grid.turn > strongest_damping)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "rebound slower than 1e-8 of the impact: lost in rounding; the damping is too strong for this method");
-    for (int runs = 0; !(told > 0 && runs == 2) && !too_much(problem, levels, updates); runs++) {
+                          "rebound slower than 1e-8 of the impact: lost in rounding; the damping is too strong for this "
+                          "method, take euler");
+    for (int runs = 0; runs < 2 || !told; runs++) {
+        if (levels > most_levels || too_much(problem, levels, updates, before.updates)) break;
+        if (found && rounding_of_level * (double)levels > problem->tolerance) break;
         if (rst_workspace_elements(workspace, lay_out(NULL, levels, s->n_terms, &store)))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
         now = (struct run){.levels = levels};
-        int unsettled = run_once(problem, workspace, &grid, &now, &store);
+        settled = run_once(problem, workspace, &grid, &now, &store) ? 0 : settled + 1;
         updates += now.updates;
-        if (!unsettled && known) {
-            compare(problem, &before, &now, updates, outcome);
+        if (settled > 1) {
+            compare(problem, &before, &now, change, updates, outcome);
+            change = now.velocity - before.velocity;
             found = 1;
-            if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
+            const int enough = rst_sync_sticks(problem, -now.velocity) || settled > 2;
+            if (enough && fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
+                return rst_done(error);
         }
-        known = !unsettled;
         before = now;
-        levels = told > 0 ? told : 2 * levels;
+        levels *= 2;
     }
-    if (!found) return give_up(problem, levels, error);
-    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld levels; %s = %lld: no more allowed",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
-                      told > 0 ? "elements" : "max_updates", (long long)(told > 0 ? told : problem->max_updates));
+    if (!found) return give_up(problem, levels, updates, before.updates, told, error);
+    if (told && fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
+    return not_reached(problem, outcome, before.updates, told, error);
 }
 
 /* Whether the sphere sinks in for good; only a solid without equilibrium modulus lets it. */
