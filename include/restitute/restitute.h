@@ -259,7 +259,8 @@ typedef struct restitute_options {
 
 RESTITUTE_API void restitute_options_init(restitute_options *options);
 
-/** Options and workspace. After its first calls of a kind a solver does not allocate any more. One thread at a time. */
+/** Options and workspace. With `sync` the room for usual impacts is made at creation; otherwise a solver does not allocate any more
+ *  after its first calls of a kind. One thread at a time. */
 typedef struct restitute_solver restitute_solver;
 
 /** @param options NULL for the defaults, else copied */

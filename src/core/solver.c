@@ -98,6 +98,10 @@ int restitute_solver_create(const restitute_options *options, restitute_solver *
     if (!s) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a solver");
     s->options = chosen;
     s->workspace.loop = rst_widest_lanes();
+    if (chosen.method->reserve && chosen.method->reserve(chosen.tolerance, &s->workspace)) {
+        restitute_solver_destroy(s);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the workspace of a solver");
+    }
     *solver = s;
     return rst_done(error);
 }

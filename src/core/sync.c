@@ -365,4 +365,14 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return kept ? kept : status;
 }
 
-const struct restitute_method rst_method_sync = {.name = "sync", .solve = sync_solve, .record = rst_sync_record};
+/* For a standard solid and four times the levels of the median impact; 32 terms are room for most polymers before they are merged. */
+static int sync_reserve(double tolerance, struct rst_workspace *workspace)
+{
+    const struct rst_problem usual = {.chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
+    struct store store;
+    const int64_t levels = multiple_of(2, 4 * levels_to_start(&usual));
+    return rst_workspace_terms(workspace, 32) ||
+           rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
+}
+
+const struct restitute_method rst_method_sync = {.name = "sync", .reserve = sync_reserve, .solve = sync_solve, .record = rst_sync_record};
