@@ -24,7 +24,7 @@ module rst_sync_shear
   use rst_sync_levels, only: level_type, node_type
   use rst_sync_elements, only: step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, column_weight, &
                                column_alpha, column_kappa
-  use rst_cubic, only: cubic_type, cubic_between, cubic_value, cubic_slope, cubic_integral, cubic_root
+  use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_integral, cubic_root
   implicit none (type, external)
   private
   public :: scene_type, shear_type, follow_shear
@@ -45,7 +45,6 @@ module rst_sync_shear
   type, bind(c) :: shear_type
     real(dp) :: time, shift, velocity, force     !! s, U, U', int_0^A q dX
     real(dp) :: step_before, force_before        !! 0: no level before
-    real(dp) :: stick_radius
     real(dp) :: weight, x2                       !! sums over the nodes in contact, weighted
     real(dp) :: passive_weight, passive_alpha    !! over the passive ones
     integer(ip) :: level, first, front, updates  !! first: active node; front: outermost node that sticks, -1: none
@@ -65,7 +64,7 @@ contains
     type(shear_type), intent(out) :: state
     integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
-    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, step_before=0, force_before=0, stick_radius=0, &
+    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, step_before=0, force_before=0, &
                        weight=body(0, column_weight), x2=0, passive_weight=body(0, column_weight), passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
     do k = 1, scene%n_terms

@@ -80,6 +80,8 @@ static bool read_names(const char *option, const char *list, int (*find)(const c
         if (index < 0)
             return refuse(why, "--%s: \"%.*s\": must be among %s", option, (int)(length < 64 ? length : 64), word,
                           allowed);
+        if (*bits & (1u << index))
+            return refuse(why, "--%s: \"%.*s\": is there twice", option, (int)(length < 64 ? length : 64), word);
         *bits |= 1u << index;
         word = after;
     }

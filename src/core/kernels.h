@@ -65,7 +65,7 @@ struct sync_scene {
     int64_t no_slip;
 };
 struct sync_shear {
-    double time, shift, velocity, force, step_before, force_before, stick_radius;
+    double time, shift, velocity, force, step_before, force_before;
     double weight, x2, passive_weight, passive_alpha;
     int64_t level, first, front, updates;
 };

@@ -38,6 +38,9 @@ static const double strongest_damping = 19.1;
 /* Most levels that a run may have: with more, rounding adds up to more than they gain. */
 static const int64_t most_levels = 1 << 15;
 
+/* Half as many are the fewest that settle for a solid without strong damping. */
+static const double least_told = 8;
+
 struct run {
     int64_t levels;
     double velocity, shear_velocity;
@@ -292,7 +295,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     struct run now, before = {0};
     struct sync_grid grid;
     struct store store;
-    int64_t levels = told ? multiple_of(4, (double)problem->elements) / 2 : first_levels(problem), updates = 0;
+    int64_t levels = told ? multiple_of(4, fmax(least_told, (double)problem->elements)) / 2 : first_levels(problem), updates = 0;
     int settled = 0, found = 0; /* runs on end, and whether there is a result */
     double change = 0;
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
