@@ -163,7 +163,7 @@ contains
     integer(c_int64_t), intent(in), value :: n_terms, n
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
     type(level_type), intent(out) :: level(0:2*n)
-    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     integer(c_int64_t), intent(out) :: failed
     logical :: fails

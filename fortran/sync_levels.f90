@@ -105,7 +105,7 @@ contains
     real(dp), intent(in) :: closeness  !! iterations stop when velocities, and times relatively, change by less
     type(level_type), intent(out) :: level(0:2*n)
     real(dp), intent(out) :: memory(n_terms, 0:2*n)   !! g_k M_k
-    real(dp), intent(out) :: loading(n_terms, 0:n)    !! g_k P_k of the compression
+    real(dp), intent(out) :: loading(n_terms, 0:2*n)  !! g_k P_k of the compression
     type(node_type), intent(out) :: node(0:n)         !! radii; widths are not made
     logical, intent(out) :: failed
     integer(ip) :: l
@@ -166,7 +166,7 @@ contains
     integer(ip), intent(in) :: n_terms, n, l
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness
     type(level_type), intent(inout) :: level(0:2*n)
-    real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
     logical, intent(out) :: failed
     real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), echo(2), change, previous, drag, resolved, next
@@ -205,10 +205,10 @@ contains
         a3(q) = d(q)*a(q)
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
-      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory(:, l:l + 2), loading(:, l:l + 2), echo)
+      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading(:, l:l + 2), echo)
       do q = 1, 2
         next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + sum(loading(:, l + q)))
-        next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
+        if (echo(q) > 0) next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
         change = max(change, abs(next - rest(q))*x(2))
         rest(q) = next
       end do
@@ -216,6 +216,7 @@ contains
       if (done) exit
     end do
     failed = .not. done
+    call remember_terms(n_terms, g, tau, x, v, memory(:, l:l + 2))
     do q = 1, 2
       level(l + q) = at_level(level(l)%time + x(q), x(q) - (q - 1)*x(1), d(q), v(q), eta*a(q)*v(q) - rest(q)/mass_factor)
       node(l + q)%radius = a(q)
@@ -273,12 +274,12 @@ contains
     x = x + dx
   end subroutine meet_edge
 
-  !> M_k and P_k at both points. `echo`: derivative of sum g_k P_k by the velocity.
-  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory, loading, echo)
+  !> P_k at both points. `echo`: derivative of sum g_k P_k by the velocity.
+  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading, echo)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: resolved  !! the panels of a run resolve longer relaxation times
     real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2)
-    real(dp), intent(inout) :: memory(n_terms, 0:2), loading(n_terms, 0:2)
+    real(dp), intent(inout) :: loading(n_terms, 0:2)
     real(dp), intent(out) :: echo(2)
     type(panel_type) :: panel
     type(memory_type) :: m
@@ -289,7 +290,6 @@ contains
     do k = 1, n_terms
       do q = 1, 2
         m = memory_of(x(q)/tau(k))
-        memory(k, q) = m%decay*memory(k, 0) + g(k)*remembered(m, x(q), panel%speeds)
         if (by_parts(x, tau(k), resolved)) then
           loading(k, q) = m%decay*loading(k, 0) + g(k)*loaded_by_parts(panel, m, tau(k), x(q), a3(0), a3(q))
         else
@@ -299,6 +299,23 @@ contains
       end do
     end do
   end subroutine load_terms
+
+  !> M_k at both points.
+  pure subroutine remember_terms(n_terms, g, tau, x, v, memory)
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2)
+    real(dp), intent(inout) :: memory(n_terms, 0:2)
+    type(parabola_type) :: speeds
+    type(memory_type) :: m
+    integer(ip) :: k, q
+    speeds = parabola_through(spacing_of(x), v)
+    do k = 1, n_terms
+      do q = 1, 2
+        m = memory_of(x(q)/tau(k))
+        memory(k, q) = m%decay*memory(k, 0) + g(k)*remembered(m, x(q), speeds)
+      end do
+    end do
+  end subroutine remember_terms
 
   pure function panel_of(x, v, a, a3) result(panel)
     real(dp), intent(in) :: x(2), v(0:2), a(0:2), a3(0:2)
@@ -330,9 +347,10 @@ contains
   pure subroutine restitution_panel(g_inf, eta, n_terms, g, tau, n, l, closeness, level, memory, loading, node, &
                                     failed)
     integer(ip), intent(in) :: n_terms, n, l
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, loading(n_terms, 0:n)
+    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness
     type(level_type), intent(inout) :: level(0:2*n)
     real(dp), intent(inout) :: memory(n_terms, 0:2*n)
+    real(dp), intent(inout) :: loading(n_terms, 0:2*n)  !! at the new levels room for what the nodes have left at the start
     type(node_type), intent(in) :: node(0:n)
     logical, intent(out) :: failed
     real(dp) :: x(2), d(0:2), v(0:2), push(0:2), before(0:2), change, previous, next, excess, noise, slope, dx, faded
@@ -357,6 +375,11 @@ contains
       end do
       push(1:2) = ahead(before)
     end if
+    do q = 1, 2
+      do k = 1, n_terms
+        loading(k, l + q) = exp(-(level(l)%time - level(2*n - l - q)%time)/tau(k))
+      end do
+    end do
     previous = huge(1.0_dp)
     do sweep = 1, most_sweeps
       spacing = spacing_of(x)
@@ -376,7 +399,7 @@ contains
         do k = 1, n_terms
           m = memory_of(x(q)/tau(k))
           memory(k, l + q) = m%decay*memory(k, l) + g(k)*remembered(m, x(q), speeds)
-          faded = exp(-(level(l)%time + x(q) - level(j)%time)/tau(k))
+          faded = loading(k, l + q)*m%decay
           excess = excess + memory(k, l + q) - faded*memory(k, j)
           noise = noise + rounding*(g(k)*d(q) + faded*abs(memory(k, j)))
           slope = slope + g(k)*v(q) - (memory(k, l + q) - faded*memory(k, j))/tau(k)

@@ -42,7 +42,7 @@ static size_t doubles(size_t size, size_t count)
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
 {
     const size_t n = (size_t)levels, m = (size_t)n_terms;
-    return doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + m * (3 * n + 2);
+    return doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
 }
 
 /* One run, in workspace->levels, which has room. Nonzero if iterations do not settle. */
