@@ -25,8 +25,8 @@ module rst_sync_dense
     real(dp) :: memory, loading, fade, decay, from_start, from_end, from_bend
   end type trace_type
 
-  !> The sphere between three levels, by the time since the first of them, which keeps its digits. `rest`: acceleration without that by the dashpot of a growing contact; the latter is
-  !> -(2/3) drag (A^3)', `cubes` its integral.
+  !> The sphere between three levels, by the time since the first of them, which keeps its digits. `rest`: acceleration without
+  !> that by the dashpot of a growing contact; the latter is -(2/3) drag (A^3)', `cubes` its integral.
   type :: path_type
     real(dp) :: time, depth, velocity, drag, cubed
     type(parabola_type) :: rest, cubes

@@ -33,8 +33,9 @@ module rst_sync_levels
     real(dp) :: radius, start, turn
   end type grid_type
 
-  !> Where the sphere is at a level; step: time since the level before, with all its digits; force: int_0^A f dX. For the tangential problem: `fresh` is f + G_inf X^2 of an element that
-  !> forgets nothing, `missing` what the sum over nodes lacks of the force. Twin of `struct sync_level` in C.
+  !> Where the sphere is at a level; step: time since the level before, with all its digits; force: int_0^A f dX. For the
+  !> tangential problem: `fresh` is f + G_inf X^2 of an element that forgets nothing, `missing` what the sum over nodes lacks of the
+  !> force. Twin of `struct sync_level` in C.
   type, bind(c) :: level_type
     real(dp) :: time, step, depth, velocity, force, fresh, missing
   end type level_type
