@@ -110,13 +110,20 @@ int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *wor
                     int64_t *levels, double **room, restitute_error *error)
 {
     struct normal normal;
-    const int64_t coarse = outcome->normal_levels < most ? outcome->normal_levels : most;
+    int64_t coarse = outcome->normal_levels;
     const int64_t wanted = outcome->elements < most ? outcome->elements : most;
-    const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
-    int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
-    *levels = ratio * coarse;
-    if (status) return status;
-    return make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * *levels + 1) + more, store, room, error);
+    while (coarse > most && coarse % 4 == 0)
+        coarse /= 2;
+    for (;; coarse *= 2) {
+        const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
+        int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
+        *levels = ratio * coarse;
+        if (status) return status;
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        if (normal.levels > 0)
+            status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * *levels + 1) + more, store, room, error);
+        if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || coarse >= outcome->normal_levels) return status;
+    }
 }
 
 /* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */

@@ -13,7 +13,7 @@ static const double part_taken = 1.0 / 15;
 /* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that may be small
  * by chance, a part of n^-4. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
  * small (docs/accuracy.md). */
-static const double share_of_difference = 0.4, usual_error = 0.4, share_of_change = 0.6, usual_error_of_two = 5;
+static const double share_of_difference = 0.5, usual_error = 0.6, share_of_change = 0.6, usual_error_of_two = 5;
 
 /* The levels have what extrapolation takes off; it is to be this part of the error that is wanted. */
 static const double left_in_levels = 0.1;
@@ -88,7 +88,7 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
 {
     int status = choose_grid(problem, normal, error);
     if (!status) status = make_room(problem, workspace, levels, error);
-    if (!status) run(problem, workspace, levels, normal); /* it has settled before */
+    if (!status && run(problem, workspace, levels, normal)) normal->levels = 0;
     return status;
 }
 

@@ -28,7 +28,7 @@ struct normal {
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error);
 
-/* Solve again, at that number of levels alone. */
+/* Solve again, at that number of levels alone; normal->levels is 0 if it does not settle. */
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
@@ -61,7 +61,7 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t leve
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
                     restitute_error *error);
 
-/* The levels of that outcome again, or about `most` if they are more; `room`: for `a_level` doubles a level of both phases and
+/* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of both phases and
  * `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
