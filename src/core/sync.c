@@ -101,7 +101,7 @@ static int make_dense(const struct rst_problem *problem, struct rst_workspace *w
     rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio, normal->level,
                      store->level, store->trace, store->node, &failed);
     if (!failed) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "iterations do not settle between %lld levels",
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "iterations do not settle between %lld levels; take the method euler for this solid",
                       (long long)normal->levels);
 }
 
