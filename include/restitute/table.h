@@ -259,8 +259,8 @@ RESTITUTE_API int restitute_table_builder_restore(restitute_table_builder *build
 
 /** All of a table in plain numbers, to send or to store it (table_files.h does). Speed and gamma are divided by octaves:
  *  `parts` cells in each (a power of 2), as wide as each other, from `low` to `high`, which are seams; a cell has four nodes, evenly
- *  spaced, those at its ends shared. psi: `stick_cells` such cells of psi from 0 to 1, then `slip_cells` of sqrt(y) from 0 to sqrt(1/2), then as
- *  many of sqrt(1 - y); y = (psi - 1)/(psi_c - 1). */
+ *  spaced, those at its ends shared. psi: `stick_cells` such cells of psi from 0 to 1, then `slip_cells` of r(y) = sqrt(y + c^2) - c, c = 1/64, from y = 0
+ *  to 1/2, then as many of r(1 - y); y = (psi - 1)/(psi_c - 1). */
 typedef struct restitute_table_data {
     size_t struct_size; /**< set by @ref restitute_table_data_init */
     int64_t of_contact; /**< nonzero: of one contact; then the first axis is the speed (m/s), else delta1 */

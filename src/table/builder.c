@@ -390,10 +390,13 @@ static int after_filling(struct restitute_table_builder *b, restitute_error *err
 
 static int after_checking(struct restitute_table_builder *b, restitute_error *error)
 {
+    const double before = fmax(b->worst_ez, b->worst_ex);
     compare(b);
+    const double worst = fmax(b->worst_ez, b->worst_ex);
+    b->stagnant = b->rounds > 0 && worst > 0.8 * before ? b->stagnant + 1 : 0;
     b->draft->checks = b->points;
     if (remember(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    if (fmax(b->worst_ez, b->worst_ex) > b->options.tolerance && b->rounds++ < most_rounds && add_points(b))
+    if (worst > b->options.tolerance && b->stagnant < 2 && b->rounds++ < most_rounds && add_points(b))
         return begin_filling(b, error);
     b->stage = RST_FINISHED;
     return RESTITUTE_OK;
@@ -425,6 +428,8 @@ static int hand_over(struct restitute_table_builder *b, restitute_table **table,
     t->error_ez = b->worst_ez;
     t->error_ex = b->worst_ex;
     t->impacts = b->used;
+    rst_octaves_limit(t->asked[0][0], t->asked[0][1], &t->speed);
+    rst_octaves_limit(t->asked[1][0], t->asked[1][1], &t->gamma);
     snprintf(t->version, sizeof t->version, "%s", restitute_version());
     *table = t;
     if (fmax(t->error_ez, t->error_ex) <= t->tolerance) return rst_table_done(error);

@@ -72,7 +72,7 @@ struct restitute_table_builder {
     struct rst_panels panels[rst_axes];
     int64_t probe[rst_axes];
     enum rst_stage stage;
-    int part, rounds;
+    int part, rounds, stagnant; /* stagnant: rounds on end that brought little */
 
     struct rst_point *point;
     struct rst_solved *solved;

@@ -27,7 +27,7 @@ static int check_size(const restitute_table_data *data, restitute_error *error)
 
 static void view_axis(const struct rst_octaves *axis, int i, restitute_table_data *d)
 {
-    d->low[i] = axis->low;
+    d->low[i] = rst_octaves_node(axis, 0);
     d->high[i] = rst_octaves_node(axis, axis->cells * rst_cubic);
     d->parts[i] = axis->cells > 0 ? INT64_C(1) << (52 - axis->shift) : 0;
 }
@@ -86,8 +86,8 @@ int restitute_table_nodes(const restitute_table *table, int axis, double *places
                             : i >= table->start[1] ? rst_slip_node(table->slip_cells, i - table->start[1])
                                                    : 0;
         const double stick = table->stick_cells ? (double)i / (double)(table->stick_cells * rst_cubic) : 0;
-        places[i] = i >= table->start[2]   ? 2 - root * root
-                    : i >= table->start[1] ? 1 + root * root
+        places[i] = i >= table->start[2]   ? 2 - rst_slip_y(root)
+                    : i >= table->start[1] ? 1 + rst_slip_y(root)
                                            : stick;
     }
     return RESTITUTE_OK;
@@ -122,6 +122,8 @@ static int set_axis(const restitute_table_data *d, int i, const char *name, stru
         !is_seam(low, 52 - k) || !is_seam(high, 52 - k))
         return refuse(error, name);
     rst_octaves_set(low, high, k, axis);
+    if (!(d->range[i][0] >= low && d->range[i][1] <= high && d->range[i][0] < d->range[i][1])) return refuse(error, name);
+    rst_octaves_limit(d->range[i][0], d->range[i][1], axis);
     return RESTITUTE_OK;
 }
 

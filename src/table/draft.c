@@ -228,10 +228,10 @@ static int choose_stick(const struct restitute_table_builder *b, const struct co
     return 0;
 }
 
-/* t with y = (1 - cos(pi t))/2 where sqrt(y), or sqrt(1 - y), is w. */
-static double t_of_root(double w, int turned)
+/* t with y = (1 - cos(pi t))/2 where r(y), or r(1 - y), is r. */
+static double t_of_root(double r, int turned)
 {
-    const double t = 2 / pi * asin(w);
+    const double t = 2 / pi * asin(sqrt(rst_slip_y(r)));
     return turned ? 1 - t : t;
 }
 

@@ -16,6 +16,13 @@ void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis)
     axis->cells = (last >> axis->shift) - axis->first;
 }
 
+void rst_octaves_limit(double low, double high, struct rst_octaves *axis)
+{
+    if (axis->cells == 0) return;
+    if (low > axis->low) axis->low = low;
+    if (high < axis->high) axis->high = high;
+}
+
 double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
 {
     if (axis->cells == 0) return axis->low;
@@ -27,9 +34,20 @@ double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
     return start + (end - start) * (double)(i % rst_cubic) / rst_cubic;
 }
 
+/* r(1/2) */
+static double largest_r(void)
+{
+    return sqrt(0.5 + rst_soft * rst_soft) - rst_soft;
+}
+
 double rst_slip_node(int64_t cells, int64_t i)
 {
-    return (double)i / (double)(cells * rst_cubic) * sqrt(0.5);
+    return (double)i / (double)(cells * rst_cubic) * largest_r();
+}
+
+double rst_slip_y(double r)
+{
+    return fmin(0.5, r * (r + 2 * rst_soft));
 }
 
 void rst_table_count(restitute_table *form)
@@ -43,7 +61,7 @@ void rst_table_count(restitute_table *form)
     form->n_psi = form->start[2] + half;
     form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->n_psi > 1;
     form->psi_cells[0] = nextafter((double)form->stick_cells, 0);
-    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / sqrt(0.5), 0);
+    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / largest_r(), 0);
 }
 
 void rst_table_chi_weights(restitute_table *form)

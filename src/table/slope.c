@@ -77,11 +77,11 @@ static double sum_ex(const restitute_table *t, const double *by_speed, int n_spe
     return sum;
 }
 
-/* d s/d y: s goes with sqrt(2 y) or sqrt(2 (1 - y)). At the very ends, where ex is flat in s, any finite value will do. */
+/* d s/d y: s goes with r(y) or r(1 - y). */
 static double slip_stretch(const restitute_table *t, double y)
 {
-    const double u = fmax(y > 0.5 ? 1 - y : y, DBL_MIN);
-    return (y > 0.5 ? -1 : 1) * (double)(t->slip_cells * rst_cubic) / sqrt(2 * u);
+    const double u = (y > 0.5 ? 1 - y : y) + rst_soft * rst_soft;
+    return (y > 0.5 ? -1 : 1) * rst_cubic * t->psi_cells[1] / (2 * sqrt(u));
 }
 
 static void chi_row(const restitute_table *t, double chi, double *w)

@@ -3,8 +3,8 @@
  * Values are kept at nodes. Along the speed (or delta1) and along gamma an octave of the number is divided into 2^k equal cells,
  * each with a cubic through four nodes that are evenly spaced. So cell and place in the cell are the leading and the other bits of
  * the number itself, and no logarithm is taken. Along chi there is one polynomial. Along psi: even cells from 0 to 1, then for
- * y = (psi - 1)/(psi_c - 1) even cells of sqrt(y) up to y = 1/2 and of sqrt(1 - y) beyond, which are dense at both ends (THEORY 9:
- * there ex has singular curvature); each has a cubic as well. Cells share the nodes at their seams.
+ * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
+ * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well. Cells share the nodes at their seams.
  *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -24,8 +24,8 @@ enum {
 
 /* An axis by octaves. */
 struct rst_octaves {
-    double low, high; /* numbers beyond are taken as these: the first node, and the number next below the last node */
-    int64_t first;    /* leading bits of `low` */
+    double low, high; /* numbers beyond are taken as these; below the last node */
+    int64_t first;    /* leading bits of the first node */
     int64_t cells;    /* 0: one node, no axis */
     int shift;        /* how many bits are not leading */
     int64_t mask;     /* those bits */
@@ -55,7 +55,7 @@ struct restitute_table {
     int64_t n_speed, n_gamma, n_psi;
     int two_axes; /* speed and psi, and no more */
     int64_t start[3];   /* first node of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
-    double psi_cells[2]; /* cells over the length of psi in [0, 1], of sqrt(y) in [0, sqrt(1/2)]; next below that */
+    double psi_cells[2]; /* cells over the length of psi in [0, 1], of r in [0, r(1/2)]; next below that */
     double *ez;                       /* [speed][gamma] */
     double *ex;                       /* [speed][gamma][psi][chi] */
     size_t block_size;                /* doubles in `block` */
@@ -65,11 +65,15 @@ struct restitute_table {
 /* Set up an axis whose cells are the octaves' parts of `low` to `high`, both on seams of 2^-k of an octave. */
 void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis);
 
+/* Take numbers beyond `low` and `high`, which lie on the axis, as these. */
+void rst_octaves_limit(double low, double high, struct rst_octaves *axis);
+
 /* Node of an axis; 0 <= i <= 3 cells. */
 double rst_octaves_node(const struct rst_octaves *axis, int64_t i);
 
-/* sqrt(y) at a node of the lower half of the slip side, and sqrt(1 - y) of the upper one. */
+/* r(y) at a node of the lower half of the slip side, and r(1 - y) of the upper one; y from it. */
 double rst_slip_node(int64_t cells, int64_t i);
+double rst_slip_y(double r);
 
 /* Barycentric weights 1/prod(chi_j - chi_i) of the nodes in `form`. */
 void rst_table_chi_weights(restitute_table *form);
@@ -109,6 +113,9 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
+/* c in r(y) */
+static const double rst_soft = 1.0 / 64;
+
 /* Smallest divisor: nothing is divided by 0, for programs that trap that. */
 static const double rst_least = 0x1p-1000;
 
@@ -120,7 +127,7 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
     const double beyond = sliding - v_n, most = width * v_n;
     const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
-    const double root = sqrt(other < y ? other : y);
+    const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
     const double psi = sliding / (v_n > rst_least ? v_n : rst_least);
     /* below the number of cells even at their end */
     const double u = root * (slips * t->psi_cells[1]) + psi * ((1 - slips) * t->psi_cells[0]);
