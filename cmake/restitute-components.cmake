@@ -59,8 +59,10 @@ restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
 
 # The serial HDF5 goes before whatever stands under the plain name, which may want MPI.
 if(RESTITUTE_TABLE_FILES)
+  set(RESTITUTE_HDF5_MODULE hdf5-serial)
   restitute_find_pkg_config_library(HDF5 hdf5-serial)
   if(NOT HDF5_FOUND)
+    set(RESTITUTE_HDF5_MODULE hdf5)
     restitute_find_pkg_config_library(HDF5 hdf5)
   endif()
 endif()
