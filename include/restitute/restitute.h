@@ -145,6 +145,15 @@ RESTITUTE_API double restitute_material_poisson_ratio(const restitute_material *
 /** Number of Prony terms; 0 for NULL. */
 RESTITUTE_API size_t restitute_material_terms(const restitute_material *material);
 
+/** The Prony series of a material, as @ref restitute_material_prony takes it. Any output may be NULL: not wanted.
+ *
+ *  @param relaxation_time,modulus  restitute_material_terms(material) values each, tau ascending
+ *  @return OK, ERROR_NULL
+ *
+ *      restitute_material_series(material, &g_inf, &eta_inf, tau, g); */
+RESTITUTE_API int restitute_material_series(const restitute_material *material, double *equilibrium_modulus,
+                                            double *parallel_viscosity, double *relaxation_time, double *modulus);
+
 /* ------------------------------------------------------------------------------------------------ what is to happen */
 
 /** One impact in dimensionless numbers (22),(23). Lengths in d0 = a_el^2/R, times in T = d0/v_z0, a_el by (24).

@@ -149,3 +149,16 @@ size_t restitute_material_terms(const restitute_material *material)
 {
     return material ? material->n_terms : 0;
 }
+
+int restitute_material_series(const restitute_material *material, double *equilibrium_modulus,
+                              double *parallel_viscosity, double *relaxation_time, double *modulus)
+{
+    if (!material) return RESTITUTE_ERROR_NULL;
+    if (equilibrium_modulus) *equilibrium_modulus = material->g_inf;
+    if (parallel_viscosity) *parallel_viscosity = material->eta;
+    for (size_t k = 0; k < material->n_terms; k++) {
+        if (relaxation_time) relaxation_time[k] = material->tau[k];
+        if (modulus) modulus[k] = material->g[k];
+    }
+    return RESTITUTE_OK;
+}

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_FORTRAN WITH_OPENMP SANITIZED
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_TABLE WITH_TABLE_FILES WITH_FORTRAN WITH_OPENMP SANITIZED
 # The working directory is used up.
 set -eu
 
@@ -33,7 +33,7 @@ else
     installed_from=$work/other
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
-        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
+        -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
@@ -45,12 +45,20 @@ prefix=$work/second
 echo "== find_package"
 components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"
+[ "$WITH_TABLE" = OFF ] || components="$components;table"
+[ "$WITH_TABLE_FILES" = OFF ] || components="$components;table_files"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
 user/consumer
 user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+[ "$WITH_TABLE" = OFF ] || user/consumer_table
+if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
+    second/bin/restitute table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
+        --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
+    user/consumer_table_files user/table.h5
+fi
 
 echo "== find_package without components takes all that are installed"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -99,6 +107,14 @@ static=""
 "$CC" -o user/by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer.c" \
     $(pkg-config --cflags --libs $static restitute) -lm
 user/by_pkg_config
+for component in table table_files; do
+    [ -f "$PKG_CONFIG_PATH/restitute-$component.pc" ] || continue
+    # shellcheck disable=SC2046
+    "$CC" -o "user/${component}_by_pkg_config" "$SOURCE_DIR/tests/consume/project/consumer_$component.c" \
+        $(pkg-config --cflags --libs $static "restitute-$component")
+done
+[ "$WITH_TABLE" = OFF ] || user/table_by_pkg_config
+[ ! -f user/table.h5 ] || user/table_files_by_pkg_config user/table.h5
 if [ "$WITH_FORTRAN" != OFF ]; then
     # shellcheck disable=SC2046
     "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \

@@ -1,0 +1,95 @@
+/* Nodes of a table and its room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+
+#include "table_form.h"
+
+void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis)
+{
+    int64_t first, last;
+    *axis = (struct rst_octaves){.low = low, .high = low, .shift = 52 - k, .mask = (INT64_C(1) << (52 - k)) - 1, .scale = ldexp(rst_cubic, k - 52)};
+    if (!(low < high)) return;
+    memcpy(&first, &low, sizeof first);
+    memcpy(&last, &high, sizeof last);
+    axis->high = nextafter(high, low);
+    axis->first = first >> axis->shift;
+    axis->cells = (last >> axis->shift) - axis->first;
+}
+
+void rst_octaves_limit(double low, double high, struct rst_octaves *axis)
+{
+    if (axis->cells == 0) return;
+    if (low > axis->low) axis->low = low;
+    if (high < axis->high) axis->high = high;
+}
+
+double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
+{
+    if (axis->cells == 0) return axis->low;
+    double start, end;
+    const int64_t bits = (axis->first + i / rst_cubic) << axis->shift;
+    const int64_t next = (axis->first + i / rst_cubic + 1) << axis->shift;
+    memcpy(&start, &bits, sizeof start);
+    memcpy(&end, &next, sizeof end);
+    return start + (end - start) * (double)(i % rst_cubic) / rst_cubic;
+}
+
+/* r(1/2) */
+static double largest_r(void)
+{
+    return sqrt(0.5 + rst_soft * rst_soft) - rst_soft;
+}
+
+double rst_slip_node(int64_t cells, int64_t i)
+{
+    return (double)i / (double)(cells * rst_cubic) * largest_r();
+}
+
+double rst_slip_y(double r)
+{
+    return fmin(0.5, r * (r + 2 * rst_soft));
+}
+
+void rst_table_count(restitute_table *form)
+{
+    form->n_speed = form->speed.cells * rst_cubic + 1;
+    form->n_gamma = form->gamma.cells * rst_cubic + 1;
+    form->start[0] = 0;
+    form->start[1] = form->stick_cells * rst_cubic + 1;
+    const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
+    form->start[2] = form->start[1] + half;
+    form->n_psi = form->start[2] + half;
+    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->n_psi > 1;
+    form->psi_cells[0] = nextafter((double)form->stick_cells, 0);
+    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / largest_r(), 0);
+}
+
+void rst_table_chi_weights(restitute_table *form)
+{
+    for (int64_t j = 0; j < form->n_chi; j++) {
+        double product = 1;
+        for (int64_t i = 0; i < form->n_chi; i++)
+            if (i != j) product *= form->chi[j] - form->chi[i];
+        form->chi_weight[j] = 1 / product;
+    }
+}
+
+restitute_table *rst_table_allocate(const restitute_table *form)
+{
+    const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma;
+    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi;
+    const size_t size = n_ez + n_ex + 2 * (size_t)form->terms;
+    restitute_table *table = malloc(sizeof *table + size * sizeof(double));
+    if (!table) return NULL;
+    *table = *form;
+    table->block_size = size;
+    table->ez = table->block;
+    table->ex = table->block + n_ez;
+    table->term = table->block + n_ez + n_ex;
+    return table;
+}
+
+void restitute_table_destroy(restitute_table *table)
+{
+    free(table);
+}

@@ -1,0 +1,253 @@
+/* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only functions of
+ * libm are the fifth root of the speed in tables of ranges, and none of them can set errno for what gets here.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <float.h>
+
+#include "table_form.h"
+
+/* Weights along speed and gamma, and where the block of values starts. */
+struct place {
+    double speed[4], gamma[4];
+    int64_t corner; /* of the ez values */
+    int n_speed, n_gamma;
+};
+
+static inline int axis_weights(const struct rst_octaves *axis, double number, double w[4], int64_t *node)
+{
+    *node = 0;
+    w[0] = 1;
+    if (axis->cells == 0) return 1;
+    int64_t cell;
+    rst_cubic_weights(rst_octaves_find(axis, number, &cell), w);
+    *node = cell * rst_cubic;
+    return 4;
+}
+
+static inline void find_place(const restitute_table *t, double speed, double gamma, struct place *p)
+{
+    int64_t i, j;
+    p->n_speed = axis_weights(&t->speed, speed, p->speed, &i);
+    p->n_gamma = axis_weights(&t->gamma, gamma, p->gamma, &j);
+    p->corner = i * t->n_gamma + j;
+}
+
+static inline double clamp(double value, double low, double high)
+{
+    value = value < low ? low : value;
+    return value > high ? high : value;
+}
+
+/* sum over speed and gamma of values `stride` apart */
+static inline double plane_sum(const restitute_table *t, const struct place *p, const double *value, int64_t stride)
+{
+    double sum = 0;
+    for (int i = 0; i < p->n_speed; i++)
+        for (int j = 0; j < p->n_gamma; j++)
+            sum += p->speed[i] * p->gamma[j] * value[(i * t->n_gamma + j) * stride];
+    return sum;
+}
+
+static inline double rebound(const restitute_table *t, const struct place *p)
+{
+    return clamp(plane_sum(t, p, t->ez + p->corner, 1), 0, 1);
+}
+
+static void chi_weights(const restitute_table *t, double chi, double *w)
+{
+    const int64_t n = t->n_chi;
+    chi = clamp(chi, t->chi[0], t->chi[n - 1]);
+    double left = 1, right = 1;
+    for (int64_t j = 0; j < n; j++) {
+        w[j] = left * t->chi_weight[j];
+        left *= chi - t->chi[j];
+    }
+    for (int64_t j = n - 1; j >= 0; j--) {
+        w[j] *= right;
+        right *= chi - t->chi[j];
+    }
+}
+
+/* Two axes: four rows of four values. */
+static inline double sum_two_axes(const restitute_table *t, const double w[4], int64_t row, int64_t node, double s)
+{
+    double q[4], c[4];
+    const int64_t stride = t->n_psi;
+    const double *v = t->ex + row * stride + node;
+    rst_cubic_weights(s, q);
+    for (int j = 0; j < 4; j++)
+        c[j] = (w[0] * v[j] + w[1] * v[stride + j]) + (w[2] * v[2 * stride + j] + w[3] * v[3 * stride + j]);
+    return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
+}
+
+static double sum_all_axes(const restitute_table *t, const struct place *p, int64_t node, int n_psi,
+                           const double *psi_weight, const double *chi_weight)
+{
+    const int64_t n_chi = t->n_chi, stride = t->n_psi * n_chi;
+    const double *v = t->ex + p->corner * stride + node * n_chi;
+    double sum = 0;
+    for (int i = 0; i < p->n_speed; i++)
+        for (int j = 0; j < p->n_gamma; j++) {
+            const double *row = v + (i * t->n_gamma + j) * stride;
+            double inner = 0;
+            for (int k = 0; k < n_psi; k++) {
+                double chi_sum = 0;
+                for (int64_t l = 0; l < n_chi; l++)
+                    chi_sum += chi_weight[l] * row[k * n_chi + l];
+                inner += psi_weight[k] * chi_sum;
+            }
+            sum += p->speed[i] * p->gamma[j] * inner;
+        }
+    return sum;
+}
+
+static double sum_general(const restitute_table *t, const struct place *p, double chi, int64_t node, double s)
+{
+    double psi_weight[4] = {1}, chi_weight[rst_most_chi] = {1};
+    if (t->n_psi > 1) rst_cubic_weights(s, psi_weight);
+    if (t->n_chi > 1) chi_weights(t, chi, chi_weight);
+    return sum_all_axes(t, p, node, t->n_psi > 1 ? 4 : 1, psi_weight, chi_weight);
+}
+
+static inline double chi_in_table(const restitute_table *t, double chi)
+{
+    return clamp(chi, t->chi[0], t->chi[t->n_chi - 1]);
+}
+
+/* What there is of ex in closed form: that of full slip for psi > 1 (27). */
+static inline double closed_part(double sliding, double v_n, double full)
+{
+    const double larger = sliding > v_n ? sliding : v_n;
+    return (sliding > v_n) * (full * (v_n / (larger > rst_least ? larger : rst_least)) - 1);
+}
+
+/* ex below psi_c, by all axes. */
+static double tangential(const restitute_table *t, const struct place *p, double chi, double sliding, double v_n,
+                         double full, double width)
+{
+    double s;
+    if (t->stick_cells == 0) return sum_general(t, p, chi, 0, 0);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s);
+    return sum_general(t, p, chi, node, s) + closed_part(sliding, v_n, full);
+}
+
+/* psi = sliding/v_n; v_n may be 0 and sliding infinite. */
+static inline void evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding,
+                                    double v_n, restitute_table_value *pair)
+{
+    struct place p;
+    find_place(t, speed, gamma, &p);
+    chi = chi_in_table(t, chi);
+    const double ez = rebound(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
+    pair->ez = ez;
+    if (sliding > critical * v_n) pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+    else pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
+}
+
+/* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
+static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
+                                     restitute_table_value *pair)
+{
+    double w[4], s;
+    int64_t cell;
+    rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
+    const double *v = t->ez + cell * rst_cubic;
+    const double ez = clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
+    const double full = t->chi[0] * 2 * (1 + ez), critical = 2 * t->chi[0] > 1 ? full - ez : 1;
+    pair->ez = ez;
+    if (sliding > critical * v_n) {
+        pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+        return;
+    }
+    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s);
+    pair->ex = clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed_part(sliding, v_n, full), -1, 1);
+}
+
+static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double sliding,
+                            double v_n, restitute_table_value *pair)
+{
+    if (t->two_axes) evaluate_two_axes(t, speed, sliding, v_n, pair);
+    else evaluate_general(t, speed, gamma, chi, sliding, v_n, pair);
+}
+
+void rst_table_evaluate(const restitute_table *table, double speed, double gamma, double chi, double psi,
+                        restitute_table_value *pair)
+{
+    evaluate(table, speed, gamma, chi, psi, 1, pair);
+}
+
+double rst_table_rebound(const restitute_table *table, double speed, double gamma)
+{
+    struct place p;
+    find_place(table, speed, gamma, &p);
+    return rebound(table, &p);
+}
+
+/* psi v_n; infinite without friction. */
+static inline double sliding_of(const restitute_table_contact *c, double v_t)
+{
+    return c->psi_factor > DBL_MAX ? INFINITY : c->psi_factor * fabs(v_t);
+}
+
+/* The number that the first axis goes by. */
+static inline double speed_of(const restitute_table *t, const restitute_table_contact *c, double v_n)
+{
+    return t->of_contact ? v_n * c->speed_factor : c->delta1 * pow(v_n, 0.2);
+}
+
+static inline int good_speeds(double v_n, double v_t)
+{
+    return v_n >= 0 && v_n <= DBL_MAX && fabs(v_t) <= DBL_MAX;
+}
+
+static inline const restitute_table_contact *contact_or_own(const restitute_table *table,
+                                                            const restitute_table_contact *contact)
+{
+    return contact ? contact : &table->own;
+}
+
+static inline int check_contact(const restitute_table *table, const restitute_table_contact *contact)
+{
+    if (!contact) return table->of_contact ? RESTITUTE_OK : RESTITUTE_ERROR_DOMAIN;
+    return contact->struct_size == sizeof *contact ? RESTITUTE_OK : RESTITUTE_ERROR_STRUCT_SIZE;
+}
+
+int restitute_table_pair(const restitute_table *table, double normal_speed, double tangential_speed,
+                         restitute_table_value *pair)
+{
+    if (!table || !pair) return RESTITUTE_ERROR_NULL;
+    if (!table->of_contact || !good_speeds(normal_speed, tangential_speed)) return RESTITUTE_ERROR_DOMAIN;
+    const restitute_table_contact *c = &table->own;
+    evaluate(table, normal_speed, c->gamma, c->chi, sliding_of(c, tangential_speed), normal_speed, pair);
+    return RESTITUTE_OK;
+}
+
+int restitute_table_pairs(const restitute_table *table, const restitute_table_contact *contact, size_t n,
+                          const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex)
+{
+    if (!table || (n > 0 && (!normal_speeds || !tangential_speeds))) return RESTITUTE_ERROR_NULL;
+    const int status = check_contact(table, contact);
+    if (status) return status;
+    int good = 1;
+    for (size_t i = 0; i < n; i++)
+        good &= good_speeds(normal_speeds[i], tangential_speeds[i]);
+    if (!good) return RESTITUTE_ERROR_DOMAIN;
+    const restitute_table_contact *c = contact_or_own(table, contact);
+    for (size_t i = 0; i < n; i++) {
+        restitute_table_value pair;
+        evaluate(table, speed_of(table, c, normal_speeds[i]), c->gamma, c->chi,
+                 sliding_of(c, tangential_speeds[i]), normal_speeds[i], &pair);
+        if (ez) ez[i] = pair.ez;
+        if (ex) ex[i] = pair.ex;
+    }
+    return RESTITUTE_OK;
+}
+
+int restitute_table_numbers_pair(const restitute_table *table, double chi, double psi, double delta1, double gamma,
+                                 restitute_table_value *pair)
+{
+    if (!table || !pair) return RESTITUTE_ERROR_NULL;
+    if (table->of_contact || !(chi >= 0) || !(psi >= 0) || !(delta1 >= 0) || !(gamma >= 0))
+        return RESTITUTE_ERROR_DOMAIN;
+    evaluate(table, delta1, gamma, chi, psi, 1, pair);
+    return RESTITUTE_OK;
+}

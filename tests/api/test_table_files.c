@@ -1,0 +1,212 @@
+/* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones are refused, and silently.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <restitute/table_files.h>
+
+#include "../support/table.h"
+
+static const char path[] = "test_table_files.h5", broken[] = "test_table_files_broken.h5";
+static restitute_material *material;
+static restitute_scene scene;
+static restitute_table *table;
+static unsigned char *bytes;
+static size_t size;
+
+static int set_up(void **state)
+{
+    (void)state;
+    scene = ball_on(0.3, &material);
+    table = table_of(&scene, 0.1, 1, 1e-2);
+    restitute_error error;
+    CHECK(restitute_table_write(table, path, &error) == RESTITUTE_OK, "%s", error.message);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    bytes = malloc(1 << 24);
+    size = fread(bytes, 1, 1 << 24, file);
+    fclose(file);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    free(bytes);
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+    unlink(path);
+    unlink(broken);
+    return 0;
+}
+
+static void put(const unsigned char *content, size_t length)
+{
+    FILE *file = fopen(broken, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(content, 1, length, file), length);
+    fclose(file);
+}
+
+static int alike(const restitute_table *a, const restitute_table *b)
+{
+    for (int i = 0; i <= 40; i++)
+        for (int j = 0; j <= 40; j++) {
+            const double v = 0.05 * pow(30, i / 40.0), u = 0.05 * j * v;
+            const restitute_table_value p = look_up(a, v, u), q = look_up(b, v, u);
+            if (p.ez != q.ez || p.ex != q.ex) return 0;
+        }
+    return 1;
+}
+
+static void what_is_written_is_read(void **state)
+{
+    restitute_table *read = NULL;
+    restitute_error error;
+    restitute_table_info one, other;
+    (void)state;
+    CHECK(restitute_table_read(path, &read, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(alike(table, read), "the table that was read");
+    restitute_table_info_init(&one);
+    restitute_table_info_init(&other);
+    restitute_table_describe(table, &one, NULL);
+    restitute_table_describe(read, &other, NULL);
+    CHECK(memcmp(&one, &other, sizeof one) == 0, "what the table says of itself");
+    restitute_table_contact contact;
+    restitute_table_contact_init(&contact);
+    CHECK(restitute_table_contact_of(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(contact.speed_factor == 1, "%.17g: the material is known again", contact.speed_factor);
+    CHECK(restitute_table_write(read, broken, &error) == RESTITUTE_OK, "%s", error.message);
+    FILE *file = fopen(broken, "rb");
+    unsigned char *again = malloc(size + 1);
+    CHECK(fread(again, 1, size + 1, file) == size && memcmp(again, bytes, size) == 0, "the same table, the same bytes");
+    fclose(file);
+    free(again);
+    restitute_table_destroy(read);
+}
+
+/* An error, or the same table. */
+static void check_broken(size_t place, const char *how)
+{
+    restitute_table *read = NULL;
+    restitute_error error;
+    const int status = restitute_table_read(broken, &read, &error);
+    if (status >= 0) {
+        CHECK(alike(table, read), "byte %zu %s: another table", place, how);
+        restitute_table_destroy(read);
+        return;
+    }
+    CHECK(status == RESTITUTE_ERROR_FORMAT && !read && strlen(error.message) > 10, "byte %zu %s: status %d, %s", place,
+          how, status, error.message);
+}
+
+/* Every byte of the block of text and of the first structures, then every 37th, in all bits in turn. */
+static void flips_are_refused(void **state)
+{
+    int refused = 0, tried = 0;
+    (void)state;
+    unsigned char *copy = malloc(size);
+    memcpy(copy, bytes, size);
+    for (size_t i = 0; i < size; i += i < 1500 ? 1 : 37) {
+        copy[i] ^= (unsigned char)(1u << (i % 8));
+        put(copy, size);
+        check_broken(i, "flipped");
+        restitute_table *read = NULL;
+        refused += restitute_table_read(broken, &read, NULL) < 0;
+        restitute_table_destroy(read);
+        tried++;
+        copy[i] = bytes[i];
+    }
+    CHECK(refused == tried, "%d of %d flips refused", refused, tried);
+    free(copy);
+}
+
+static void cuts_are_refused(void **state)
+{
+    (void)state;
+    for (size_t length = 0; length < size; length += length < 1500 ? 7 : 1009) {
+        restitute_table *read = NULL;
+        put(bytes, length);
+        check_broken(length, "cut");
+        assert_true(restitute_table_read(broken, &read, NULL) < 0);
+    }
+    unsigned char *longer = malloc(size + 1);
+    restitute_table *read = NULL;
+    memcpy(longer, bytes, size);
+    longer[size] = 0;
+    put(longer, size + 1);
+    assert_int_equal(restitute_table_read(broken, &read, NULL), RESTITUTE_ERROR_FORMAT);
+    free(longer);
+}
+
+static void refused(const char *text, int status)
+{
+    restitute_table *read = NULL;
+    restitute_error error;
+    assert_int_equal(restitute_table_read(broken, &read, &error), status);
+    CHECK(strstr(error.message, text), "\"%s\" does not say \"%s\"", error.message, text);
+}
+
+static void foreign_and_later_files_are_refused(void **state)
+{
+    (void)state;
+    put((const unsigned char *)"tau_s,G_Pa\n1,2\n", 15);
+    refused("is not a table file", RESTITUTE_ERROR_FORMAT);
+    put(bytes + 512, size - 512); /* plain HDF5 */
+    refused("is not a table file", RESTITUTE_ERROR_FORMAT);
+    unsigned char *later = malloc(size);
+    memcpy(later, bytes, size);
+    char *schema = strstr((char *)later, "schema 1");
+    assert_non_null(schema);
+    schema[7] = '2';
+    put(later, size);
+    free(later);
+    refused("schema 2: this library reads up to 1", RESTITUTE_ERROR_FORMAT);
+    unlink(broken);
+    refused("cannot be read", RESTITUTE_ERROR_FILE);
+    restitute_table *read = NULL;
+    assert_int_equal(restitute_table_read(".", &read, NULL), RESTITUTE_ERROR_FILE);
+    assert_int_equal(restitute_table_read(NULL, &read, NULL), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_write(table, "no/such/folder/t.h5", NULL), RESTITUTE_ERROR_FILE);
+}
+
+/* A build stopped, put down, and taken up again: the same table; not with other settings. */
+static void journals(void **state)
+{
+    restitute_table_family family;
+    restitute_table_options options;
+    restitute_table_builder *first, *second;
+    restitute_table *whole = NULL, *resumed = NULL;
+    restitute_error error;
+    (void)state;
+    restitute_table_family_init(&family);
+    restitute_table_options_init(&options);
+    family.scene = &scene;
+    family.speed[0] = 0.1, family.speed[1] = 1;
+    options.tolerance = 1e-3;
+    assert_int_equal(restitute_table_build(&family, &options, &whole, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_builder_create(&family, &options, &first, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_builder_run(first, 50, &resumed, &error), RESTITUTE_OK);
+    CHECK(restitute_table_builder_write(first, "a", broken, &error) == RESTITUTE_OK, "%s", error.message);
+    assert_int_equal(restitute_table_builder_create(&family, &options, &second, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_builder_read(second, "b", broken, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(restitute_table_builder_read(second, "a", broken, &error) == RESTITUTE_OK, "%s", error.message);
+    while (!resumed)
+        assert_int_equal(restitute_table_builder_run(second, 1000, &resumed, &error), RESTITUTE_OK);
+    CHECK(alike(whole, resumed), "the resumed table");
+    assert_int_equal(restitute_table_read(broken, &resumed, &error), RESTITUTE_ERROR_FORMAT);
+    restitute_table_builder_destroy(first);
+    restitute_table_builder_destroy(second);
+    restitute_table_destroy(whole);
+    restitute_table_destroy(resumed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(flips_are_refused),
+                                       cmocka_unit_test(cuts_are_refused),
+                                       cmocka_unit_test(foreign_and_later_files_are_refused),
+                                       cmocka_unit_test(journals)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,247 @@
+/* What the header of tables promises of a lookup: limits, seams, bounds, derivatives, other sizes, refusals.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <errno.h>
+#include <fenv.h>
+#include <string.h>
+
+#include "../support/table.h"
+
+static restitute_material *material;
+static restitute_scene scene;
+static restitute_table *table;
+static const double chi = 7.0 / 6;
+
+static int set_up(void **state)
+{
+    (void)state;
+    scene = ball_on(1, &material);
+    table = table_of(&scene, 1e-3, 10, 1e-4);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+    return 0;
+}
+
+static double ex_at(double v_n, double psi)
+{
+    return look_up(table, v_n, psi * v_n / PSI_FACTOR).ex;
+}
+
+static void limits(void **state)
+{
+    restitute_table_value pair = look_up(table, 0, 1);
+    (void)state;
+    CHECK(pair.ex == -1, "v_n = 0: %.17g", pair.ex);
+    CHECK(look_up(table, 0, 0).ex == look_up(table, 1e-9, 0).ex, "no sliding, v_n = 0: the no-slip value");
+    CHECK(look_up(table, 1e-300, 1e300).ex == -1, "psi beyond all bounds");
+    CHECK(look_up(table, 1e-9, 0).ez == look_up(table, 1e-3, 0).ez, "below the lowest: as at it");
+    CHECK(look_up(table, 1e9, 0).ez == look_up(table, 10, 0).ez, "above the highest: as at it");
+    CHECK(look_up(table, 1, 0.3).ex == look_up(table, 1, -0.3).ex, "the sign of v_t");
+    CHECK(look_up(table, 1, -0.0).ex == look_up(table, 1, 0).ex, "the sign of 0");
+    /* 10^-3: two steps of psi of 1e-9 are below rounding of the table's own slope times them */
+    CHECK_NEAR(ex_at(1, 1e-9), ex_at(1, 0), 1e-7, "psi -> 0");
+}
+
+/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12 of psi changes ex by 1e-11. */
+static void continuous(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int i = 0; i < 2000; i++) {
+        const double v = random_log(&random, 1e-3, 10), critical = restitute_critical_psi(chi, look_up(table, v, 0).ez);
+        CHECK_NEAR(ex_at(v, 1 + 1e-12), ex_at(v, 1 - 1e-12), 1e-10, "psi = 1, v_n = %g", v);
+        CHECK_NEAR(ex_at(v, critical * (1 + 1e-12)), ex_at(v, critical * (1 - 1e-12)), 1e-10, "psi_c, v_n = %g", v);
+        CHECK_NEAR(ex_at(v, critical * 1.0000001), 2 * chi * (1 + look_up(table, v, 0).ez) / (critical * 1.0000001) - 1,
+                   1e-12, "the closed form beyond psi_c, v_n = %g", v);
+    }
+    /* cells of speed begin at eighths of octaves, or at multiples of them */
+    for (int i = -72; i < 24; i++) {
+        const double octave = ldexp(1, (int)floor(i / 8.0)), seam = octave * (1 + (i - 8 * floor(i / 8.0)) / 8);
+        for (double psi = 0; psi < 4; psi += 0.37) {
+            const double below = ex_at(nextafter(seam, 0), psi), above = ex_at(seam, psi);
+            CHECK_NEAR(above, below, 1e-13, "the seam %g, psi = %g", seam, psi);
+            CHECK_NEAR(look_up(table, seam, 0).ez, look_up(table, nextafter(seam, 0), 0).ez, 1e-13, "%g", seam);
+        }
+    }
+    /* cells of psi: no jump is larger than a slope of 10 makes it */
+    for (int i = 0; i < 200000; i++) {
+        const double psi = i * 1.5e-5;
+        CHECK_NEAR(ex_at(0.7, psi + 1.5e-5), ex_at(0.7, psi), 1.5e-4, "psi = %g", psi);
+    }
+}
+
+static void bounded(void **state)
+{
+    uint64_t random = 4;
+    (void)state;
+    feclearexcept(FE_ALL_EXCEPT);
+    errno = 0;
+    for (int i = 0; i < 200000; i++) {
+        const restitute_table_value p = look_up(table, random_log(&random, 1e-12, 1e12), random_log(&random, 1e-12, 1e12));
+        CHECK(p.ez >= 0 && p.ez <= 1 && fabs(p.ex) <= 1, "ez = %.17g, ex = %.17g", p.ez, p.ex);
+    }
+    look_up(table, 0, 0);
+    look_up(table, 0, 1);
+    CHECK(errno == 0, "errno = %d", errno);
+    CHECK(!fetestexcept(FE_DIVBYZERO | FE_INVALID), "a lookup divided by 0 or made a NaN");
+}
+
+/* Central differences with a step h are off by h^2/6 of the third derivative and by rounding/h; cubics have kinks in the second derivative at
+ * seams. With h = 1e-5 of the speed 1e-4 of the slope's scale, 1/v, is generous. */
+static void slopes(void **state)
+{
+    uint64_t random = 5;
+    (void)state;
+    for (int i = 0; i < 5000; i++) {
+        const double v = random_log(&random, 2e-3, 9), u = random_in(&random, 0.01, 4) * v / PSI_FACTOR, h = 1e-5 * v;
+        restitute_table_value pair;
+        restitute_table_slope s;
+        assert_int_equal(restitute_table_pair_of(table, NULL, v, u, &pair, &s), RESTITUTE_OK);
+        const double by_v = (look_up(table, v + h, u).ex - look_up(table, v - h, u).ex) / (2 * h);
+        const double by_u = (look_up(table, v, u + h).ex - look_up(table, v, u - h).ex) / (2 * h);
+        const double ez = (look_up(table, v + h, u).ez - look_up(table, v - h, u).ez) / (2 * h);
+        CHECK_NEAR(s.ez_normal * v, ez * v, 1e-4, "v_n = %g", v);
+        CHECK_NEAR(s.ex_normal * v, by_v * v, 5e-4, "v_n = %g, psi = %g", v, u / v * PSI_FACTOR);
+        CHECK_NEAR(s.ex_tangential * v, by_u * v, 5e-4, "v_n = %g, psi = %g", v, u / v * PSI_FACTOR);
+        CHECK(pair.ex == look_up(table, v, u).ex, "the pair with slopes is the pair");
+    }
+}
+
+static void many_at_once(void **state)
+{
+    enum { n = 1000 };
+    double v[n], u[n], ez[n], ex[n];
+    uint64_t random = 6;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        v[i] = random_log(&random, 1e-4, 100);
+        u[i] = random_in(&random, -2, 2) * v[i];
+    }
+    assert_int_equal(restitute_table_pairs(table, NULL, n, v, u, ez, ex), RESTITUTE_OK);
+    for (int i = 0; i < n; i++) {
+        const restitute_table_value p = look_up(table, v[i], u[i]);
+        CHECK(p.ez == ez[i] && p.ex == ex[i], "impact %d", i);
+    }
+    ez[0] = 7;
+    v[n - 1] = NAN;
+    assert_int_equal(restitute_table_pairs(table, NULL, n, v, u, ez, NULL), RESTITUTE_ERROR_DOMAIN);
+    CHECK(ez[0] == 7, "a refused call has written");
+    assert_int_equal(restitute_table_pairs(table, NULL, 0, NULL, NULL, NULL, NULL), RESTITUTE_OK);
+}
+
+/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the table's tolerance. */
+static void other_sizes(void **state)
+{
+    restitute_options options = to_tolerance(1e-5);
+    restitute_solver *solver;
+    restitute_error error;
+    (void)state;
+    options.method = restitute_method_sync();
+    assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
+    for (int kind = 0; kind < 3; kind++) {
+        restitute_scene other = scene;
+        restitute_table_contact contact;
+        restitute_table_value pair;
+        restitute_result result;
+        restitute_result_init(&result);
+        restitute_table_contact_init(&contact);
+        if (kind != 1) other.radius1 = 0.004, other.mass1 = 0.0025;
+        if (kind == 1) other.radius2 = 0.003, other.mass2 = 0.002;
+        if (kind == 2) other.deformable = RESTITUTE_BOTH_BODIES_DEFORM, other.friction = 0.6;
+        CHECK(restitute_table_contact_of(table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+        other.normal_speed = 0.2;
+        other.tangential_speed = 0.15;
+        CHECK(restitute_solve_scene(solver, &other, &result, NULL, NULL, &error) >= 0, "%s", error.message);
+        assert_int_equal(restitute_table_pair_of(table, &contact, 0.2, 0.15, &pair, NULL), RESTITUTE_OK);
+        CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "contact %d", kind); /* 1e-4: the table's; the rest the impact's own */
+        CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "contact %d", kind);
+    }
+    restitute_solver_destroy(solver);
+}
+
+static void other_contacts_are_refused(void **state)
+{
+    restitute_table_contact contact;
+    restitute_error error;
+    restitute_scene other = scene;
+    restitute_material *soft;
+    (void)state;
+    restitute_table_contact_init(&contact);
+    contact.speed_factor = 5;
+    other.inertia1 = 1e-8;
+    assert_int_equal(restitute_table_contact_of(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "chi"), "%s", error.message);
+    restitute_material_elastic(1e5, 0.5, &soft, NULL);
+    other = scene;
+    other.material = soft;
+    assert_int_equal(restitute_table_contact_of(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "material"), "%s", error.message);
+    CHECK(contact.speed_factor == 5, "a refused call has written");
+    restitute_material_destroy(soft);
+}
+
+static void bad_speeds_are_refused(void **state)
+{
+    static const double bad[][2] = {{-1, 0}, {NAN, 0}, {INFINITY, 0}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        restitute_table_value pair = {5, 6};
+        CHECK(restitute_table_pair(table, bad[i][0], bad[i][1], &pair) == RESTITUTE_ERROR_DOMAIN, "%g, %g", bad[i][0],
+              bad[i][1]);
+        CHECK(pair.ez == 5 && pair.ex == 6, "a refused call has written");
+    }
+    restitute_table_value pair;
+    assert_int_equal(restitute_table_pair(NULL, 1, 1, &pair), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_pair(table, 1, 1, NULL), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_numbers_pair(table, 1, 1, 1, 1, &pair), RESTITUTE_ERROR_DOMAIN);
+}
+
+/* Axes that a contact does not need are not there, and its limits are those of the impact. */
+static void axes_collapse(void **state)
+{
+    restitute_material *steel;
+    restitute_scene ball = scene;
+    restitute_table_info info;
+    (void)state;
+    restitute_table_info_init(&info);
+    restitute_material_elastic(8e10, 0.3, &steel, NULL);
+    ball.material = steel;
+    restitute_table *elastic = table_of(&ball, 1e-3, 10, 1e-4);
+    restitute_table_describe(elastic, &info, NULL);
+    CHECK(info.nodes[0] == 1 && info.nodes[3] > 1, "elastic: %lld speeds", (long long)info.nodes[0]);
+    CHECK_NEAR(look_up(elastic, 1, 0.1).ez, 1, 1e-4, "elastic");
+    restitute_table_destroy(elastic);
+    ball = scene;
+    ball.friction = 0;
+    restitute_table *smooth = table_of(&ball, 1e-3, 10, 1e-4);
+    restitute_table_describe(smooth, &info, NULL);
+    CHECK(info.nodes[3] == 1, "no friction: %lld psi", (long long)info.nodes[3]);
+    CHECK(look_up(smooth, 1, 0).ex == -1 && look_up(smooth, 1, 5).ex == -1 && look_up(smooth, 0, 0).ex == -1, "mu = 0");
+    CHECK_NEAR(look_up(smooth, 1, 0).ez, look_up(table, 1, 0).ez, 2e-4, "ez does not know of friction");
+    restitute_table_destroy(smooth);
+    ball.friction = INFINITY;
+    restitute_table *rough = table_of(&ball, 1e-3, 10, 1e-4);
+    CHECK_NEAR(look_up(rough, 1, 5).ex, look_up(table, 1, 0).ex, 2e-4, "mu = infinity: the no-slip value");
+    CHECK(look_up(rough, 0, 5).ex == look_up(rough, 0, 0).ex, "mu = infinity, v_n = 0");
+    restitute_table_destroy(rough);
+    restitute_material_destroy(steel);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(limits),
+                                       cmocka_unit_test(continuous),
+                                       cmocka_unit_test(bounded),
+                                       cmocka_unit_test(slopes),
+                                       cmocka_unit_test(many_at_once),
+                                       cmocka_unit_test(other_sizes),
+                                       cmocka_unit_test(other_contacts_are_refused),
+                                       cmocka_unit_test(bad_speeds_are_refused),
+                                       cmocka_unit_test(axes_collapse)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
