@@ -242,6 +242,68 @@ RESTITUTE_API int restitute_table_builder_run(restitute_table_builder *builder, 
 RESTITUTE_API int64_t restitute_table_builder_solved(const restitute_table_builder *builder);
 RESTITUTE_API int64_t restitute_table_builder_expected(const restitute_table_builder *builder);
 
+/** Results of the impacts solved so far, four numbers each (ez, ex and their estimated errors) in the order in which they
+ *  were asked for: all that is needed to go on later. They live until the next call that changes the builder.
+ *
+ *  @param count  number of impacts; 0 for NULL */
+RESTITUTE_API const double *restitute_table_builder_journal(const restitute_table_builder *builder, size_t *count);
+
+/** Give a new builder of the same family and options the journal of another; it then goes on from there to the same table.
+ *
+ *  @param journal  4 count numbers, copied
+ *  @return OK; ERROR_DOMAIN for a builder that has run already, or numbers that are no results; ERROR_NULL, ERROR_MEMORY */
+RESTITUTE_API int restitute_table_builder_restore(restitute_table_builder *builder, const double *journal, size_t count,
+                                                  restitute_error *error);
+
+/* ------------------------------------------------------------------------------------------------- all of a table */
+
+/** All of a table in plain numbers, to send or to store it (table_files.h does). Speed and gamma are divided by octaves:
+ *  `parts` cells in each (a power of 2), as wide as each other, from `low` to `high`, which are seams; a cell has four nodes, evenly
+ *  spaced, those at its ends shared. psi: `stick_cells` such cells of psi from 0 to 1, then `slip_cells` of sqrt(y) from 0 to sqrt(1/2), then as
+ *  many of sqrt(1 - y); y = (psi - 1)/(psi_c - 1). */
+typedef struct restitute_table_data {
+    size_t struct_size; /**< set by @ref restitute_table_data_init */
+    int64_t of_contact; /**< nonzero: of one contact; then the first axis is the speed (m/s), else delta1 */
+    double range[3][2]; /**< as requested: speed or delta1, gamma, chi */
+    double tolerance, error_ez, error_ex;
+    int64_t impacts, checks;
+    char version[32]; /**< of the library that built it */
+
+    double psi_factor, own_chi, own_gamma, own_delta1; /**< of the contact, see @ref restitute_table_contact */
+    double duration;                                   /**< T of the contact at 1 m/s, s */
+    double friction, radius, mass;                     /**< of the contact; m, kg: effective ones */
+    double modulus_factor;                             /**< 1/2 if both bodies deform, else 1 */
+    double poisson_ratio, equilibrium_modulus, parallel_viscosity; /**< of its material; Pa, Pa s */
+    int64_t terms;
+    const double *relaxation_time, *modulus; /**< s, Pa; `terms` values each */
+
+    double low[2], high[2];          /**< ends of the axes of speed (or delta1) and gamma; both alike: one node */
+    int64_t parts[2];                /**< cells an octave; 0: one node */
+    int64_t n_chi;                   /**< nodes of chi: one polynomial through all */
+    const double *chi;               /**< n_chi values, rising */
+    int64_t stick_cells, slip_cells; /**< 0: one node of psi */
+    int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, they follow from the others */
+    const double *ez;                /**< [speed][gamma] */
+    const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1) */
+} restitute_table_data;
+
+RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);
+
+/** A view of a table; its pointers live as long as the table.
+ *  @return OK, ERROR_NULL, ERROR_STRUCT_SIZE */
+RESTITUTE_API int restitute_table_to_data(const restitute_table *table, restitute_table_data *data,
+                                          restitute_error *error);
+
+/** A table from such numbers, copied: with the same bits it looks up the same.
+ *  @return OK; ERROR_DOMAIN for numbers that no table has; ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY */
+RESTITUTE_API int restitute_table_from_data(const restitute_table_data *data, restitute_table **table,
+                                            restitute_error *error);
+
+/** The places of an axis's nodes: 0 speed (m/s) or delta1, 1 gamma, 2 chi, 3 psi, where those beyond psi = 1 are given as 1 + y.
+ *  @param places  restitute_table_data.nodes[axis] values
+ *  @return OK, ERROR_NULL, ERROR_DOMAIN */
+RESTITUTE_API int restitute_table_nodes(const restitute_table *table, int axis, double *places);
+
 #ifdef __cplusplus
 }
 #endif

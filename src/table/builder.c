@@ -2,11 +2,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Impacts are solved to this part of the tolerance; interpolation may take the rest. */
-static const double part_for_solver = 0.5;
+/* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error, so that those that
+ * are interpolated may take all of it; those of the checks have theirs added to the difference (docs/table.md). */
+static const double part_for_filling = 1, part_for_checks = 0.5;
 
 /* Times that points are added after a check. */
 static const int most_rounds = 6;
@@ -203,7 +205,7 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    options.tolerance = fmax(1e-8, part_for_solver * b->options.tolerance);
+    options.tolerance = fmax(1e-8, b->options.tolerance * (b->stage == RST_CHECKING ? part_for_checks : part_for_filling));
     const size_t n = (size_t)p->count;
     return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
                      : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
@@ -399,6 +401,33 @@ int restitute_table_builder_run(restitute_table_builder *builder, size_t impacts
         }
     }
     return hand_over(builder, table, error);
+}
+
+const double *restitute_table_builder_journal(const restitute_table_builder *builder, size_t *count)
+{
+    if (count) *count = builder ? (size_t)builder->journal_count : 0;
+    return builder ? (const double *)builder->journal : NULL;
+}
+
+int restitute_table_builder_restore(restitute_table_builder *builder, const double *journal, size_t count,
+                                    restitute_error *error)
+{
+    if (!builder || !journal)
+        return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "journal" : "builder");
+    if (builder->journal_count > 0)
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "builder: has solved %lld impacts already",
+                                (long long)builder->journal_count);
+    for (size_t i = 0; i < 4 * count; i++)
+        if (!(fabs(journal[i]) <= (i % 4 < 2 ? 2 : DBL_MAX)))
+            return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i, journal[i]);
+    struct rst_solved *copy = malloc((count + 1) * sizeof *copy);
+    if (!copy) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu impacts", count);
+    memcpy(copy, journal, count * sizeof *copy);
+    free(builder->journal);
+    builder->journal = copy;
+    builder->journal_count = (int64_t)count;
+    builder->journal_capacity = (int64_t)count + 1;
+    return rst_table_done(error);
 }
 
 int64_t restitute_table_builder_solved(const restitute_table_builder *builder)

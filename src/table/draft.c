@@ -7,8 +7,8 @@
 #include "interpolation.h"
 
 /* Part of the tolerance that cells may cost along an axis, and the finest that are tried. */
-static const double part_for_cells = 0.1;
-enum { finest_octave = 7, most_stick_cells = 32, most_slip_octaves = 24 };
+static const double part_for_cells = 0.15;
+enum { finest_octave = 7, most_cells = 64 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -22,11 +22,6 @@ double rst_y_of_t(double t)
 {
     const double s = sin(0.5 * pi * t);
     return s * s;
-}
-
-static double t_of_y(double y)
-{
-    return y <= 0.5 ? 2 / pi * asin(sqrt(y)) : 1 - 2 / pi * asin(sqrt(1 - y));
 }
 
 double rst_full_slip(double chi, double ez, double psi)
@@ -157,18 +152,11 @@ static int measure_tails(struct restitute_table_builder *b, const struct coarse 
 
 /* ---- cells */
 
-/* Local weights of `degree` at s. */
-static void local_weights(int degree, double s, double *w)
-{
-    if (degree == rst_cubic) rst_cubic_weights(s, w);
-    else rst_quintic_weights(s, w);
-}
-
 /* Largest difference of local polynomials through `nodes` places and the global one, in the middles between nodes. */
-static double cell_error(const struct coarse *c, enum rst_axis axis, int64_t n, int degree, int64_t nodes,
+static double cell_error(const struct coarse *c, enum rst_axis axis, int64_t n, int64_t nodes,
                          const double *place, const double *middle)
 {
-    const int64_t cells = (nodes - 1) / degree, m = nodes - 1;
+    const int64_t degree = rst_cubic, cells = (nodes - 1) / degree, m = nodes - 1;
     double *row = malloc((size_t)((nodes + m) * n) * sizeof *row), error = -1;
     if (!row) return -1;
     double *difference = row + nodes * n;
@@ -176,8 +164,8 @@ static double cell_error(const struct coarse *c, enum rst_axis axis, int64_t n, 
     rst_table_weights(n, m, middle, difference);
     for (int64_t i = 0; i < cells; i++)
         for (int64_t k = 0; k < degree; k++) {
-            double w[6];
-            local_weights(degree, (double)k + 0.5, w);
+            double w[4];
+            rst_cubic_weights((double)k + 0.5, w);
             for (int64_t j = 0; j < n; j++)
                 for (int64_t l = 0; l <= degree; l++)
                     difference[(i * degree + k) * n + j] -= w[l] * row[(i * degree + l) * n + j];
@@ -211,7 +199,7 @@ static int choose_octaves(const struct restitute_table_builder *b, const struct 
         double *place = malloc((size_t)(2 * nodes) * sizeof *place);
         if (!place) return 1;
         octave_places(b, axis, o, place, place + nodes);
-        const double error = cell_error(c, axis, b->n[axis], rst_cubic, nodes, place, place + nodes);
+        const double error = cell_error(c, axis, b->n[axis], nodes, place, place + nodes);
         free(place);
         if (error < 0) return 1;
         if (error <= part_for_cells * b->options.tolerance) return 0;
@@ -221,44 +209,48 @@ static int choose_octaves(const struct restitute_table_builder *b, const struct 
 
 static int choose_stick(const struct restitute_table_builder *b, const struct coarse *c, int64_t *cells)
 {
-    double place[most_stick_cells * rst_quintic + 1], middle[most_stick_cells * rst_quintic];
+    double place[most_cells * rst_cubic + 1], middle[most_cells * rst_cubic];
     *cells = 0;
     if (!b->active[RST_STICK]) return 0;
-    for (*cells = 1; *cells < most_stick_cells; *cells *= 2) {
-        const int64_t n = *cells * rst_quintic;
+    for (*cells = 1; *cells < most_cells; *cells += 1) {
+        const int64_t n = *cells * rst_cubic;
         for (int64_t i = 0; i <= n; i++) {
             place[i] = (double)i / (double)n;
             if (i < n) middle[i] = ((double)i + 0.5) / (double)n;
         }
-        const double error = cell_error(c, RST_STICK, b->n[RST_STICK], rst_quintic, n + 1, place, middle);
+        const double error = cell_error(c, RST_STICK, b->n[RST_STICK], n + 1, place, middle);
         if (error < 0) return 1;
         if (error <= part_for_cells * b->options.tolerance) return 0;
     }
     return 0;
 }
 
-/* One half of the slip side, towards y = 0 or towards y = 1. */
-static double slip_error(const struct restitute_table_builder *b, const struct coarse *c,
-                         const struct rst_slip_cells *cells, int turned)
+/* t with y = (1 - cos(pi t))/2 where sqrt(y), or sqrt(1 - y), is w. */
+static double t_of_root(double w, int turned)
 {
-    double place[most_slip_octaves * rst_quintic + 1], middle[most_slip_octaves * rst_quintic];
-    const int64_t n = (cells->octaves - 1) * rst_quintic;
-    for (int64_t i = 0; i <= n; i++) {
-        const double here = rst_slip_node(cells, i), next = i < n ? rst_slip_node(cells, i + 1) : 0.5;
-        const double t = t_of_y(here), between = t_of_y(0.5 * (here + (i < n ? next : here)));
-        place[i] = turned ? 1 - t : t;
-        if (i < n) middle[i] = turned ? 1 - between : between;
-    }
-    return cell_error(c, RST_SLIP, b->n[RST_SLIP], rst_quintic, n + 1, place, middle);
+    const double t = 2 / pi * asin(w);
+    return turned ? 1 - t : t;
 }
 
-static int choose_slip(const struct restitute_table_builder *b, const struct coarse *c, struct rst_slip_cells *cells)
+/* One half of the slip side, towards y = 0 or towards y = 1. */
+static double slip_error(const struct restitute_table_builder *b, const struct coarse *c, int64_t cells, int turned)
 {
-    *cells = (struct rst_slip_cells){0};
+    double place[most_cells * rst_cubic + 1], middle[most_cells * rst_cubic];
+    const int64_t n = cells * rst_cubic;
+    for (int64_t i = 0; i <= n; i++) {
+        const double here = rst_slip_node(cells, i);
+        place[i] = t_of_root(here, turned);
+        if (i < n) middle[i] = t_of_root(0.5 * (here + rst_slip_node(cells, i + 1)), turned);
+    }
+    return cell_error(c, RST_SLIP, b->n[RST_SLIP], n + 1, place, middle);
+}
+
+static int choose_slip(const struct restitute_table_builder *b, const struct coarse *c, int64_t *cells)
+{
+    *cells = 0;
     if (!b->active[RST_SLIP]) return 0;
-    for (int64_t octaves = 2; octaves <= most_slip_octaves; octaves++) {
-        *cells = (struct rst_slip_cells){octaves, ldexp(1, -(int)octaves), 1 - ldexp(2, -(int)octaves)};
-        const double low = slip_error(b, c, cells, 0), high = slip_error(b, c, cells, 1);
+    for (*cells = 1; *cells < most_cells; *cells += 1) {
+        const double low = slip_error(b, c, *cells, 0), high = slip_error(b, c, *cells, 1);
         if (low < 0 || high < 0) return 1;
         if (fmax(low, high) <= part_for_cells * b->options.tolerance) return 0;
     }
@@ -301,9 +293,11 @@ static double *psi_rows(const struct restitute_table_builder *b, const restitute
     double *row = calloc((size_t)(t->n_psi * n), sizeof *row), one[257];
     if (!row) return NULL;
     for (int64_t i = 0; i < t->n_psi; i++) {
-        const int slips = i >= t->slip_start;
-        const double stick = t->stick_cells ? (double)i / (double)(t->stick_cells * rst_quintic) : 0;
-        const double place = slips ? t_of_y(rst_slip_node(&t->slip, i - t->slip_start)) : stick;
+        const int slips = i >= t->start[1];
+        const double stick = t->stick_cells ? (double)i / (double)(t->stick_cells * rst_cubic) : 0;
+        const int turned = i >= t->start[2];
+        const int64_t from_start = i - (turned ? t->start[2] : t->start[1]);
+        const double place = slips ? t_of_root(rst_slip_node(t->slip_cells, from_start), turned) : stick;
         rst_table_weights(slips ? r : l, 1, &place, one);
         memcpy(row + i * n + (slips ? l : 0), one, (size_t)(slips ? r : l) * sizeof *one);
     }
@@ -360,7 +354,7 @@ static int make(struct restitute_table_builder *b, struct coarse *c, restitute_t
     rst_family_describe(&b->family, &form);
     set_chi(b, &form);
     if (choose_octaves(b, c, RST_SPEED, &form.speed) || choose_octaves(b, c, RST_GAMMA, &form.gamma) ||
-        choose_stick(b, c, &form.stick_cells) || choose_slip(b, c, &form.slip))
+        choose_stick(b, c, &form.stick_cells) || choose_slip(b, c, &form.slip_cells))
         return 1;
     rst_table_count(&form);
     *table = rst_table_allocate(&form);

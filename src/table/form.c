@@ -7,7 +7,7 @@
 void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis)
 {
     int64_t first, last;
-    *axis = (struct rst_octaves){.low = low, .high = low, .shift = 52 - k, .scale = ldexp(1, k - 52)};
+    *axis = (struct rst_octaves){.low = low, .high = low, .shift = 52 - k, .mask = (INT64_C(1) << (52 - k)) - 1, .scale = ldexp(rst_cubic, k - 52)};
     if (!(low < high)) return;
     memcpy(&first, &low, sizeof first);
     memcpy(&last, &high, sizeof last);
@@ -27,25 +27,23 @@ double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
     return start + (end - start) * (double)(i % rst_cubic) / rst_cubic;
 }
 
-double rst_slip_node(const struct rst_slip_cells *cells, int64_t i)
+double rst_slip_node(int64_t cells, int64_t i)
 {
-    const int64_t half = (cells->octaves - 1) * rst_quintic;
-    const int turned = i > half;
-    const int64_t j = turned ? i - half - 1 : i;
-    const double start = ldexp(cells->end, (int)(j / rst_quintic));
-    const double number = start + start * (double)(j % rst_quintic) / rst_quintic;
-    const double u = j == half ? 0.5 : (number - cells->end) / cells->stretch;
-    return turned ? 1 - u : u;
+    return (double)i / (double)(cells * rst_cubic) * sqrt(0.5);
 }
 
 void rst_table_count(restitute_table *form)
 {
     form->n_speed = form->speed.cells * rst_cubic + 1;
     form->n_gamma = form->gamma.cells * rst_cubic + 1;
-    form->slip_start = form->stick_cells * rst_quintic + 1;
-    const int64_t half = form->slip.octaves > 0 ? (form->slip.octaves - 1) * rst_quintic + 1 : 0;
-    form->turned_start = form->slip_start + half;
-    form->n_psi = form->turned_start + half;
+    form->start[0] = 0;
+    form->start[1] = form->stick_cells * rst_cubic + 1;
+    const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
+    form->start[2] = form->start[1] + half;
+    form->n_psi = form->start[2] + half;
+    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->n_psi > 1;
+    form->psi_cells[0] = nextafter((double)form->stick_cells, 0);
+    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / sqrt(0.5), 0);
 }
 
 void rst_table_chi_weights(restitute_table *form)

@@ -18,8 +18,7 @@ static inline int axis_weights(const struct rst_octaves *axis, double number, do
     w[0] = 1;
     if (axis->cells == 0) return 1;
     int64_t cell;
-    const double t = rst_octaves_find(axis, number, &cell);
-    rst_cubic_weights(t * rst_cubic, w);
+    rst_cubic_weights(rst_octaves_find(axis, number, &cell), w);
     *node = cell * rst_cubic;
     return 4;
 }
@@ -68,17 +67,16 @@ static void chi_weights(const restitute_table *t, double chi, double *w)
     }
 }
 
-/* Two axes: four rows of six values. */
-static inline double sum_two_axes(const restitute_table *t, const struct place *p, int64_t node, double s)
+/* Two axes: four rows of four values. */
+static inline double sum_two_axes(const restitute_table *t, const double w[4], int64_t row, int64_t node, double s)
 {
-    double w[6], sum = 0;
+    double q[4], c[4];
     const int64_t stride = t->n_psi;
-    const double *v = t->ex + p->corner * stride + node;
-    rst_quintic_weights(s, w);
-    for (int j = 0; j < 6; j++)
-        sum += w[j] * ((p->speed[0] * v[j] + p->speed[1] * v[stride + j]) +
-                       (p->speed[2] * v[2 * stride + j] + p->speed[3] * v[3 * stride + j]));
-    return sum;
+    const double *v = t->ex + row * stride + node;
+    rst_cubic_weights(s, q);
+    for (int j = 0; j < 4; j++)
+        c[j] = (w[0] * v[j] + w[1] * v[stride + j]) + (w[2] * v[2 * stride + j] + w[3] * v[3 * stride + j]);
+    return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
 }
 
 static double sum_all_axes(const restitute_table *t, const struct place *p, int64_t node, int n_psi,
@@ -104,16 +102,10 @@ static double sum_all_axes(const restitute_table *t, const struct place *p, int6
 
 static double sum_general(const restitute_table *t, const struct place *p, double chi, int64_t node, double s)
 {
-    double psi_weight[6] = {1}, chi_weight[rst_most_chi] = {1};
-    if (t->n_psi > 1) rst_quintic_weights(s, psi_weight);
+    double psi_weight[4] = {1}, chi_weight[rst_most_chi] = {1};
+    if (t->n_psi > 1) rst_cubic_weights(s, psi_weight);
     if (t->n_chi > 1) chi_weights(t, chi, chi_weight);
-    return sum_all_axes(t, p, node, t->n_psi > 1 ? 6 : 1, psi_weight, chi_weight);
-}
-
-static inline double interpolate(const restitute_table *t, const struct place *p, double chi, int64_t node, double s)
-{
-    if (p->n_speed == 4 && t->n_gamma == 1 && t->n_chi == 1 && t->n_psi > 1) return sum_two_axes(t, p, node, s);
-    return sum_general(t, p, chi, node, s);
+    return sum_all_axes(t, p, node, t->n_psi > 1 ? 4 : 1, psi_weight, chi_weight);
 }
 
 static inline double chi_in_table(const restitute_table *t, double chi)
@@ -121,37 +113,66 @@ static inline double chi_in_table(const restitute_table *t, double chi)
     return clamp(chi, t->chi[0], t->chi[t->n_chi - 1]);
 }
 
-/* ex for psi between 0 and infinity, e_z known. */
-static inline double tangential(const restitute_table *t, const struct place *p, double chi, double psi, double ez)
+/* What there is of ex in closed form: that of full slip for psi > 1 (27). */
+static inline double closed_part(double sliding, double v_n, double full)
 {
-    const double full = 2 * chi * (1 + ez);
-    const double critical = 2 * chi > 1 ? full - ez : 1;
-    double s;
-    if (psi >= critical) return full / psi - 1; /* (27) */
-    if (t->stick_cells == 0) return interpolate(t, p, chi, 0, 0);
-    if (psi <= 1) {
-        const int64_t node = rst_stick_find(t, psi, &s);
-        return interpolate(t, p, chi, node, s);
-    }
-    const int64_t node = rst_slip_find(t, (psi - 1) / (critical - 1), &s);
-    return interpolate(t, p, chi, node, s) + (full / psi - 1);
+    const double larger = sliding > v_n ? sliding : v_n;
+    return (sliding > v_n) * (full * (v_n / (larger > rst_least ? larger : rst_least)) - 1);
 }
 
-static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double psi,
-                            restitute_table_value *pair)
+/* ex below psi_c, by all axes. */
+static double tangential(const restitute_table *t, const struct place *p, double chi, double sliding, double v_n,
+                         double full, double width)
+{
+    double s;
+    if (t->stick_cells == 0) return sum_general(t, p, chi, 0, 0);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s);
+    return sum_general(t, p, chi, node, s) + closed_part(sliding, v_n, full);
+}
+
+/* psi = sliding/v_n; v_n may be 0 and sliding infinite. */
+static inline void evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding,
+                                    double v_n, restitute_table_value *pair)
 {
     struct place p;
     find_place(t, speed, gamma, &p);
-    const double ez = rebound(t, &p);
-    const double ex = tangential(t, &p, chi_in_table(t, chi), psi, ez);
+    chi = chi_in_table(t, chi);
+    const double ez = rebound(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     pair->ez = ez;
-    pair->ex = clamp(ex, -1, 1);
+    if (sliding > critical * v_n) pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+    else pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
+}
+
+/* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
+static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
+                                     restitute_table_value *pair)
+{
+    double w[4], s;
+    int64_t cell;
+    rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
+    const double *v = t->ez + cell * rst_cubic;
+    const double ez = clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
+    const double full = t->chi[0] * 2 * (1 + ez), critical = 2 * t->chi[0] > 1 ? full - ez : 1;
+    pair->ez = ez;
+    if (sliding > critical * v_n) {
+        pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+        return;
+    }
+    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s);
+    pair->ex = clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed_part(sliding, v_n, full), -1, 1);
+}
+
+static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double sliding,
+                            double v_n, restitute_table_value *pair)
+{
+    if (t->two_axes) evaluate_two_axes(t, speed, sliding, v_n, pair);
+    else evaluate_general(t, speed, gamma, chi, sliding, v_n, pair);
 }
 
 void rst_table_evaluate(const restitute_table *table, double speed, double gamma, double chi, double psi,
                         restitute_table_value *pair)
 {
-    evaluate(table, speed, gamma, chi, psi, pair);
+    evaluate(table, speed, gamma, chi, psi, 1, pair);
 }
 
 double rst_table_rebound(const restitute_table *table, double speed, double gamma)
@@ -161,12 +182,10 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
     return rebound(table, &p);
 }
 
-/* psi with its limits: 0 without sliding or without slip, infinity without friction. */
-static inline double psi_of(const restitute_table_contact *c, double v_n, double v_t)
+/* psi v_n; infinite without friction. */
+static inline double sliding_of(const restitute_table_contact *c, double v_t)
 {
-    if (c->psi_factor > DBL_MAX) return INFINITY;
-    const double sliding = c->psi_factor * fabs(v_t);
-    return sliding > 0 ? sliding / v_n : 0;
+    return c->psi_factor > DBL_MAX ? INFINITY : c->psi_factor * fabs(v_t);
 }
 
 /* The number that the first axis goes by. */
@@ -198,7 +217,7 @@ int restitute_table_pair(const restitute_table *table, double normal_speed, doub
     if (!table || !pair) return RESTITUTE_ERROR_NULL;
     if (!table->of_contact || !good_speeds(normal_speed, tangential_speed)) return RESTITUTE_ERROR_DOMAIN;
     const restitute_table_contact *c = &table->own;
-    evaluate(table, normal_speed, c->gamma, c->chi, psi_of(c, normal_speed, tangential_speed), pair);
+    evaluate(table, normal_speed, c->gamma, c->chi, sliding_of(c, tangential_speed), normal_speed, pair);
     return RESTITUTE_OK;
 }
 
@@ -216,7 +235,7 @@ int restitute_table_pairs(const restitute_table *table, const restitute_table_co
     for (size_t i = 0; i < n; i++) {
         restitute_table_value pair;
         evaluate(table, speed_of(table, c, normal_speeds[i]), c->gamma, c->chi,
-                 psi_of(c, normal_speeds[i], tangential_speeds[i]), &pair);
+                 sliding_of(c, tangential_speeds[i]), normal_speeds[i], &pair);
         if (ez) ez[i] = pair.ez;
         if (ex) ex[i] = pair.ex;
     }
@@ -229,6 +248,6 @@ int restitute_table_numbers_pair(const restitute_table *table, double chi, doubl
     if (!table || !pair) return RESTITUTE_ERROR_NULL;
     if (table->of_contact || !(chi >= 0) || !(psi >= 0) || !(delta1 >= 0) || !(gamma >= 0))
         return RESTITUTE_ERROR_DOMAIN;
-    evaluate(table, delta1, gamma, chi, psi, pair);
+    evaluate(table, delta1, gamma, chi, psi, 1, pair);
     return RESTITUTE_OK;
 }

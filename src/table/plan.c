@@ -104,7 +104,8 @@ int rst_plan_probes(struct restitute_table_builder *b)
     return 0;
 }
 
-/* Fewest points whose neglected coefficients add up to less than `goal`; n + 1 if the last ones are not small either. */
+/* Fewest points whose neglected coefficients have a norm below `goal`; n + 1 if the last ones are not small either. The norm and not
+ * the sum: the solver's errors are in all of them alike, and would add up. */
 static int64_t points_needed(const double *value, int64_t n, double goal)
 {
     double *row = malloc((size_t)(n * n + n) * sizeof *row);
@@ -113,8 +114,8 @@ static int64_t points_needed(const double *value, int64_t n, double goal)
     rst_table_spectrum(n, row);
     rst_table_along(1, n, n, 1, row, value, c);
     int64_t needed = n;
-    while (needed > 2 && sum + fabs(c[needed - 1]) < goal)
-        sum += fabs(c[--needed]);
+    for (; needed > 2 && sum + c[needed - 1] * c[needed - 1] < goal * goal; needed--)
+        sum += c[needed - 1] * c[needed - 1];
     free(row);
     return needed > n - 2 ? n + 1 : needed + 1; /* one more: a line between the probes may want it */
 }
@@ -175,7 +176,7 @@ static int read_psi(struct restitute_table_builder *b, double goal, int64_t firs
 
 int rst_read_probes(struct restitute_table_builder *b, int *resolved)
 {
-    const double goal = 0.2 * b->options.tolerance; /* a fifth of the tolerance an axis; probes see not all of it */
+    const double goal = 0.15 * b->options.tolerance; /* an axis; probes do not see all of it */
     int64_t first = 0;
     for (int axis = 0; axis < rst_axes; axis++)
         b->n[axis] = b->active[axis] ? 2 : 1;

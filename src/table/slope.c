@@ -6,12 +6,12 @@
 
 #include "table_form.h"
 
-/* Weights and their derivatives for nodes s = 0..degree, by products without one factor, or without two. */
-static void weights_and_slopes(double s, int degree, double *w, double *dw)
+/* Weights and their derivatives for nodes s = 0..3, by products without one factor, or without two. */
+static void cubic_slopes(double s, double w[4], double dw[4])
 {
-    for (int k = 0; k <= degree; k++) {
+    for (int k = 0; k <= rst_cubic; k++) {
         double scale = 1, product = 1, sum = 0;
-        for (int j = 0; j <= degree; j++) {
+        for (int j = 0; j <= rst_cubic; j++) {
             if (j == k) continue;
             sum = sum * (s - j) + product;
             product *= s - j;
@@ -34,10 +34,10 @@ static struct directions find_direction(const struct rst_octaves *axis, double n
     struct directions d = {.w = {1}, .n = 1};
     if (axis->cells == 0) return d;
     int64_t cell;
-    const double t = rst_octaves_find(axis, number, &cell);
+    const double s = rst_octaves_find(axis, number, &cell);
     d.n = 4;
     d.node = cell * rst_cubic;
-    weights_and_slopes(t * rst_cubic, rst_cubic, d.w, d.dw);
+    cubic_slopes(s, d.w, d.dw);
     const double width = rst_octaves_node(axis, d.node + rst_cubic) - rst_octaves_node(axis, d.node);
     const int inside = number >= axis->low && number <= axis->high;
     for (int i = 0; i < 4; i++)
@@ -58,7 +58,7 @@ static double sum_ez(const restitute_table *t, const double *by_speed, int n_spe
 struct slip_place {
     int64_t node;
     int n;
-    double w[6], dw[6]; /* by s */
+    double w[4], dw[4]; /* by s */
 };
 
 static double sum_ex(const restitute_table *t, const double *by_speed, int n_speed, int64_t row,
@@ -77,13 +77,11 @@ static double sum_ex(const restitute_table *t, const double *by_speed, int n_spe
     return sum;
 }
 
-/* d s/d y in the cell that rst_slip_find gave. */
-static double slip_stretch(const restitute_table *t, double y, int64_t node)
+/* d s/d y: s goes with sqrt(2 y) or sqrt(2 (1 - y)). At the very ends, where ex is flat in s, any finite value will do. */
+static double slip_stretch(const restitute_table *t, double y)
 {
-    const int turned = y > 0.5;
-    const int64_t first = turned ? t->turned_start : t->slip_start;
-    const double width = ldexp(t->slip.end, (int)((node - first) / rst_quintic));
-    return (turned ? -1 : 1) * t->slip.stretch * rst_quintic / width;
+    const double u = fmax(y > 0.5 ? 1 - y : y, DBL_MIN);
+    return (y > 0.5 ? -1 : 1) * (double)(t->slip_cells * rst_cubic) / sqrt(2 * u);
 }
 
 static void chi_row(const restitute_table *t, double chi, double *w)
@@ -115,10 +113,10 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma_in, do
     double stretch = 0, y = 0;
     if (t->stick_cells > 0) {
         y = (psi - 1) / (critical - 1);
-        p.node = psi <= 1 ? rst_stick_find(t, psi, &s) : rst_slip_find(t, y, &s);
-        p.n = 6;
-        weights_and_slopes(s, rst_quintic, p.w, p.dw);
-        stretch = psi <= 1 ? (double)t->stick_cells * rst_quintic : slip_stretch(t, y, p.node) / (critical - 1);
+        p.node = rst_psi_find(t, psi, 1, critical - 1, &s);
+        p.n = 4;
+        cubic_slopes(s, p.w, p.dw);
+        stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);
     }
     slope->ex_speed = sum_ex(t, x.dw, x.n, x.node, &gamma, chi_w, &p, p.w);
     slope->ex_psi = sum_ex(t, x.w, x.n, x.node, &gamma, chi_w, &p, p.dw) * stretch;
