@@ -176,6 +176,10 @@ int main(int argc, char **argv)
     const int orbits = argc > 1 ? atoi(argv[1]) : 40;
     restitute_table *table = NULL;
     restitute_error error = {0};
+    if (argc > 2 || orbits < 1) {
+        fprintf(stderr, "usage: ring [ORBITS], at least 1\n");
+        return 2;
+    }
     if (build_table(&table, &error) < 0) {
         fprintf(stderr, "ring: %s\n", error.message);
         return 1;
