@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_TABLE, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
+# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_TABLE, RESTITUTE_WITH_TABLE_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -34,7 +34,7 @@ function(restitute_decide option title result)
   endif()
 endfunction()
 
-foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_TABLE RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
+foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_TABLE RESTITUTE_TABLE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
   if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
     message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
   endif()
@@ -56,6 +56,17 @@ restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
                  Libcsv_FOUND "libcsv (Debian: libcsv-dev)")
 
 restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
+
+# The serial HDF5 goes before whatever stands under the plain name, which may want MPI.
+if(RESTITUTE_TABLE_FILES)
+  restitute_find_pkg_config_library(HDF5 hdf5-serial)
+  if(NOT HDF5_FOUND)
+    restitute_find_pkg_config_library(HDF5 hdf5)
+  endif()
+endif()
+restitute_decide(RESTITUTE_TABLE_FILES "the component table_files" RESTITUTE_WITH_TABLE_FILES #
+                 RESTITUTE_WITH_TABLE "the component table (RESTITUTE_TABLE)" #
+                 HDF5_FOUND "HDF5 (Debian: libhdf5-dev, found by pkg-config)")
 
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
@@ -82,6 +93,6 @@ if(RESTITUTE_TESTS)
 endif()
 
 message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
-               "component table ${RESTITUTE_WITH_TABLE}, "
+               "component table ${RESTITUTE_WITH_TABLE}, component table_files ${RESTITUTE_WITH_TABLE_FILES}, "
                "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, OpenMP ${RESTITUTE_WITH_OPENMP}, "
                "tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

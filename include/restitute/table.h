@@ -282,7 +282,7 @@ typedef struct restitute_table_data {
     int64_t n_chi;                   /**< nodes of chi: one polynomial through all */
     const double *chi;               /**< n_chi values, rising */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
-    int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, they follow from the others */
+    int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
     const double *ez;                /**< [speed][gamma] */
     const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1) */
 } restitute_table_data;
@@ -293,6 +293,10 @@ RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);
  *  @return OK, ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_API int restitute_table_to_data(const restitute_table *table, restitute_table_data *data,
                                           restitute_error *error);
+
+/** The numbers of nodes that follow from axes, chi and cells.
+ *  @return OK; ERROR_DOMAIN for numbers that no table has; ERROR_NULL, ERROR_STRUCT_SIZE */
+RESTITUTE_API int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4], restitute_error *error);
 
 /** A table from such numbers, copied: with the same bits it looks up the same.
  *  @return OK; ERROR_DOMAIN for numbers that no table has; ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY */

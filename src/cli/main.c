@@ -7,12 +7,15 @@
 #include "bench.h"
 #include "history.h"
 #include "single.h"
+#include "table.h"
 
 static const char usage[] =
     "Usage: restitute pair [OPTION...]       the restitution pair (ez, ex) of one impact or of many\n"
     "       restitute history [OPTION...]    forces, radii and velocities during one impact\n"
     "       restitute bench [OPTION...]      error against run time of the methods, on a fixed set of impacts\n"
-    "       restitute pair --help, restitute history --help, restitute bench --help, restitute --version\n"
+    "       restitute table ACTION [OPTION...]  build tables of pairs, look up in them\n"
+    "       restitute pair --help, restitute history --help, restitute bench --help, restitute table --help,\n"
+    "       restitute --version\n"
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
 
@@ -40,13 +43,15 @@ int main(int count, char **arguments)
         status = run_subcommand(count, arguments);
     else if (strcmp(word, "bench") == 0)
         status = bench_main(count, arguments);
+    else if (strcmp(word, "table") == 0)
+        status = table_main(count, arguments);
     else if (strcmp(word, "--help") == 0)
         fputs(usage, stdout);
     else if (strcmp(word, "--version") == 0)
         printf("restitute %s\n", restitute_version());
     else
-        status = *word ? complain("unknown command \"%.64s\": must be pair, history or bench; see restitute --help", word)
-                       : complain("a command is missing: pair, history or bench; see restitute --help");
+        status = *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help", word)
+                       : complain("a command is missing: pair, history, bench or table; see restitute --help");
     if (fflush(stdout) != 0 && status == EXIT_DONE) status = complain("standard output cannot be written");
     return status;
 }

@@ -187,6 +187,18 @@ static void set_numbers(const restitute_table_data *d, restitute_table *form)
     snprintf(form->version, sizeof form->version, "%.31s", d->version);
 }
 
+int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4], restitute_error *error)
+{
+    restitute_table form;
+    if (!data || !nodes) return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "nodes" : "data");
+    int status = check_size(data, error);
+    if (!status) status = set_form(data, &form, error);
+    if (status) return status;
+    const int64_t found[4] = {form.n_speed, form.n_gamma, form.n_chi, form.n_psi};
+    memcpy(nodes, found, sizeof found);
+    return rst_table_done(error);
+}
+
 int restitute_table_from_data(const restitute_table_data *data, restitute_table **table, restitute_error *error)
 {
     restitute_table form;

@@ -1,0 +1,266 @@
+/* `restitute table info`, `query` and `export`: what a table file holds.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <restitute/files.h>
+
+#include "output.h"
+#include "provenance.h"
+#include "table_settings.h"
+
+static restitute_table *read_table(const struct table_settings *settings)
+{
+    restitute_table *table = NULL;
+    restitute_error error;
+    if (restitute_table_read(settings->file, &table, &error) < 0) complain("%s", error.message);
+    return table;
+}
+
+/* ---- info */
+
+static void print_range(const char *name, const double range[2], const char *unit)
+{
+    if (isnan(range[0])) return;
+    if (range[0] == range[1]) printf("%-16s %.6g%s\n", name, range[0], unit);
+    else printf("%-16s %.6g to %.6g%s\n", name, range[0], range[1], unit);
+}
+
+static void print_info(const restitute_table_info *i)
+{
+    printf("%-16s %s\n", "kind", i->of_contact ? "one contact" : "ranges");
+    print_range("speed", i->speed, " m/s");
+    print_range("chi", i->chi, "");
+    print_range("delta1", i->delta1, "");
+    print_range("gamma", i->gamma, "");
+    if (i->of_contact)
+        printf("%-16s %g\n%-16s %g m, %g kg (effective)\n", "friction", i->friction, "radius, mass", i->radius, i->mass);
+    printf("%-16s %g\n", "tolerance", i->tolerance);
+    printf("%-16s %.2g (ez), %.2g (ex), verified at %lld points\n", "error", i->error_ez, i->error_ex,
+           (long long)i->checks);
+    printf("%-16s %lld\n", "impacts solved", (long long)i->impacts);
+    printf("%-16s %lld %s, %lld gamma, %lld chi, %lld psi; %.3g MB\n", "nodes", (long long)i->nodes[0],
+           i->of_contact ? "speed" : "delta1", (long long)i->nodes[1], (long long)i->nodes[2], (long long)i->nodes[3],
+           (double)i->bytes / 1e6);
+    printf("%-16s %s\n", "built by", i->version);
+}
+
+static json_t *json_of_range(const double range[2])
+{
+    return json_pack("[o, o]", json_of_number(range[0]), json_of_number(range[1]));
+}
+
+static json_t *json_of_info(const restitute_table_info *i)
+{
+    json_t *object = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", i->of_contact ? "contact" : "ranges", "speed_m_s",
+                               json_of_range(i->speed), "chi", json_of_range(i->chi), "delta1",
+                               json_of_range(i->delta1), "gamma", json_of_range(i->gamma), "friction",
+                               json_of_number(i->friction), "radius_m", json_of_number(i->radius), "mass_kg",
+                               json_of_number(i->mass));
+    json_object_set_new(object, "tolerance", json_of_number(i->tolerance));
+    json_object_set_new(object, "error_ez", json_of_number(i->error_ez));
+    json_object_set_new(object, "error_ex", json_of_number(i->error_ex));
+    json_object_set_new(object, "impacts", json_integer(i->impacts));
+    json_object_set_new(object, "checks", json_integer(i->checks));
+    json_t *nodes = json_array();
+    for (int k = 0; k < 4; k++)
+        json_array_append_new(nodes, json_integer(i->nodes[k]));
+    json_object_set_new(object, "nodes", nodes);
+    json_object_set_new(object, "bytes", json_integer((json_int_t)i->bytes));
+    json_object_set_new(object, "version", json_string(i->version));
+    return object;
+}
+
+int table_info_run(const struct table_settings *settings)
+{
+    const char *format = settings->text[TABLE_FORMAT] ? settings->text[TABLE_FORMAT] : "text";
+    struct reason why;
+    restitute_table_info info;
+    if (strcmp(format, "text") != 0 && strcmp(format, "json") != 0)
+        return complain("--format = \"%.64s\": must be text or json", format);
+    restitute_table *table = read_table(settings);
+    if (!table) return EXIT_USAGE;
+    restitute_table_info_init(&info);
+    restitute_table_describe(table, &info, NULL);
+    restitute_table_destroy(table);
+    if (*format == 't') print_info(&info);
+    else if (!provenance_write(NULL, json_of_info(&info), &why)) return complain("%s", why.text);
+    return EXIT_DONE;
+}
+
+/* ---- query */
+
+/* What a row gives: speeds, or numbers. */
+struct query {
+    const restitute_table *table;
+    restitute_table_info info;
+    double value[4];
+};
+static const char *const speed_columns[] = {"normal_speed_m_s", "tangential_speed_m_s"};
+static const char *const number_columns[] = {"chi", "psi", "delta1", "gamma"};
+
+static int look_up(const struct query *q, restitute_table_value *pair)
+{
+    if (q->info.of_contact) return restitute_table_pair(q->table, q->value[0], q->value[1], pair);
+    return restitute_table_numbers_pair(q->table, q->value[0], q->value[1], q->value[2], q->value[3], pair);
+}
+
+static void set_defaults(struct query *q)
+{
+    const restitute_table_info *i = &q->info;
+    const double speeds[4] = {NAN, 0, 0, 0}, numbers[4] = {i->chi[0], NAN, i->delta1[0], i->gamma[0]};
+    memcpy(q->value, i->of_contact ? speeds : numbers, sizeof q->value);
+}
+
+static int query_one(const struct table_settings *s, struct query *q)
+{
+    static const enum table_text speeds[] = {TABLE_NORMAL_SPEED, TABLE_TANGENTIAL_SPEED};
+    static const enum table_text numbers[] = {TABLE_CHI, TABLE_PSI, TABLE_DELTA1, TABLE_GAMMA};
+    const bool contact = q->info.of_contact;
+    struct reason why;
+    restitute_table_value pair;
+    for (int i = 0; i < (contact ? 4 : 2); i++)
+        if (s->text[contact ? numbers[i] : speeds[i]])
+            return complain("--%s: not for a table of %s", table_text_names[contact ? numbers[i] : speeds[i]],
+                            contact ? "one contact, which is asked by --normal-speed and --tangential-speed"
+                                    : "ranges, which is asked by --chi, --psi, --delta1 and --gamma");
+    for (int i = 0; i < (contact ? 2 : 4); i++)
+        if (!table_number(s, contact ? speeds[i] : numbers[i], contact && i == 1 ? -1e300 : 0, contact ? 1e300 : INFINITY,
+                          &q->value[i], &why))
+            return complain("%s", why.text);
+    if (isnan(q->value[contact ? 0 : 1])) return complain("--%s is missing", contact ? "normal-speed" : "psi");
+    if (look_up(q, &pair) < 0) return complain("the table has no answer to this");
+    const char *format = s->text[TABLE_FORMAT] ? s->text[TABLE_FORMAT] : "text";
+    if (strcmp(format, "csv") == 0)
+        printf("ez,ex\n%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
+    else if (strcmp(format, "text") == 0)
+        printf("ez = %s\nex = %s\n", number_text(pair.ez).text, number_text(pair.ex).text);
+    else
+        return complain("--format = \"%.64s\": must be text or csv", format);
+    return EXIT_DONE;
+}
+
+/* Which column of the file gives which value; -1: the default. */
+static bool find_columns(const struct query *q, const restitute_csv *csv, int column[4], struct reason *why)
+{
+    const int n = q->info.of_contact ? 2 : 4;
+    const char *const *names = q->info.of_contact ? speed_columns : number_columns;
+    for (int k = 0; k < 4; k++)
+        column[k] = -1;
+    for (size_t i = 0; i < restitute_csv_columns(csv); i++)
+        for (int k = 0; k < n; k++)
+            if (strcmp(restitute_csv_name(csv, i), names[k]) == 0) column[k] = (int)i;
+    const int needed = q->info.of_contact ? 0 : 1;
+    if (column[needed] < 0) return refuse(why, "the column %s is missing", names[needed]);
+    return true;
+}
+
+/* One row: the values, and what came of them. */
+static bool answer_row(struct query *q, const restitute_csv *csv, size_t row, const int column[4], FILE *out)
+{
+    restitute_table_value pair = {NAN, NAN};
+    bool good = true;
+    set_defaults(q);
+    for (int k = 0; k < 4; k++)
+        if (column[k] >= 0)
+            good &= restitute_number_read(restitute_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
+    const bool done = good && look_up(q, &pair) == RESTITUTE_OK;
+    for (size_t i = 0; i < restitute_csv_columns(csv); i++)
+        fprintf(out, "%s,", restitute_csv_cell(csv, row, i));
+    if (done) fprintf(out, "%s,%s,\n", number_text(pair.ez).text, number_text(pair.ex).text);
+    else fprintf(out, ",,%s\n", good ? "a value is out of its range" : "a cell is no number");
+    return done;
+}
+
+static int query_many(const struct table_settings *s, struct query *q)
+{
+    restitute_csv *csv;
+    restitute_error error;
+    struct reason why;
+    struct output output;
+    int column[4];
+    size_t failed = 0;
+    if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
+    bool good = find_columns(q, csv, column, &why) && output_spares(s->text[TABLE_OUTPUT], "--output", s->text[TABLE_INPUT], &why) &&
+                output_open(s->text[TABLE_OUTPUT], &output, &why);
+    if (good) {
+        for (size_t i = 0; i < restitute_csv_columns(csv); i++)
+            fprintf(output.stream, "%s,", restitute_csv_name(csv, i));
+        fputs("ez,ex,status\n", output.stream);
+        for (size_t row = 0; row < restitute_csv_rows(csv); row++)
+            failed += !answer_row(q, csv, row, column, output.stream);
+        good = output_finish(&output, &why);
+    }
+    restitute_csv_destroy(csv);
+    if (!good) return complain("%s", why.text);
+    return failed ? EXIT_SOME_FAILED : EXIT_DONE;
+}
+
+int table_query_run(const struct table_settings *settings)
+{
+    struct query q = {.table = read_table(settings)};
+    if (!q.table) return EXIT_USAGE;
+    restitute_table_info_init(&q.info);
+    restitute_table_describe(q.table, &q.info, NULL);
+    set_defaults(&q);
+    const int status = settings->text[TABLE_INPUT] ? query_many(settings, &q) : query_one(settings, &q);
+    restitute_table_destroy((restitute_table *)q.table);
+    return status;
+}
+
+/* ---- export */
+
+/* psi of a node: beyond 1 it is given by y. */
+static double psi_of(double place, double chi, double ez)
+{
+    return place <= 1 ? place : 1 + (place - 1) * (restitute_critical_psi(chi, fmin(1, fmax(0, ez))) - 1);
+}
+
+static void export_rows(const restitute_table *table, const restitute_table_data *d, double *const place[4], FILE *out)
+{
+    for (int64_t i = 0; i < d->nodes[0]; i++)
+        for (int64_t j = 0; j < d->nodes[1]; j++)
+            for (int64_t k = 0; k < d->nodes[2]; k++)
+                for (int64_t l = 0; l < d->nodes[3]; l++) {
+                    restitute_table_value pair;
+                    const double ez = d->ez[i * d->nodes[1] + j], chi = place[2][k];
+                    const double psi = psi_of(place[3][l], chi, ez), speed = place[0][i];
+                    if (d->of_contact)
+                        restitute_table_pair(table, speed, psi * speed / (d->psi_factor > 0 ? d->psi_factor : 1), &pair);
+                    else
+                        restitute_table_numbers_pair(table, chi, psi, speed, place[1][j], &pair);
+                    fprintf(out, "%s,", number_text(speed).text);
+                    fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : place[1][j]).text);
+                    fprintf(out, "%s,", number_text(chi).text);
+                    fprintf(out, "%s,", number_text(d->psi_factor > 1e300 ? INFINITY : psi).text);
+                    fprintf(out, "%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
+                }
+}
+
+int table_export_run(const struct table_settings *settings)
+{
+    struct output output;
+    struct reason why;
+    restitute_table_data data;
+    double *place[4];
+    restitute_table *table = read_table(settings);
+    if (!table) return EXIT_USAGE;
+    restitute_table_data_init(&data);
+    restitute_table_to_data(table, &data, NULL);
+    for (int axis = 0; axis < 4; axis++) {
+        place[axis] = allocate((size_t)data.nodes[axis], sizeof *place[axis]);
+        restitute_table_nodes(table, axis, place[axis]);
+    }
+    bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&
+                output_open(settings->text[TABLE_OUTPUT], &output, &why);
+    if (good) {
+        fprintf(output.stream, "%s,gamma,chi,psi,ez,ex\n", data.of_contact ? "speed_m_s" : "delta1");
+        export_rows(table, &data, place, output.stream);
+        good = output_finish(&output, &why);
+    }
+    for (int axis = 0; axis < 4; axis++)
+        free(place[axis]);
+    restitute_table_destroy(table);
+    return good ? EXIT_DONE : complain("%s", why.text);
+}

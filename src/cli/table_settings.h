@@ -1,0 +1,60 @@
+/* The command line of `restitute table`.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef CLI_TABLE_SETTINGS_H
+#define CLI_TABLE_SETTINGS_H
+
+#include <restitute/table_files.h>
+
+#include "problem.h"
+
+enum table_action { TABLE_BUILD, TABLE_INFO, TABLE_QUERY, TABLE_EXPORT, TABLE_ACTIONS };
+
+enum table_text {
+    TABLE_MATERIAL,
+    TABLE_PARTNER,
+    TABLE_SPEED,
+    TABLE_CHI,
+    TABLE_DELTA1,
+    TABLE_GAMMA,
+    TABLE_PSI,
+    TABLE_NORMAL_SPEED,
+    TABLE_TANGENTIAL_SPEED,
+    TABLE_INPUT,
+    TABLE_TOLERANCE,
+    TABLE_THREADS,
+    TABLE_MAX_IMPACTS,
+    TABLE_FORMAT,
+    TABLE_OUTPUT,
+    TABLE_TEXTS
+};
+
+extern const char *const table_text_names[TABLE_TEXTS];
+
+struct table_settings {
+    enum table_action action;
+    char *text[TABLE_TEXTS];  /* as given; NULL: not given */
+    char *field[FIELD_COUNT]; /* of the contact, likewise */
+    char *file;               /* the table that is read */
+    struct values values;     /* of the contact */
+    bool resume;
+    int argument_count;
+    const char *const *arguments;
+};
+
+enum table_reading { TABLE_GO_ON, TABLE_STOP, TABLE_FAILED };
+
+/* Read the options; STOP: help was printed, FAILED: a complaint. To be released in any case. */
+enum table_reading table_options_read(int count, char **arguments, struct table_settings *settings);
+void table_options_release(struct table_settings *settings);
+
+/* A number of an option within [low, high]; not given: left as it is. */
+bool table_number(const struct table_settings *settings, enum table_text option, double low, double high, double *value,
+                  struct reason *why);
+
+/* The actions; each returns the exit status. */
+int table_build_run(const struct table_settings *settings);
+int table_info_run(const struct table_settings *settings);
+int table_query_run(const struct table_settings *settings);
+int table_export_run(const struct table_settings *settings);
+
+#endif

@@ -1,0 +1,84 @@
+/* What a builder has solved, in a file.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+#include <string.h>
+
+#include "container.h"
+
+static const char title[] = "unfinished table";
+
+static int write_journal(const restitute_table_builder *builder, const char *settings, const char *path,
+                         restitute_error *error)
+{
+    struct rst_new_file file;
+    size_t count;
+    const double *journal = restitute_table_builder_journal(builder, &count), nothing[4] = {0};
+    const int64_t size[2] = {(int64_t)count, 4};
+    const int status = rst_new_file_begin(path, &file, error);
+    if (status) return status;
+    const int failed = rst_put_text(file.file, "settings", settings) ||
+                       rst_put_text(file.file, "restitute_version", restitute_version()) ||
+                       rst_put_numbers(file.file, "impacts", 2, size, count ? journal : nothing, "1",
+                                       "ez, ex, estimated error of ez, of ex");
+    return rst_new_file_end(&file, !failed, title, path, error);
+}
+
+int restitute_table_builder_write(const restitute_table_builder *builder, const char *settings, const char *path,
+                                  restitute_error *error)
+{
+    if (!builder || !settings || !path)
+        return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                               !builder    ? "builder"
+                               : !settings ? "settings"
+                                           : "path");
+    const struct rst_quiet quiet = rst_quiet_begin();
+    const int status = write_journal(builder, settings, path, error);
+    rst_quiet_end(quiet);
+    return status ? status : rst_file_done(error);
+}
+
+/* The text of an attribute is what its own length and content say. */
+static int same_text(hid_t file, const char *name, const char *text)
+{
+    const size_t size = strlen(text) + 2;
+    char *found = malloc(size);
+    const int same = found && rst_get_text(file, name, size, found) == 0 && strcmp(found, text) == 0;
+    free(found);
+    return same;
+}
+
+static int read_journal(hid_t file, restitute_table_builder *builder, const char *settings, const char *path,
+                        restitute_error *error)
+{
+    if (!same_text(file, "settings", settings) || !same_text(file, "restitute_version", restitute_version()))
+        return rst_file_report(error, RESTITUTE_ERROR_DOMAIN,
+                               "%.120s: was begun with other settings or by another version", path);
+    const int64_t count = rst_count_numbers(file, "impacts");
+    double *journal = count >= 0 ? malloc((size_t)(count + 1) * sizeof *journal) : NULL;
+    if (!journal || count % 4 != 0 || (count > 0 && rst_get_numbers(file, "impacts", count, journal))) {
+        free(journal);
+        return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no impacts", path);
+    }
+    const int status = restitute_table_builder_restore(builder, journal, (size_t)count / 4, error);
+    free(journal);
+    return status;
+}
+
+int restitute_table_builder_read(restitute_table_builder *builder, const char *settings, const char *path,
+                                 restitute_error *error)
+{
+    struct rst_old_file file;
+    if (!builder || !settings || !path)
+        return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                               !builder    ? "builder"
+                               : !settings ? "settings"
+                                           : "path");
+    const struct rst_quiet quiet = rst_quiet_begin();
+    int status = rst_old_file_open(path, title, &file, error);
+    if (!status) {
+        status = read_journal(file.file, builder, settings, path, error);
+        rst_old_file_close(&file);
+    }
+    rst_quiet_end(quiet);
+    return status ? status : rst_file_done(error);
+}

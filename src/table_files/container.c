@@ -1,0 +1,233 @@
+/* The block of text with the checksum, and files that get their name when they are complete.
+ *
+ * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>", a line for those who look into
+ * it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind the block: a change of one of them always changes it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700
+
+#include "container.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { block_size = 512, schema = 1 };
+
+int rst_file_report(restitute_error *error, int status, const char *format, ...)
+{
+    if (error) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->message, sizeof error->message, format, arguments);
+        va_end(arguments);
+        error->status = status;
+    }
+    return status;
+}
+
+int rst_file_done(restitute_error *error)
+{
+    if (error) {
+        error->status = RESTITUTE_OK;
+        error->message[0] = '\0';
+    }
+    return RESTITUTE_OK;
+}
+
+struct rst_quiet rst_quiet_begin(void)
+{
+    struct rst_quiet quiet = {NULL, NULL};
+    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return quiet;
+}
+
+void rst_quiet_end(struct rst_quiet quiet)
+{
+    H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
+}
+
+static uint64_t checksum(const unsigned char *bytes, size_t size)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+static void make_block(const char *title, const unsigned char *bytes, size_t size, char block[block_size])
+{
+    memset(block, 0, block_size);
+    snprintf(block, block_size,
+             "restitute %s, schema %d, checksum %016" PRIx64 ", bytes %zu\nHDF5 begins at byte 512 (a user block of HDF5); h5py "
+             "and h5dump read this file as it is.\n",
+             title, schema, checksum(bytes, size), size);
+}
+
+/* ---- reading bytes */
+
+static int fail_reading(restitute_error *error, const char *path)
+{
+    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be read: %s", path, strerror(errno));
+}
+
+static int read_all(const char *path, struct rst_old_file *file, restitute_error *error)
+{
+    struct stat status;
+    FILE *stream = fopen(path, "rb");
+    if (!stream) return fail_reading(error, path);
+    if (fstat(fileno(stream), &status) != 0 || S_ISDIR(status.st_mode)) {
+        if (S_ISDIR(status.st_mode)) errno = EISDIR;
+        fclose(stream);
+        return fail_reading(error, path);
+    }
+    const size_t size = status.st_size > 0 ? (size_t)status.st_size : 0;
+    file->bytes = malloc(size + 1);
+    if (!file->bytes) {
+        fclose(stream);
+        return rst_file_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory for %zu bytes", path, size);
+    }
+    file->size = fread(file->bytes, 1, size + 1, stream);
+    const int failed = ferror(stream);
+    fclose(stream);
+    if (failed) return fail_reading(error, path);
+    return RESTITUTE_OK;
+}
+
+/* Not what was expected: say how far it is from it. */
+static int refuse_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
+{
+    char start[64];
+    int version = 0;
+    snprintf(start, sizeof start, "restitute %s, schema ", title);
+    const size_t length = strlen(start);
+    if (file->size < length || memcmp(file->bytes, start, length) != 0)
+        return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not a %s file of restitute", path, title);
+    for (size_t i = length; i < file->size && i < length + 6 && file->bytes[i] >= '0' && file->bytes[i] <= '9'; i++)
+        version = 10 * version + (file->bytes[i] - '0');
+    if (version > schema)
+        return rst_file_report(error, RESTITUTE_ERROR_FORMAT,
+                               "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged",
+                               path, version, schema);
+    return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
+}
+
+static int check_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
+{
+    char block[block_size];
+    if (file->size > block_size) {
+        make_block(title, file->bytes + block_size, file->size - block_size, block);
+        if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
+    }
+    return refuse_block(path, title, file, error);
+}
+
+/* HDF5 wants a name even for what is in memory, and that there is no such file. */
+static const char no_file[] = "/dev/null/in_memory";
+
+int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
+{
+    *file = (struct rst_old_file){.file = -1};
+    int status = read_all(path, file, error);
+    if (!status) status = check_block(path, title, file, error);
+    if (!status) {
+        const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+        if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&
+            H5Pset_file_image(access, file->bytes, file->size) >= 0)
+            file->file = H5Fopen(no_file, H5F_ACC_RDONLY, access);
+        if (access >= 0) H5Pclose(access);
+        if (file->file < 0) status = rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not HDF5 inside", path);
+    }
+    if (status) rst_old_file_close(file);
+    return status;
+}
+
+void rst_old_file_close(struct rst_old_file *file)
+{
+    if (file->file >= 0) H5Fclose(file->file);
+    free(file->bytes);
+    *file = (struct rst_old_file){.file = -1};
+}
+
+/* ---- writing */
+
+static int fail_writing(restitute_error *error, const char *path)
+{
+    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(errno));
+}
+
+/* Where links lead to: it is the file that is replaced, not the link. */
+static char *beside(const char *path)
+{
+    char *target = realpath(path, NULL);
+    const char *from = target ? target : path;
+    char *name = malloc(strlen(from) + 8);
+    if (name) sprintf(name, "%s.XXXXXX", from);
+    free(target);
+    return name;
+}
+
+int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_error *error)
+{
+    *file = (struct rst_new_file){.path = beside(path), .file = -1};
+    if (!file->path) return rst_file_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    const int descriptor = mkstemp(file->path);
+    if (descriptor < 0) {
+        const int status = fail_writing(error, path);
+        free(file->path);
+        return status;
+    }
+    const mode_t mask = umask(0);
+    umask(mask);
+    fchmod(descriptor, 0666 & ~mask);
+    close(descriptor);
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    if (creation >= 0 && H5Pset_userblock(creation, block_size) >= 0)
+        file->file = H5Fcreate(file->path, H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+    if (creation >= 0) H5Pclose(creation);
+    if (file->file >= 0) return RESTITUTE_OK;
+    unlink(file->path);
+    free(file->path);
+    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: HDF5 fails", path);
+}
+
+static int put_block(const char *path, const char *title)
+{
+    struct rst_old_file whole = {.file = -1};
+    char block[block_size];
+    if (read_all(path, &whole, NULL) || whole.size <= block_size) {
+        free(whole.bytes);
+        return 1;
+    }
+    make_block(title, whole.bytes + block_size, whole.size - block_size, block);
+    free(whole.bytes);
+    FILE *stream = fopen(path, "r+b");
+    if (!stream) return 1;
+    int failed = fwrite(block, 1, block_size, stream) != block_size;
+    failed |= fflush(stream) != 0;
+    failed |= fsync(fileno(stream)) != 0;
+    failed |= fclose(stream) != 0;
+    return failed;
+}
+
+int rst_new_file_end(struct rst_new_file *file, int good, const char *title, const char *path, restitute_error *error)
+{
+    int status = RESTITUTE_OK;
+    char *target = realpath(path, NULL);
+    errno = 0;
+    const int closed = H5Fclose(file->file) >= 0;
+    if (!good || !closed)
+        status = rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path,
+                                 errno ? strerror(errno) : "HDF5 fails");
+    else if (put_block(file->path, title) || rename(file->path, target ? target : path) != 0)
+        status = fail_writing(error, path);
+    if (status) unlink(file->path);
+    free(file->path);
+    free(target);
+    return status;
+}

@@ -1,0 +1,58 @@
+/* Files of restitute in HDF5: a block of text with a checksum, then HDF5. See table_files.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_CONTAINER_H
+#define RST_CONTAINER_H
+
+#include <hdf5.h>
+
+#include <restitute/table_files.h>
+
+int rst_file_report(restitute_error *error, int status, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((__format__(__printf__, 3, 4)))
+#endif
+    ;
+int rst_file_done(restitute_error *error);
+
+/* HDF5 prints errors unless told not to; the caller's setting is put back. */
+struct rst_quiet {
+    H5E_auto2_t function;
+    void *data;
+};
+struct rst_quiet rst_quiet_begin(void);
+void rst_quiet_end(struct rst_quiet quiet);
+
+/* A file being written under a name of its own beside the final one. */
+struct rst_new_file {
+    char *path;
+    hid_t file;
+};
+int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_error *error);
+
+/* Close it; if `good`, put down what it is and its checksum, and give it its name. */
+int rst_new_file_end(struct rst_new_file *file, int good, const char *title, const char *path, restitute_error *error);
+
+/* A whole file in memory, checked. */
+struct rst_old_file {
+    unsigned char *bytes;
+    size_t size;
+    hid_t file;
+};
+int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error);
+void rst_old_file_close(struct rst_old_file *file);
+
+/* Datasets and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size asked for. */
+int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
+                    const char *units, const char *description);
+int rst_put_number(hid_t place, const char *name, double value);
+int rst_put_integer(hid_t place, const char *name, int64_t value);
+int rst_put_text(hid_t place, const char *name, const char *text);
+int rst_get_numbers(hid_t place, const char *name, int64_t count, double *value);
+int rst_get_number(hid_t place, const char *name, double *value);
+int rst_get_integer(hid_t place, const char *name, int64_t *value);
+int rst_get_text(hid_t place, const char *name, size_t size, char *text);
+
+/* Number of values of a dataset; negative if there is none. */
+int64_t rst_count_numbers(hid_t place, const char *name);
+
+#endif
