@@ -16,6 +16,7 @@
 enum { MOST_RECORDS = 1000 };
 
 static const double RADIUS = 1e-3, DENSITY = 1000; /* m, kg/m^3, of all spheres */
+static const double ROUNDING = 1e-10; /* of energies: up to 1e8 impacts, 1e-16 each, of random sign, make 1e-12 */
 
 struct experiment {
     const char *name;
@@ -65,7 +66,8 @@ static struct record take(const struct gas *gas, const struct record *last, int 
     return now;
 }
 
-/* Cool until e->end; a record whenever the time has grown by a tenth of a decade. */
+/* Cool until e->end; a record whenever the time has grown by a tenth of a decade. A gas whose energy does not add up
+ * might never cool: that ends it, too. */
 static void cool(const struct experiment *e, struct gas *gas, struct course *course)
 {
     const double start = gas_translational(gas), energy = 1.5 * (start + gas_rotational(gas)) * (double)gas->n;
@@ -73,17 +75,19 @@ static void cool(const struct experiment *e, struct gas *gas, struct course *cou
     double next = 0.1 / (4 * sqrt(start / acos(-1.0))); /* a tenth of the mean time between impacts */
     record[0] = (struct record){0, start, gas_rotational(gas), start};
     course->count = 1;
-    while (record[course->count - 1].translational > e->end * start && course->count < MOST_RECORDS) {
+    course->energy_error = 0;
+    while (record[course->count - 1].translational > e->end * start && course->energy_error < ROUNDING &&
+           course->count < MOST_RECORDS) {
         gas_step(gas);
         if (gas->time < next) continue;
-        record[course->count] = take(gas, &record[e->material ? course->count - 1 : 0], e->friction == 0);
+        struct record *now = &record[course->count];
+        *now = take(gas, &record[e->material ? course->count - 1 : 0], e->friction == 0);
         ++course->count;
+        const double left = 1.5 * (now->translational + now->rotational) * (double)gas->n;
+        course->energy_error = fabs(energy - left - gas->cost) / energy;
         while (next <= gas->time)
             next *= pow(10, 0.1);
     }
-    const struct record *last = &record[course->count - 1];
-    const double left = 1.5 * (last->translational + last->rotational) * (double)gas->n;
-    course->energy_error = fabs(energy - left - gas->cost) / energy;
     course->spin = gas_median_spin(gas);
 }
 
@@ -152,7 +156,7 @@ static int judge(const struct experiment *e, const struct course *course, size_t
     if (e->steepest > 0) off += say("largest p over a decade", steepest, e->steepest, INFINITY, noise);
     if (e->friction == 0) off += say("largest |ln(T/theory)|", worst, 0, e->material ? 0.04 : 0.005, noise);
     if (e->friction > 0) printf("  %-32s %7.3f\n", "median R spin/median speed", course->spin);
-    if (course->energy_error < 1e-10) return off; /* rounding of up to 1e8 impacts, 1e-16 each, of random sign: 1e-12 */
+    if (course->energy_error < ROUNDING) return off;
     printf("  energy does not add up: %.1e\n", course->energy_error);
     return off + 1;
 }
