@@ -6,12 +6,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error, so that those that
- * are interpolated may take all of it; those of the checks have theirs added to the difference (docs/table.md). */
+/* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that those that
+ * are interpolated may take all of the tolerance; those of the checks have theirs added to the difference. Where checks fail for
+ * no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5;
 
 /* Times that points are added after a check. */
-static const int most_rounds = 6;
+static const int most_rounds = 12;
 
 /* Impacts given to the threads in one call. */
 static const int64_t largest_piece = 4096;
@@ -107,6 +108,7 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     struct restitute_table_builder *b = calloc(1, sizeof *b);
     if (!b) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->options = *options;
+    b->filling_tolerance = part_for_filling * options->tolerance;
     status = rst_family_set(family, &b->family, error);
     if (!status) {
         set_axes(b);
@@ -129,6 +131,7 @@ void restitute_table_builder_destroy(restitute_table_builder *builder)
     free(builder->point);
     free(builder->solved);
     free(builder->journal);
+    rst_memo_clear(&builder->memo);
     free(builder);
 }
 
@@ -205,7 +208,7 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    options.tolerance = fmax(1e-8, b->options.tolerance * (b->stage == RST_CHECKING ? part_for_checks : part_for_filling));
+    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? part_for_checks * b->options.tolerance : b->filling_tolerance);
     const size_t n = (size_t)p->count;
     return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
                      : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
@@ -221,7 +224,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
     }
     int64_t next = b->next;
     for (; next < b->points && p.count < most; next++)
-        if (b->point[next].slips == b->part) piece_add(b, next, &p);
+        if (b->point[next].slips == b->part && !b->point[next].known) piece_add(b, next, &p);
     int status = piece_solve(b, &p, error);
     for (int64_t i = 0; i < p.count && status >= 0; i++) {
         const restitute_result *r = &p.results[i];
@@ -238,7 +241,8 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
 static void replay(struct restitute_table_builder *b)
 {
     for (; b->next < b->points && b->used < b->journal_count; b->next++)
-        if (b->point[b->next].slips == b->part) b->solved[b->next] = b->journal[b->used++];
+        if (b->point[b->next].slips == b->part && !b->point[b->next].known)
+            b->solved[b->next] = b->journal[b->used++];
 }
 
 /* ---- stages */
@@ -249,40 +253,82 @@ static void begin_part(struct restitute_table_builder *b, int part)
     b->next = 0;
 }
 
-/* Largest differences of the table to the impacts of the checks. */
+/* What earlier rounds have solved already. */
+static void recall(struct restitute_table_builder *b)
+{
+    for (int64_t i = 0; i < b->points; i++)
+        b->point[i].known = rst_memo_find(&b->memo, (int)b->stage, &b->point[i], &b->solved[i]);
+}
+
+static int remember(struct restitute_table_builder *b)
+{
+    for (int64_t i = 0; i < b->points; i++)
+        if (!b->point[i].known && rst_memo_add(&b->memo, (int)b->stage, &b->point[i], &b->solved[i])) return 1;
+    return 0;
+}
+
+/* Largest differences of the table to the impacts of the checks, and the panels where they are too large. A check beyond psi = 1 that
+ * is recalled was at the psi_c of an earlier table, within the error of ez. */
 static void compare(struct restitute_table_builder *b)
 {
-    double solver_ez = 0, solver_ex = 0;
     b->worst_ez = b->worst_ex = 0;
+    memset(b->failing, 0, sizeof b->failing);
     for (int64_t i = 0; i < b->points; i++) {
-        const struct place at = place_of(b, &b->point[i]);
+        const struct rst_point *p = &b->point[i];
+        const struct place at = place_of(b, p);
         const struct rst_solved *s = &b->solved[i];
         restitute_table_value pair;
         const double psi = b->family.sliding == RST_NO_FRICTION ? INFINITY : at.psi;
         rst_table_evaluate(b->draft, at.speed, at.gamma, at.chi, psi, &pair);
-        b->worst_ez = fmax(b->worst_ez, fabs(pair.ez - s->ez));
-        b->worst_ex = fmax(b->worst_ex, fabs(pair.ex - s->ex));
-        solver_ez = fmax(solver_ez, s->error_ez);
-        solver_ex = fmax(solver_ex, s->error_ex);
+        const double off_ez = fabs(pair.ez - s->ez) + s->error_ez, off_ex = fabs(pair.ex - s->ex) + s->error_ex;
+        b->worst_ez = fmax(b->worst_ez, off_ez);
+        b->worst_ex = fmax(b->worst_ex, off_ex);
+        if (fmax(off_ez, off_ex) <= b->options.tolerance) continue;
+        for (int a = 0; a < 2; a++)
+            b->failing[a][rst_panels_find(&b->panels[a], p->u[a])] = 1;
     }
-    b->worst_ez += solver_ez;
-    b->worst_ex += solver_ex;
 }
 
-/* More points where the last coefficients say that they are missing; along all axes if they do not say. */
-static int add_points(struct restitute_table_builder *b)
+/* Halve the panels of an axis where checks fail, all or those whose coefficients say that points are missing. */
+static int halve_panels(struct restitute_table_builder *b, int axis, int all)
 {
     int added = 0;
-    for (int all = 0; all < 2 && !added; all++)
-        for (int a = 0; a < rst_axes; a++) {
-            const int64_t most = a == RST_CHI ? rst_most_chi : 257;
-            if (!b->active[a] || b->n[a] >= most) continue;
-            if (!all && b->tail[a] < 0.05 * b->options.tolerance) continue;
-            b->n[a] += 2 + b->n[a] / 8;
-            if (b->n[a] > most) b->n[a] = most;
-            added = 1;
-        }
+    for (int panel = b->panels[axis].count - 1; panel >= 0 && b->active[axis]; panel--) {
+        const int short_of = b->panel_tail[axis][panel] > 0.03 * b->options.tolerance;
+        if (b->failing[axis][panel] && (all || short_of)) added |= !rst_panels_halve(&b->panels[axis], panel);
+    }
+    if (added) b->n[axis] = rst_panels_points(&b->panels[axis]);
     return added;
+}
+
+static int lengthen(struct restitute_table_builder *b, int axis)
+{
+    const int64_t most = axis == RST_CHI ? rst_most_chi : 129;
+    if (!b->active[axis] || b->n[axis] >= most) return 0;
+    b->n[axis] += 3 + b->n[axis] / 6;
+    if (b->n[axis] > most) b->n[axis] = most;
+    rst_panels_one(b->n[axis], &b->panels[axis]);
+    return 1;
+}
+
+/* More points where the last coefficients say that they are missing. If they do not say: along psi and chi, and better
+ * impacts. */
+static int add_points(struct restitute_table_builder *b)
+{
+    const double outer = 0.5 * fmax(b->tail[RST_SPEED], b->tail[RST_GAMMA]);
+    int added = 0;
+    for (int a = 0; a < 2; a++)
+        added |= halve_panels(b, a, 0);
+    /* new places along psi or chi are new everywhere: only where that is what matters most */
+    for (int a = 2; a < rst_axes; a++)
+        if (b->tail[a] > fmax(0.1 * b->options.tolerance, added ? outer : 0)) added |= lengthen(b, a);
+    if (added) return 1;
+    b->filling_tolerance *= 0.4;
+    rst_memo_clear(&b->memo);
+    for (int a = 0; a < rst_axes; a++)
+        if (a < 2) halve_panels(b, a, 1);
+        else lengthen(b, a);
+    return 1;
 }
 
 static int64_t points_of_filling(const struct restitute_table_builder *b)
@@ -315,6 +361,7 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
     }
     if (rst_plan_filling(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_FILLING;
+    recall(b);
     return RESTITUTE_OK;
 }
 
@@ -322,7 +369,11 @@ static int after_probing(struct restitute_table_builder *b, restitute_error *err
 {
     int resolved;
     if (rst_read_probes(b, &resolved)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    if (resolved) return begin_filling(b, error);
+    if (resolved) {
+        for (int axis = 0; axis < rst_axes; axis++)
+            rst_panels_one(b->n[axis], &b->panels[axis]);
+        return begin_filling(b, error);
+    }
     if (rst_plan_probes(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     return RESTITUTE_OK;
 }
@@ -331,8 +382,9 @@ static int after_filling(struct restitute_table_builder *b, restitute_error *err
 {
     const int status = rst_make_draft(b, error);
     if (status) return status;
-    if (rst_plan_checks(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (remember(b) || rst_plan_checks(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_CHECKING;
+    recall(b);
     return RESTITUTE_OK;
 }
 
@@ -340,6 +392,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
 {
     compare(b);
     b->draft->checks = b->points;
+    if (remember(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (fmax(b->worst_ez, b->worst_ex) > b->options.tolerance && b->rounds++ < most_rounds && add_points(b))
         return begin_filling(b, error);
     b->stage = RST_FINISHED;
@@ -441,10 +494,10 @@ int64_t restitute_table_builder_expected(const restitute_table_builder *builder)
     if (!builder) return 0;
     int64_t ahead = 0;
     for (int64_t i = builder->next; i < builder->points; i++)
-        ahead += builder->point[i].slips == builder->part || builder->part == 0;
+        ahead += !builder->point[i].known && builder->point[i].slips >= builder->part;
     if (builder->part == 0)
         for (int64_t i = 0; i < builder->next; i++)
-            ahead += builder->point[i].slips;
+            ahead += builder->point[i].slips && !builder->point[i].known;
     if (builder->stage == RST_PROBING) return builder->used + ahead;
     return builder->used + ahead + (builder->stage == RST_FILLING ? points_of_checks(builder) : 0);
 }

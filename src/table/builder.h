@@ -4,7 +4,8 @@
  *              points each axis needs; a line that is not resolved is doubled
  *   filling    impacts at all products of these points
  *   checking   the table is made from them, finer and with local polynomials (table_form.h), and compared with impacts
- *              half way between the points in all axes; if the difference is too large: more points, again from filling
+ *              half way between the points in all axes; if the difference is too large: panels are halved or get more points,
+ *              and what is not yet known is filled in
  *
  * Every stage has two parts: first the impacts with psi <= 1, then those beyond, whose places depend on e_z through psi_c.
  * All impacts that were solved are kept in the order in which they were asked for, which depends on nothing but the family
@@ -18,18 +19,48 @@
 enum rst_axis { RST_SPEED, RST_GAMMA, RST_CHI, RST_STICK, RST_SLIP, rst_axes };
 enum rst_stage { RST_PROBING, RST_FILLING, RST_CHECKING, RST_FINISHED };
 
+enum { rst_most_points = 1025, rst_most_panels = 128 };
+
+/* An axis in [0, 1], cut at its edges; each panel has n points, those at seams shared. */
+struct rst_panels {
+    int count;
+    double edge[rst_most_panels + 1];
+    int64_t n[rst_most_panels];
+};
+
+void rst_panels_one(int64_t n, struct rst_panels *p);
+int64_t rst_panels_points(const struct rst_panels *p);
+void rst_panels_nodes(const struct rst_panels *p, double *x);
+int64_t rst_panels_half_ways(const struct rst_panels *p, double *x);
+int rst_panels_find(const struct rst_panels *p, double x);
+void rst_panels_rows(const struct rst_panels *p, int64_t m, const double *place, double *row);
+void rst_panels_last(const struct rst_panels *p, int panel, double *row);
+int rst_panels_halve(struct rst_panels *p, int panel);
+
 /* Where an impact is: places in [0, 1] along the axes, of which one of RST_STICK and RST_SLIP counts. */
 struct rst_point {
     double u[3];
     double s;          /* psi, or the place t with y = (1 - cos(pi t))/2 */
     int64_t column;    /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
     int slips;
+    int known;         /* solved in an earlier round */
 };
 
 /* What came of it. */
 struct rst_solved {
     double ez, ex, error_ez, error_ex;
 };
+
+/* Results of earlier rounds, found again by their places. */
+struct rst_memo {
+    struct rst_memory *slot;
+    int64_t size, used; /* size: a power of 2, or 0 */
+};
+
+/* Nonzero: out of memory (memo.c). */
+int rst_memo_add(struct rst_memo *memo, int stage, const struct rst_point *p, const struct rst_solved *s);
+int rst_memo_find(const struct rst_memo *memo, int stage, const struct rst_point *p, struct rst_solved *s);
+void rst_memo_clear(struct rst_memo *memo);
 
 struct restitute_table_builder {
     struct rst_family family;
@@ -38,6 +69,7 @@ struct restitute_table_builder {
     double seam_low[2], seam_high[2];
     int active[rst_axes];   /* nonzero: more than one node */
     int64_t n[rst_axes];    /* points */
+    struct rst_panels panels[rst_axes];
     int64_t probe[rst_axes];
     enum rst_stage stage;
     int part, rounds;
@@ -51,6 +83,10 @@ struct restitute_table_builder {
 
     restitute_table *draft;
     double tail[rst_axes]; /* size of the last coefficients of the last filling */
+    double panel_tail[2][rst_most_panels]; /* the same for panels of speed and gamma */
+    int failing[2][rst_most_panels];       /* panels in which a check failed */
+    double filling_tolerance;
+    struct rst_memo memo;
     double worst_ez, worst_ex;
 };
 

@@ -54,7 +54,7 @@ static void collect_row(const struct restitute_table_builder *b, double chi, dou
         stick[j] = s[j].ex;
     if (n_slip == 0) return;
     const double width = restitute_critical_psi(chi, ez) - 1;
-    double t[257];
+    double t[rst_most_points];
     rst_table_nodes(n_slip, t);
     slip[0] = stick[n - 1] - rst_full_slip(chi, ez, 1);
     slip[n_slip - 1] = 0;
@@ -66,7 +66,7 @@ static void collect(const struct restitute_table_builder *b, struct coarse *c)
 {
     const struct rst_solved *s = b->solved;
     const int64_t row = c->n_stick + (c->n_slip > 2 ? c->n_slip - 2 : 0);
-    double u[257];
+    double u[rst_most_points];
     rst_table_nodes(c->n_chi, u);
     for (int64_t i = 0; i < c->n_speed * c->n_gamma; i++) {
         c->ez[i] = fmin(1, fmax(0, s[c->n_stick - 1].ez));
@@ -133,17 +133,20 @@ static double largest_along(const struct coarse *c, enum rst_axis axis, int64_t 
     return largest;
 }
 
-/* What the last two coefficients are worth. */
+/* What the last two coefficients are worth, in each panel. */
 static int measure_tails(struct restitute_table_builder *b, const struct coarse *c)
 {
     for (int axis = 0; axis < rst_axes; axis++) {
-        const int64_t n = b->n[axis];
         b->tail[axis] = 0;
-        if (!b->active[axis] || n < 3) continue;
-        double *row = malloc((size_t)(n * n) * sizeof *row);
+        if (!b->active[axis]) continue;
+        double *row = malloc((size_t)(2 * b->n[axis]) * sizeof *row);
         if (!row) return 1;
-        rst_table_spectrum(n, row);
-        b->tail[axis] = largest_along(c, (enum rst_axis)axis, 2, row + (n - 2) * n);
+        for (int panel = 0; panel < b->panels[axis].count && b->tail[axis] >= 0; panel++) {
+            rst_panels_last(&b->panels[axis], panel, row);
+            const double tail = largest_along(c, (enum rst_axis)axis, 2, row);
+            if (axis < 2) b->panel_tail[axis][panel] = tail;
+            b->tail[axis] = tail < 0 ? tail : fmax(b->tail[axis], tail);
+        }
         free(row);
         if (b->tail[axis] < 0) return 1;
     }
@@ -153,15 +156,15 @@ static int measure_tails(struct restitute_table_builder *b, const struct coarse 
 /* ---- cells */
 
 /* Largest difference of local polynomials through `nodes` places and the global one, in the middles between nodes. */
-static double cell_error(const struct coarse *c, enum rst_axis axis, int64_t n, int64_t nodes,
+static double cell_error(const struct restitute_table_builder *b, const struct coarse *c, enum rst_axis axis, int64_t nodes,
                          const double *place, const double *middle)
 {
-    const int64_t degree = rst_cubic, cells = (nodes - 1) / degree, m = nodes - 1;
+    const int64_t n = b->n[axis], degree = rst_cubic, cells = (nodes - 1) / degree, m = nodes - 1;
     double *row = malloc((size_t)((nodes + m) * n) * sizeof *row), error = -1;
     if (!row) return -1;
     double *difference = row + nodes * n;
-    rst_table_weights(n, nodes, place, row);
-    rst_table_weights(n, m, middle, difference);
+    rst_panels_rows(&b->panels[axis], nodes, place, row);
+    rst_panels_rows(&b->panels[axis], m, middle, difference);
     for (int64_t i = 0; i < cells; i++)
         for (int64_t k = 0; k < degree; k++) {
             double w[4];
@@ -199,7 +202,7 @@ static int choose_octaves(const struct restitute_table_builder *b, const struct 
         double *place = malloc((size_t)(2 * nodes) * sizeof *place);
         if (!place) return 1;
         octave_places(b, axis, o, place, place + nodes);
-        const double error = cell_error(c, axis, b->n[axis], nodes, place, place + nodes);
+        const double error = cell_error(b, c, axis, nodes, place, place + nodes);
         free(place);
         if (error < 0) return 1;
         if (error <= part_for_cells * b->options.tolerance) return 0;
@@ -218,7 +221,7 @@ static int choose_stick(const struct restitute_table_builder *b, const struct co
             place[i] = (double)i / (double)n;
             if (i < n) middle[i] = ((double)i + 0.5) / (double)n;
         }
-        const double error = cell_error(c, RST_STICK, b->n[RST_STICK], n + 1, place, middle);
+        const double error = cell_error(b, c, RST_STICK, n + 1, place, middle);
         if (error < 0) return 1;
         if (error <= part_for_cells * b->options.tolerance) return 0;
     }
@@ -242,7 +245,7 @@ static double slip_error(const struct restitute_table_builder *b, const struct c
         place[i] = t_of_root(here, turned);
         if (i < n) middle[i] = t_of_root(0.5 * (here + rst_slip_node(cells, i + 1)), turned);
     }
-    return cell_error(c, RST_SLIP, b->n[RST_SLIP], n + 1, place, middle);
+    return cell_error(b, c, RST_SLIP, n + 1, place, middle);
 }
 
 static int choose_slip(const struct restitute_table_builder *b, const struct coarse *c, int64_t *cells)
@@ -282,7 +285,7 @@ static double *octave_rows(const struct restitute_table_builder *b, enum rst_axi
     }
     double *place = row + nodes * n;
     octave_places(b, axis, o, place, place + nodes);
-    rst_table_weights(n, nodes, place, row);
+    rst_panels_rows(&b->panels[axis], nodes, place, row);
     return row;
 }
 
@@ -290,7 +293,7 @@ static double *octave_rows(const struct restitute_table_builder *b, enum rst_axi
 static double *psi_rows(const struct restitute_table_builder *b, const restitute_table *t)
 {
     const int64_t l = b->n[RST_STICK], r = b->active[RST_SLIP] ? b->n[RST_SLIP] : 0, n = l + r;
-    double *row = calloc((size_t)(t->n_psi * n), sizeof *row), one[257];
+    double *row = calloc((size_t)(t->n_psi * n), sizeof *row), one[rst_most_points];
     if (!row) return NULL;
     for (int64_t i = 0; i < t->n_psi; i++) {
         const int slips = i >= t->start[1];

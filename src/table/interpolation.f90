@@ -81,6 +81,22 @@ contains
     end do
   end subroutine spectrum
 
+  !> The last two of these rows; zero for a single node.
+  pure subroutine last(n, row) bind(c, name="rst_table_last")
+    integer(ip), intent(in), value :: n
+    real(dp), intent(out) :: row(n, 2)
+    integer(ip) :: j, k
+    row = 0
+    if (n < 3) return
+    do k = n - 2, n - 1
+      do j = 0, n - 1
+        row(j + 1, k - n + 3) = 2/real(n - 1, dp)*cos(pi*real(mod(k*(n - 1 - j), 2*(n - 1)), dp)/real(n - 1, dp))
+        if (j == 0 .or. j == n - 1) row(j + 1, k - n + 3) = row(j + 1, k - n + 3)/2
+        if (k == n - 1) row(j + 1, k - n + 3) = row(j + 1, k - n + 3)/2
+      end do
+    end do
+  end subroutine last
+
   !> b(:, i, :) = sum_j row(j, i) a(:, j, :)
   pure subroutine along(after, n, m, before, row, a, b) bind(c, name="rst_table_along")
     integer(ip), intent(in), value :: after, n, m, before

@@ -5,8 +5,8 @@
 #include "builder.h"
 #include "interpolation.h"
 
-/* Most points along an axis. */
-static const int64_t most_points = 257;
+/* Most points of a line of probes: one that needs more is cut into panels. */
+static const int64_t most_points = 33;
 
 static int add_point(struct restitute_table_builder *b, struct rst_point point)
 {
@@ -96,7 +96,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
 
 int rst_plan_probes(struct restitute_table_builder *b)
 {
-    double x[257];
+    double x[rst_most_points];
     begin(b);
     for (int axis = 0; axis < 3; axis++)
         if (b->active[axis] && probe_outer(b, (enum rst_axis)axis, x)) return 1;
@@ -130,7 +130,7 @@ static int take_longer(int64_t *order, int64_t needed)
 static int read_outer(struct restitute_table_builder *b, enum rst_axis axis, double goal, int64_t *first)
 {
     const int64_t n = b->probe[axis];
-    double value[257];
+    double value[rst_most_points];
     const int count = columns_beside(b, axis).count;
     for (int i = 0; i < count; i++)
         for (int kind = 0; kind < 3; kind++) {
@@ -150,7 +150,7 @@ static int read_outer(struct restitute_table_builder *b, enum rst_axis axis, dou
 
 static int read_psi(struct restitute_table_builder *b, double goal, int64_t first)
 {
-    double value[257];
+    double value[rst_most_points];
     const struct columns c = columns_beside(b, RST_STICK);
     for (int i = 0; i < c.count; i++) {
         const int64_t n = b->probe[RST_STICK], m = b->probe[RST_SLIP];
@@ -162,7 +162,7 @@ static int read_psi(struct restitute_table_builder *b, double goal, int64_t firs
         if (!b->active[RST_SLIP]) continue;
         const double chi = rst_builder_number(b, RST_CHI, c.u[i][2]), ez = s[0].ez;
         const double critical = restitute_critical_psi(chi, ez);
-        double x[257];
+        double x[rst_most_points];
         rst_table_nodes(m, x);
         value[0] = s[n - 1].ex - rst_full_slip(chi, ez, 1);
         value[m - 1] = 0;
@@ -185,11 +185,12 @@ int rst_read_probes(struct restitute_table_builder *b, int *resolved)
     if (b->active[RST_STICK] && read_psi(b, goal, first)) return 1;
     *resolved = 1;
     for (int axis = 0; axis < rst_axes; axis++) {
-        if (b->n[axis] <= b->probe[axis]) continue;
-        b->n[axis] = b->probe[axis];
-        if (2 * b->probe[axis] - 1 > most_points || (axis == RST_CHI && 2 * b->probe[axis] - 1 > rst_most_chi)) continue;
-        b->probe[axis] = 2 * b->probe[axis] - 1;
-        *resolved = 0;
+        const int unresolved = b->n[axis] > b->probe[axis], longer = 2 * b->probe[axis] - 1 <= most_points;
+        if (unresolved) b->n[axis] = b->probe[axis];
+        if (unresolved && longer) {
+            b->probe[axis] = 2 * b->probe[axis] - 1;
+            *resolved = 0;
+        }
     }
     return 0;
 }
@@ -211,10 +212,10 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
 
 int rst_plan_filling(struct restitute_table_builder *b)
 {
-    double x[rst_axes][257];
+    double x[rst_axes][rst_most_points];
     begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
-        rst_table_nodes(b->n[axis], x[axis]);
+        rst_panels_nodes(&b->panels[axis], x[axis]);
     for (int64_t i = 0; i < b->n[0]; i++)
         for (int64_t j = 0; j < b->n[1]; j++)
             for (int64_t k = 0; k < b->n[2]; k++) {
@@ -224,25 +225,13 @@ int rst_plan_filling(struct restitute_table_builder *b)
     return 0;
 }
 
-/* Half way between Chebyshev points, which is where a polynomial through them is worst. */
-static int64_t half_ways(int64_t n, double *x)
-{
-    double fine[513];
-    x[0] = 0.5;
-    if (n < 2) return 1;
-    rst_table_nodes(2 * n - 1, fine);
-    for (int64_t i = 0; i + 1 < n; i++)
-        x[i] = fine[2 * i + 1];
-    return n - 1;
-}
-
 int rst_plan_checks(struct restitute_table_builder *b)
 {
-    double x[rst_axes][257];
+    double x[rst_axes][rst_most_points];
     int64_t n[rst_axes];
     begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
-        n[axis] = half_ways(b->n[axis], x[axis]);
+        n[axis] = rst_panels_half_ways(&b->panels[axis], x[axis]);
     if (!b->active[RST_STICK]) x[RST_STICK][0] = 0;
     for (int64_t i = 0; i < n[0]; i++)
         for (int64_t j = 0; j < n[1]; j++)
