@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Prints version, library and header directory of the REBOUND that this Python has, separated by semicolons; status 1 if
-# it has none. Nothing of REBOUND is run.
+# Prints library and header directory of the REBOUND that this Python has, separated by a semicolon. If it has none that fits,
+# status 1 and on standard error what is wrong. Nothing of REBOUND is run.
 import glob
 import importlib.metadata
 import os
@@ -9,9 +9,12 @@ import sys
 try:
     package = importlib.metadata.distribution("rebound")
 except importlib.metadata.PackageNotFoundError:
-    sys.exit(1)
+    sys.exit("rebound is not installed in " + sys.executable)
+if not package.version.startswith("5."):  # the interface in C changes between major versions
+    sys.exit(f"rebound {package.version} is installed in {sys.executable}, but 5 is needed")
 site = str(package.locate_file(""))
 library = glob.glob(os.path.join(site, "librebound*.so"))
-if not library or not os.path.exists(os.path.join(site, "src", "rebound.h")):
-    sys.exit(1)
-print(package.version, library[0], os.path.join(site, "src"), sep=";")
+headers = os.path.join(site, "src")
+if not library or not os.path.exists(os.path.join(headers, "rebound.h")):
+    sys.exit(f"rebound {package.version} is installed in {sys.executable}, but without its C library or header")
+print(library[0], headers, sep=";")

@@ -49,6 +49,11 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+static void cross(const double *a, const double *b, double *c)
+{
+    c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
 static double uniform(uint64_t *state) /* in [0, 1): splitmix64, so that every machine makes the same box */
 {
     uint64_t z = *state += 0x9e3779b97f4a7c15u;
@@ -90,29 +95,30 @@ static int hit(struct box *box, struct sphere *a, struct sphere *b, const double
     const double ra = RADIUS[a->kind], rb = b ? RADIUS[b->kind] : 0;
     const double ja = inertia(a->kind), jb = b ? inertia(b->kind) : INFINITY;
     const double ma = mass(a->kind), mb = b ? mass(b->kind) : INFINITY;
-    const double normal_mass = 1 / (1 / ma + 1 / mb),
-                 tangent_mass = 1 / (1 / ma + 1 / mb + ra * ra / ja + rb * rb / jb);
-    double u[3], turn[3], t[3]; /* relative velocity of the contact points, a minus b; t: its tangential part */
+    const double normal_mass = 1 / (1 / ma + 1 / mb);
+    const double tangent_mass = 1 / (1 / normal_mass + ra * ra / ja + rb * rb / jb);
+    double u[3], turn[3], t[3], tangent[3], moment[3]; /* u: of the centres, a minus b; t: sliding at the contact */
     for (int k = 0; k < 3; ++k) {
         u[k] = a->v[k] - (b ? b->v[k] : 0);
         turn[k] = ra * a->w[k] + (b ? rb * b->w[k] : 0);
     }
+    cross(turn, n, t);
     const double vn = dot(u, n);
     for (int k = 0; k < 3; ++k)
-        t[k] = u[k] - vn * n[k] + turn[(k + 1) % 3] * n[(k + 2) % 3] - turn[(k + 2) % 3] * n[(k + 1) % 3];
+        t[k] += u[k] - vn * n[k];
     const double vt = sqrt(dot(t, t));
 
     restitute_table_value pair;
     const restitute_table_contact *contact = &box->contact[a->kind][b ? b->kind : WALL];
     if (restitute_table_pair_of(box->table, contact, vn, vt, &pair, NULL) < 0) return -1;
-    for (int k = 0; k < 3; ++k) { /* impulse p on a; its tangential part turns both spheres the same way */
-        const double tangent = -(1 + pair.ex) * tangent_mass * t[k];
-        const double p = tangent - (1 + pair.ez) * normal_mass * vn * n[k];
-        const double moment =
-            -(1 + pair.ex) * tangent_mass * (n[(k + 1) % 3] * t[(k + 2) % 3] - n[(k + 2) % 3] * t[(k + 1) % 3]);
-        a->v[k] += p / ma, a->w[k] += ra * moment / ja;
+    for (int k = 0; k < 3; ++k)
+        tangent[k] = -(1 + pair.ex) * tangent_mass * t[k];
+    cross(n, tangent, moment); /* over the radius; it turns both spheres the same way */
+    for (int k = 0; k < 3; ++k) {
+        const double p = tangent[k] - (1 + pair.ez) * normal_mass * vn * n[k]; /* impulse on a */
+        a->v[k] += p / ma, a->w[k] += ra * moment[k] / ja;
         if (b)
-            b->v[k] -= p / mb, b->w[k] += rb * moment / jb;
+            b->v[k] -= p / mb, b->w[k] += rb * moment[k] / jb;
         else
             box->wall_impulse[k] += p;
     }
