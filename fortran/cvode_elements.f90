@@ -1,0 +1,352 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The elements of the method `cvode` and their tangential force (THEORY 2, 3 and 7).
+!>
+!> Between the instants at which it begins to stick or to slip, all that an element is follows from the states of the sphere:
+!>
+!>   normal   f = G_inf (D - X^2) + sum_k [M_k - c_k] + eta D'          c_k: M_k(t_X), fading with tau_k
+!>   stick    q = G_inf (U - alpha) + sum_k [Mx_k - beta_k] + eta U'    alpha, beta_k: kept when it last began to stick
+!>   slip     q = +-f, and u = +-(D - X^2) + r with r recovering by itself (module rst_cvode_recovery)
+!>
+!> What is computed is the margin d = f - q of an element that would stick: it slips forward for d < 0, and backward for
+!> d > 2 f. b_k = c_k - beta_k is all that d needs of the fading memory. An element that sticks passes into slip without a
+!> jump of q, so the rates are continuous there, whether the instant has been found or not.
+!>
+!> The integral is taken of f - q, which vanishes where the contact slips forward and, but for a parallel dashpot, at
+!> the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, with the first part exact and the second by the trapezium rule
+!> up to the last element and on to the edge.
+module rst_cvode_elements
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
+                             shear_velocity_at, shear_memory_at
+  use rst_precision, only: dp, ip
+  implicit none (type, external)
+  private
+  public :: margins, shear_rates, slip_rates, fade, enter_element, begin_slip, begin_stick
+
+  !> What an element does; twin of `enum cvode_motion`.
+  integer(ip), parameter :: sticks = 0, slips_forward = 1, slips_backward = -1
+
+  real(dp), parameter :: shear_factor = 15.0_dp/4.0_dp  !! U'' = -(15/4) chi int_0^A q dX
+
+contains
+
+  !> Margins d and normal stresses f of the elements inside the edge, and of one more if it has been in contact. start_y,
+  !> start_rate: states at the beginning of the step, for elements that enter within it; past: M of the compression when they do.
+  subroutine margins(scene, g, tau, contact, x, entry, past, shift, c, b, start_y, start_rate, t, y, n_contact, d, f) &
+    bind(c, name="rst_cvode_margins")
+    type(scene_type), intent(in) :: scene
+    type(contact_type), intent(in) :: contact
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    real(c_double), intent(in) :: x(scene%n_nodes), entry(scene%n_nodes), past(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states)
+    real(c_double), intent(in), value :: t
+    real(c_double), intent(in) :: y(scene%n_states)
+    integer(c_int64_t), intent(inout) :: n_contact  !! in: a guess
+    real(c_double), intent(inout) :: d(scene%n_nodes), f(scene%n_nodes)
+    real(dp) :: common_d, common_f, faded
+    integer(ip) :: i, k, known, new
+
+    n_contact = count_inside(scene%n_nodes, x, contact%square, n_contact)
+    known = min(n_contact + 1, scene%n_entered)
+    common_f = scene%g_inf*y(state_depth) + scene%eta*y(state_velocity)
+    common_d = scene%g_inf*(y(state_depth) - y(shift_at(scene))) + scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))
+    do k = 1, scene%n_terms
+      common_f = common_f + y(memory_at(k))
+      common_d = common_d + (y(memory_at(k)) - y(shear_memory_at(scene, k)))
+    end do
+    do i = 1, known
+      f(i) = common_f - scene%g_inf*x(i)**2
+      d(i) = common_d - scene%g_inf*(x(i)**2 - shift(i))
+    end do
+    do k = 1, scene%n_terms
+      faded = exp(-(t - scene%reference)/tau(k))
+      do i = 1, known
+        f(i) = f(i) - faded*c(i, k)
+        d(i) = d(i) - faded*b(i, k)
+      end do
+    end do
+    do new = scene%n_entered + 1, n_contact
+      call new_margin(scene, g, tau, x(new), entry(new), past, new, start_y, start_rate, t, y, common_f, d(new), f(new))
+    end do
+  end subroutine margins
+
+  !> An element that has entered since the step began. Its U and Mx at entry come from a cubic between the beginning of the step
+  !> and now; of a term that relaxes within the step from a straight line, for its slopes mean nothing.
+  pure subroutine new_margin(scene, g, tau, x, entry, past, i, start_y, start_rate, t, y, common_f, d, f)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x, entry, past(scene%n_nodes, scene%n_terms)
+    integer(ip), intent(in) :: i
+    real(dp), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states), t, y(scene%n_states), common_f
+    real(dp), intent(out) :: d, f
+    real(dp) :: h, z, before, slope, faded, q, from
+    integer(ip) :: k, u, m
+    u = shift_at(scene)
+    h = t - scene%step_start
+    z = 1
+    if (h > 0) z = max(0.0_dp, min(1.0_dp, (entry - scene%step_start)/h))
+    from = start_y(u) + cubic(z, y(u) - start_y(u), h*start_y(shear_velocity_at(scene)), h*y(shear_velocity_at(scene)))
+    q = scene%g_inf*(y(u) - from) + scene%eta*y(shear_velocity_at(scene))
+    f = common_f - scene%g_inf*x**2
+    do k = 1, scene%n_terms
+      m = shear_memory_at(scene, k)
+      faded = exp(-max(t - entry, 0.0_dp)/tau(k))
+      before = z*(y(m) - start_y(m))
+      if (tau(k) > h) then
+        slope = g(k)*y(shear_velocity_at(scene)) - y(m)/tau(k)
+        before = cubic(z, y(m) - start_y(m), h*start_rate(m), h*slope)
+      end if
+      q = q + (y(m) - faded*(start_y(m) + before))
+      f = f - faded*past(i, k)
+    end do
+    d = f - q
+  end subroutine new_margin
+
+  !> Hermite's cubic on [0, 1] from 0 to `rise`.
+  pure function cubic(z, rise, slope_before, slope_after) result(value)
+    real(dp), intent(in) :: z, rise, slope_before, slope_after
+    real(dp) :: value
+    value = z*(slope_before + z*(3*rise - 2*slope_before - slope_after + z*(slope_before + slope_after - 2*rise)))
+  end function cubic
+
+  !> How many of the ascending x lie inside the edge.
+  pure function count_inside(n, x, square, guess) result(inside)
+    integer(ip), intent(in) :: n, guess
+    real(dp), intent(in) :: x(n), square
+    integer(ip) :: inside
+    inside = max(0_ip, min(guess, n))
+    do while (inside > 0)
+      if (x(inside)**2 < square) exit
+      inside = inside - 1
+    end do
+    do while (inside < n)
+      if (x(inside + 1)**2 >= square) exit
+      inside = inside + 1
+    end do
+  end function count_inside
+
+  !> f - q of an element.
+  pure function shortfall(no_slip, motion, d, f) result(m)
+    integer(ip), intent(in) :: no_slip, motion
+    real(dp), intent(in) :: d, f
+    real(dp) :: m
+    if (no_slip /= 0) then
+      m = d
+    else if (motion == sticks) then
+      m = max(0.0_dp, min(d, 2*f))
+    else
+      m = real(1 - motion, dp)*f
+    end if
+  end function shortfall
+
+  !> f - q at the edge. There q is that of a dashpot, cut to f; without slip an element leaves with what it has.
+  pure function edge_shortfall(scene, contact, x, y, n, d) result(m)
+    type(scene_type), intent(in) :: scene
+    type(contact_type), intent(in) :: contact
+    real(dp), intent(in) :: x(scene%n_nodes), y(scene%n_states), d(scene%n_nodes)
+    integer(ip), intent(in) :: n
+    real(dp) :: m
+    m = 0
+    if (scene%restitution == 0) then
+      m = scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))
+      if (scene%no_slip == 0) m = max(0.0_dp, min(m, 2*scene%eta*y(state_velocity)))
+    else if (scene%no_slip /= 0) then
+      m = d(n)
+      if (n < scene%n_entered) m = m + (contact%radius - x(n))/(x(n + 1) - x(n))*(d(n + 1) - d(n))
+    end if
+  end function edge_shortfall
+
+  !> The tangential rates from the margins.
+  subroutine shear_rates(scene, g, tau, contact, x, motion, n_contact, d, f, y, rate, sums) bind(c, name="rst_cvode_shear_rates")
+    type(scene_type), intent(in) :: scene
+    type(contact_type), intent(in) :: contact
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes)
+    integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
+    integer(c_int64_t), intent(in), value :: n_contact
+    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(c_double), intent(inout) :: rate(scene%n_states)
+    type(shear_sums_type), intent(out) :: sums
+    real(dp) :: velocity, missing
+    integer(ip) :: k, m
+    velocity = y(shear_velocity_at(scene))
+    sums%n_contact = n_contact
+    call integrate(scene, contact, x, motion, n_contact, d, f, y, missing, sums%stick, sums%backward)
+    sums%force = contact%force - missing
+    rate(shift_at(scene)) = velocity
+    rate(shear_velocity_at(scene)) = -shear_factor*scene%chi*sums%force
+    do k = 1, scene%n_terms
+      m = shear_memory_at(scene, k)
+      rate(m) = g(k)*velocity - y(m)/tau(k)
+    end do
+  end subroutine shear_rates
+
+  !> int_0^A (f - q) dX and the lengths that stick and slip backward.
+  pure subroutine integrate(scene, contact, x, motion, n, d, f, y, missing, stick, backward)
+    type(scene_type), intent(in) :: scene
+    type(contact_type), intent(in) :: contact
+    real(dp), intent(in) :: x(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    integer(ip), intent(in) :: motion(scene%n_nodes), n
+    real(dp), intent(out) :: missing, stick, backward
+    real(dp) :: m, weight, before
+    integer(ip) :: i
+    missing = 0
+    stick = 0
+    backward = 0
+    before = 0
+    do i = 1, n
+      if (i < n) then
+        weight = 0.5_dp*(x(i + 1) - before)
+      else
+        weight = 0.5_dp*(contact%radius - before)
+      end if
+      before = x(i)
+      m = shortfall(scene%no_slip, motion(i), d(i), f(i))
+      missing = missing + weight*m
+      if (m >= 2*f(i) .and. scene%no_slip == 0) then
+        backward = backward + weight
+      else if (m > 0 .or. scene%no_slip /= 0) then
+        stick = stick + weight
+      end if
+    end do
+    if (n > 0) missing = missing + 0.5_dp*(contact%radius - x(n))*edge_shortfall(scene, contact, x, y, n, d)
+  end subroutine integrate
+
+  !> What tells when the motion of each element changes: it falls through 0 then. Of an element that sticks f - |q|, of one
+  !> that slips the velocity at which it does. `least` keeps what is 0 by construction from being taken for a change.
+  subroutine slip_rates(scene, motion, n_contact, rate_of, u_of, amplitude, least_stress, least_velocity, d, f, t, y, value) &
+    bind(c, name="rst_cvode_slip_rates")
+    type(scene_type), intent(in) :: scene
+    integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
+    integer(c_int64_t), intent(in), value :: n_contact
+    real(c_double), intent(in) :: rate_of(scene%n_modes), u_of(scene%n_modes), amplitude(scene%n_nodes, scene%n_modes)
+    real(c_double), intent(in), value :: least_stress, least_velocity, t
+    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(c_double), intent(out) :: value(scene%n_nodes)
+    real(dp) :: velocity, recovering, weight
+    integer(ip) :: i, j
+    do i = 1, scene%n_nodes
+      value(i) = 1
+    end do
+    if (scene%no_slip /= 0) return
+    velocity = y(shear_velocity_at(scene))
+    do i = 1, min(n_contact, scene%n_entered)
+      if (motion(i) == sticks) then
+        value(i) = min(d(i), 2*f(i) - d(i)) + least_stress
+      else
+        recovering = 0
+        do j = 1, scene%n_modes
+          weight = exp(-rate_of(j)*(t - scene%reference))
+          recovering = recovering - rate_of(j)*u_of(j)*weight*amplitude(i, j)
+        end do
+        value(i) = real(motion(i), dp)*(velocity - recovering) - y(state_velocity) + least_velocity
+      end if
+    end do
+  end subroutine slip_rates
+
+  !> Fading memory from the reference time to `time`.
+  subroutine fade(scene, tau, rate_of, time, c, b, amplitude) bind(c, name="rst_cvode_fade")
+    type(scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: tau(scene%n_terms), rate_of(scene%n_modes)
+    real(c_double), intent(in), value :: time
+    real(c_double), intent(inout) :: c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp) :: faded
+    integer(ip) :: i, j, k
+    do k = 1, scene%n_terms
+      faded = exp(-(time - scene%reference)/tau(k))
+      do i = 1, scene%n_entered
+        c(i, k) = faded*c(i, k)
+        b(i, k) = faded*b(i, k)
+      end do
+    end do
+    do j = 1, scene%n_modes
+      faded = exp(-rate_of(j)*(time - scene%reference))
+      do i = 1, scene%n_entered
+        amplitude(i, j) = faded*amplitude(i, j)
+      end do
+    end do
+  end subroutine fade
+
+  !> Element i entered at `entry`, when the states were y: its memory at the reference time. It begins to slip at once
+  !> where the sphere goes faster along the surface than into it.
+  subroutine enter_element(scene, tau, i, entry, past, y, motion, shift, c, b, amplitude) bind(c, name="rst_cvode_enter_element")
+    type(scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: tau(scene%n_terms)
+    integer(c_int64_t), intent(in), value :: i
+    real(c_double), intent(in), value :: entry
+    real(c_double), intent(in) :: past(scene%n_nodes, scene%n_terms), y(scene%n_states)
+    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
+    real(c_double), intent(inout) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp) :: faded
+    integer(ip) :: j, k
+    shift(i) = y(shift_at(scene))
+    do k = 1, scene%n_terms
+      faded = exp(-(scene%reference - entry)/tau(k))
+      c(i, k) = faded*past(i, k)
+      b(i, k) = c(i, k) - faded*y(shear_memory_at(scene, k))
+    end do
+    do j = 1, scene%n_modes
+      amplitude(i, j) = 0
+    end do
+    motion(i) = sticks
+    if (scene%no_slip == 0) then
+      if (y(shear_velocity_at(scene)) > y(state_velocity)) motion(i) = slips_forward
+      if (y(shear_velocity_at(scene)) < -y(state_velocity)) motion(i) = slips_backward
+    end if
+  end subroutine enter_element
+
+  !> Element i, which sticks, begins to slip at the reference time: what it recovers from.
+  subroutine begin_slip(scene, g, x, i, d, f, from_u, from_v, shift, c, b, y, motion, amplitude) &
+    bind(c, name="rst_cvode_begin_slip")
+    type(scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
+    integer(c_int64_t), intent(in), value :: i
+    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes)
+    real(c_double), intent(in) :: from_u(scene%n_modes), from_v(scene%n_terms, scene%n_modes)
+    real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: y(scene%n_states)
+    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
+    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp) :: sense, u, stress
+    integer(ip) :: j, k
+    motion(i) = merge(slips_backward, slips_forward, d(i) > f(i))
+    sense = real(motion(i), dp)
+    u = y(shift_at(scene)) - shift(i) - sense*(y(state_depth) - x(i)**2)
+    do j = 1, scene%n_modes
+      amplitude(i, j) = from_u(j)*u
+      do k = 1, scene%n_terms
+        stress = y(shear_memory_at(scene, k)) - (c(i, k) - b(i, k)) - sense*(y(memory_at(k)) - c(i, k))
+        amplitude(i, j) = amplitude(i, j) + from_v(k, j)*(u - stress/g(k))
+      end do
+    end do
+  end subroutine begin_slip
+
+  !> Element i, which slips, sticks from the reference time on: with the displacement and stresses that it has.
+  subroutine begin_stick(scene, g, x, i, u_of, v_of, shift, c, b, y, motion, amplitude) bind(c, name="rst_cvode_begin_stick")
+    type(scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
+    integer(c_int64_t), intent(in), value :: i
+    real(c_double), intent(in) :: u_of(scene%n_modes), v_of(scene%n_terms, scene%n_modes)
+    real(c_double), intent(inout) :: shift(scene%n_nodes), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: c(scene%n_nodes, scene%n_terms), y(scene%n_states)
+    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
+    real(c_double), intent(in) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp) :: sense, u, v
+    integer(ip) :: j, k
+    sense = real(motion(i), dp)
+    u = 0
+    do j = 1, scene%n_modes
+      u = u + u_of(j)*amplitude(i, j)
+    end do
+    shift(i) = y(shift_at(scene)) - (sense*(y(state_depth) - x(i)**2) + u)
+    do k = 1, scene%n_terms
+      v = 0
+      do j = 1, scene%n_modes
+        v = v + v_of(k, j)*amplitude(i, j)
+      end do
+      b(i, k) = c(i, k) - y(shear_memory_at(scene, k)) + sense*(y(memory_at(k)) - c(i, k)) + g(k)*(u - v)
+    end do
+    motion(i) = sticks
+  end subroutine begin_stick
+end module rst_cvode_elements
