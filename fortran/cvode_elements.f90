@@ -13,7 +13,11 @@
 !>
 !> The integral is taken of f - q, which vanishes where the contact slips forward and, but for a parallel dashpot, at
 !> the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, with the first part exact and the second by the trapezium rule
-!> up to the last element and on to the edge.
+!> up to the last element and on to the edge. Of a term that relaxes faster than the edge passes from element to element the
+!> fading memory b is a layer at the edge that the trapezium rule would not see; it is exponential in the time since entry,
+!> so what the rule misses of it in a cell is known: width times b at its younger end times
+!>
+!>   missed(z) = (1 + exp(-z))/2 - (1 - exp(-z))/z,   z: what passed between the entries of both ends, over tau_k.
 module rst_cvode_elements
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
@@ -21,7 +25,7 @@ module rst_cvode_elements
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: margins, shear_rates, slip_rates, fade, enter_element, begin_slip, begin_stick
+  public :: layer_weights, margins, shear_rates, slip_rates, fade, enter_element, begin_slip, begin_stick
 
   !> What an element does; twin of `enum cvode_motion`.
   integer(ip), parameter :: sticks = 0, slips_forward = 1, slips_backward = -1
@@ -30,20 +34,46 @@ module rst_cvode_elements
 
 contains
 
+  !> missed(z) of the cell inside each element.
+  subroutine layer_weights(scene, tau, entry, layer_weight) bind(c, name="rst_cvode_layer_weights")
+    type(scene_type), intent(in) :: scene
+    real(c_double), intent(in) :: tau(scene%n_terms), entry(scene%n_nodes)
+    real(c_double), intent(out) :: layer_weight(scene%n_nodes, scene%n_terms)
+    integer(ip) :: i, k
+    do k = 1, scene%n_terms
+      layer_weight(1, k) = 0
+      do i = 2, scene%n_nodes
+        layer_weight(i, k) = missed((entry(i) - entry(i - 1))/tau(k))
+      end do
+    end do
+  end subroutine layer_weights
+
+  pure function missed(z) result(part)
+    real(dp), intent(in) :: z
+    real(dp) :: part
+    if (z < 0.02_dp) then  ! the difference would be lost in rounding
+      part = z*z*(1.0_dp/12 - z*(1.0_dp/24 - z/80))
+    else
+      part = 0.5_dp*(1 + exp(-z)) - (1 - exp(-z))/z
+    end if
+  end function missed
+
   !> Margins d and normal stresses f of the elements inside the edge, and of one more if it has been in contact. start_y,
   !> start_rate: states at the beginning of the step, for elements that enter within it; past: M of the compression when they do.
-  subroutine margins(scene, g, tau, contact, x, entry, past, shift, c, b, start_y, start_rate, t, y, n_contact, d, f) &
-    bind(c, name="rst_cvode_margins")
+  !> layer: what the cell inside each element misses, over its width.
+  subroutine margins(scene, g, tau, contact, x, entry, past, shift, c, b, layer_weight, start_y, start_rate, t, y, &
+                     n_contact, d, f, layer) bind(c, name="rst_cvode_margins")
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     real(c_double), intent(in) :: x(scene%n_nodes), entry(scene%n_nodes), past(scene%n_nodes, scene%n_terms)
     real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
     real(c_double), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states)
     real(c_double), intent(in), value :: t
     real(c_double), intent(in) :: y(scene%n_states)
     integer(c_int64_t), intent(inout) :: n_contact  !! in: a guess
-    real(c_double), intent(inout) :: d(scene%n_nodes), f(scene%n_nodes)
+    real(c_double), intent(inout) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
     real(dp) :: common_d, common_f, faded
     integer(ip) :: i, k, known, new
 
@@ -58,27 +88,31 @@ contains
     do i = 1, known
       f(i) = common_f - scene%g_inf*x(i)**2
       d(i) = common_d - scene%g_inf*(x(i)**2 - shift(i))
+      layer(i) = 0
     end do
     do k = 1, scene%n_terms
       faded = exp(-(t - scene%reference)/tau(k))
       do i = 1, known
         f(i) = f(i) - faded*c(i, k)
         d(i) = d(i) - faded*b(i, k)
+        layer(i) = layer(i) + layer_weight(i, k)*faded*b(i, k)
       end do
     end do
     do new = scene%n_entered + 1, n_contact
-      call new_margin(scene, g, tau, x(new), entry(new), past, new, start_y, start_rate, t, y, common_f, d(new), f(new))
+      call new_margin(scene, g, tau, x(new), entry(new), past, new, layer_weight, start_y, start_rate, t, y, common_f, &
+                      d(new), f(new), layer(new))
     end do
   end subroutine margins
 
   !> An element that has entered since the step began. Its U and Mx at entry come from a cubic between the beginning of the step
   !> and now; of a term that relaxes within the step from a straight line, for its slopes mean nothing.
-  pure subroutine new_margin(scene, g, tau, x, entry, past, i, start_y, start_rate, t, y, common_f, d, f)
+  pure subroutine new_margin(scene, g, tau, x, entry, past, i, layer_weight, start_y, start_rate, t, y, common_f, d, f, layer)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x, entry, past(scene%n_nodes, scene%n_terms)
     integer(ip), intent(in) :: i
+    real(dp), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
     real(dp), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states), t, y(scene%n_states), common_f
-    real(dp), intent(out) :: d, f
+    real(dp), intent(out) :: d, f, layer
     real(dp) :: h, z, before, slope, faded, q, from
     integer(ip) :: k, u, m
     u = shift_at(scene)
@@ -88,6 +122,7 @@ contains
     from = start_y(u) + cubic(z, y(u) - start_y(u), h*start_y(shear_velocity_at(scene)), h*y(shear_velocity_at(scene)))
     q = scene%g_inf*(y(u) - from) + scene%eta*y(shear_velocity_at(scene))
     f = common_f - scene%g_inf*x**2
+    layer = 0
     do k = 1, scene%n_terms
       m = shear_memory_at(scene, k)
       faded = exp(-max(t - entry, 0.0_dp)/tau(k))
@@ -98,6 +133,7 @@ contains
       end if
       q = q + (y(m) - faded*(start_y(m) + before))
       f = f - faded*past(i, k)
+      layer = layer + layer_weight(i, k)*faded*(past(i, k) - (start_y(m) + before))
     end do
     d = f - q
   end subroutine new_margin
@@ -156,21 +192,37 @@ contains
     end if
   end function edge_shortfall
 
+  !> What the cell between the last element and the edge misses, over its width. At the edge b is the whole memory of the sphere.
+  pure function edge_layer(scene, tau, entry, t, y) result(layer)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: tau(scene%n_terms), entry, t, y(scene%n_states)
+    real(dp) :: layer
+    integer(ip) :: k
+    layer = 0
+    if (scene%restitution /= 0 .or. abs(y(shear_velocity_at(scene))) > y(state_velocity)) return
+    do k = 1, scene%n_terms
+      layer = layer + missed(max(t - entry, 0.0_dp)/tau(k))*(y(memory_at(k)) - y(shear_memory_at(scene, k)))
+    end do
+  end function edge_layer
+
   !> The tangential rates from the margins.
-  subroutine shear_rates(scene, g, tau, contact, x, motion, n_contact, d, f, y, rate, sums) bind(c, name="rst_cvode_shear_rates")
+  subroutine shear_rates(scene, g, tau, contact, x, entry, motion, n_contact, d, f, layer, t, y, rate, sums) &
+    bind(c, name="rst_cvode_shear_rates")
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes)
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
     integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
     integer(c_int64_t), intent(in), value :: n_contact
-    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
+    real(c_double), intent(in), value :: t
+    real(c_double), intent(in) :: y(scene%n_states)
     real(c_double), intent(inout) :: rate(scene%n_states)
     type(shear_sums_type), intent(out) :: sums
     real(dp) :: velocity, missing
     integer(ip) :: k, m
     velocity = y(shear_velocity_at(scene))
     sums%n_contact = n_contact
-    call integrate(scene, contact, x, motion, n_contact, d, f, y, missing, sums%stick, sums%backward)
+    call integrate(scene, tau, contact, x, entry, motion, n_contact, d, f, layer, t, y, missing, sums%stick, sums%backward)
     sums%force = contact%force - missing
     rate(shift_at(scene)) = velocity
     rate(shear_velocity_at(scene)) = -shear_factor*scene%chi*sums%force
@@ -181,34 +233,44 @@ contains
   end subroutine shear_rates
 
   !> int_0^A (f - q) dX and the lengths that stick and slip backward.
-  pure subroutine integrate(scene, contact, x, motion, n, d, f, y, missing, stick, backward)
+  pure subroutine integrate(scene, tau, contact, x, entry, motion, n, d, f, layer, t, y, missing, stick, backward)
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(dp), intent(in) :: x(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(dp), intent(in) :: tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes)
+    real(dp), intent(in) :: layer(scene%n_nodes), t, y(scene%n_states)
     integer(ip), intent(in) :: motion(scene%n_nodes), n
     real(dp), intent(out) :: missing, stick, backward
     real(dp) :: m, weight, before
     integer(ip) :: i
+    logical :: held  !! the element before sticks
     missing = 0
     stick = 0
     backward = 0
     before = 0
+    held = .false.
     do i = 1, n
       if (i < n) then
         weight = 0.5_dp*(x(i + 1) - before)
       else
         weight = 0.5_dp*(contact%radius - before)
       end if
-      before = x(i)
       m = shortfall(scene%no_slip, motion(i), d(i), f(i))
       missing = missing + weight*m
       if (m >= 2*f(i) .and. scene%no_slip == 0) then
         backward = backward + weight
+        held = .false.
       else if (m > 0 .or. scene%no_slip /= 0) then
         stick = stick + weight
+        if (held) missing = missing + (x(i) - before)*layer(i)
+        held = .true.
+      else
+        held = .false.
       end if
+      before = x(i)
     end do
-    if (n > 0) missing = missing + 0.5_dp*(contact%radius - x(n))*edge_shortfall(scene, contact, x, y, n, d)
+    if (n == 0) return
+    missing = missing + 0.5_dp*(contact%radius - x(n))*edge_shortfall(scene, contact, x, y, n, d)
+    if (held) missing = missing + (contact%radius - x(n))*edge_layer(scene, tau, entry(n), t, y)
   end subroutine integrate
 
   !> What tells when the motion of each element changes: it falls through 0 then. Of an element that sticks f - |q|, of one

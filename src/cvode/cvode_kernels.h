@@ -34,12 +34,15 @@ void rst_cvode_recovery_modes(int64_t n_terms, int64_t n_modes, double g_inf, do
                               double *from_v);
 void rst_cvode_margins(const struct cvode_scene *scene, const double *g, const double *tau,
                        const struct cvode_contact *contact, const double *x, const double *entry, const double *past,
-                       const double *shift, const double *c, const double *b, const double *start_y,
-                       const double *start_rate, double t, const double *y, int64_t *n_contact, double *d, double *f);
+                       const double *shift, const double *c, const double *b, const double *layer_weight,
+                       const double *start_y, const double *start_rate, double t, const double *y, int64_t *n_contact,
+                       double *d, double *f, double *layer);
 void rst_cvode_shear_rates(const struct cvode_scene *scene, const double *g, const double *tau,
-                           const struct cvode_contact *contact, const double *x, const int64_t *motion,
-                           int64_t n_contact, const double *d, const double *f, const double *y, double *rate,
-                           struct cvode_sums *sums);
+                           const struct cvode_contact *contact, const double *x, const double *entry,
+                           const int64_t *motion, int64_t n_contact, const double *d, const double *f,
+                           const double *layer, double t, const double *y, double *rate, struct cvode_sums *sums);
+void rst_cvode_layer_weights(const struct cvode_scene *scene, const double *tau, const double *entry,
+                             double *layer_weight);
 void rst_cvode_slip_rates(const struct cvode_scene *scene, const int64_t *motion, int64_t n_contact,
                           const double *rate_of, const double *u_of, const double *amplitude, double least_stress,
                           double least_velocity, const double *d, const double *f, double t, const double *y,

@@ -72,9 +72,9 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
                            &run->contact);
     if (!run->shears) return;
     rst_cvode_margins(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->shift, e->c, e->b,
-                      run->start_y, run->start_rate, t, y, &run->inside, e->d, e->f);
-    rst_cvode_shear_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->motion, run->inside, e->d, e->f, y, rate,
-                          &run->sums);
+                      e->layer_weight, run->start_y, run->start_rate, t, y, &run->inside, e->d, e->f, e->layer);
+    rst_cvode_shear_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->motion, run->inside, e->d, e->f,
+                          e->layer, t, y, rate, &run->sums);
 }
 
 /* ------------------------------------------------------------------------------------------------ what CVODE calls */
@@ -163,7 +163,9 @@ static int64_t lay_out(struct run *run, double *block)
     e->shift = take(&place, n);
     e->d = take(&place, n);
     e->f = take(&place, n);
+    e->layer = take(&place, n);
     e->past = take(&place, n * k);
+    e->layer_weight = take(&place, n * k);
     e->c = take(&place, n * k);
     e->b = take(&place, n * k);
     e->amplitude = take(&place, n * m);
@@ -200,6 +202,7 @@ static void place_elements(struct run *run)
         for (int64_t k = 0; k < terms; k++)
             e->past[k * n + i] = i > 0 ? past[k] : 0;
     }
+    rst_cvode_layer_weights(&run->scene, run->setup->solid.tau, e->entry, e->layer_weight);
 }
 
 static int prepare(struct run *run)

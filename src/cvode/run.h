@@ -26,7 +26,7 @@ struct run_setup {
 
 /* Elements: one block of memory. */
 struct elements {
-    double *x, *entry, *past, *shift, *c, *b, *amplitude, *d, *f;
+    double *x, *entry, *past, *shift, *c, *b, *amplitude, *d, *f, *layer, *layer_weight;
     int64_t *motion;
 };
 

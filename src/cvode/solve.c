@@ -7,27 +7,28 @@
 #include "report.h"
 #include "solve.h"
 
-/* A step of CVODE may err by this part of the tolerance; errors of some hundred steps add up. */
-static const double closeness_part = 0.02;
+/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add up to this
+ * many times as much (docs/cvode.md). */
+static const double closeness_part = 2e-3, adding_up = 50;
 
-/* The normal side is also followed this much less closely; errors fall at least as slowly as their bound. */
-static const double looser = 10;
-static const double share_of_change_ez = 0.3;
+/* The normal side is also followed this much less closely; a part of the change is left. */
+static const double looser = 10, share_of_change_ez = 0.3;
 
 /* Rounding in CVODE's predictions. */
 static const double closest = 1e-13;
 
-/* The trapezium rule is of second order: a third of the change from half as many elements is left, and taken off. How much of
- * that third is believed to be left after it is taken off: docs/cvode.md. */
-static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.2, fall_at_least = 1.0 / 8;
+/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left is judged
+ * by how much that result changed from half as many elements, which is never taken for less than a part of the change itself. */
+static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, least_share = 0.01;
 
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
 
 static const int64_t most_elements = 16384;
 
-/* Elements for an error of the order of the tolerance, for its square root; and those of a log where the pair needs none. */
-static const double elements_factor = 0.25;
+/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where the
+ * pair needs none. */
+static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
 /* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation. */
@@ -103,7 +104,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
         *outcome = (struct rst_outcome){
             .velocity = run.sunk ? 0 : run.end_velocity,
             .shear_velocity = run.end_shear_velocity,
-            .error_ez = run.sunk ? 0 : share_of_change_ez * fabs(run.end_velocity - velocity) + 2 * close,
+            .error_ez = run.sunk ? 0 : share_of_change_ez * fabs(run.end_velocity - velocity) + adding_up * close,
             .contact_time = run.sunk ? INFINITY : run.time,
             .followed_time = run.time,
             .max_indentation = run.sunk ? run.depth : run.max_depth,
@@ -134,17 +135,25 @@ static int64_t first_elements(const struct rst_problem *problem)
 {
     if (problem->elements > 0) return problem->elements;
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
-    return (int64_t)fmin(most_elements, fmax(16, 2 * ceil(elements_factor * faster / sqrt(problem->tolerance))));
+    return (int64_t)fmin((double)most_elements,
+                         4 * ceil(0.25 * usual_elements * faster * pow(usual_tolerance / problem->tolerance, usual_power)));
 }
 
-/* What two runs, the second with twice the elements, say of the pair. change_before: of U' between the first and one before; 0: none. */
-static void compare(const struct run_setup *setup, const struct run *coarse, const struct run *fine, double change_before,
-                    int64_t n, double error_ez, struct rst_outcome *outcome)
+/* U' at the end, extrapolated from two runs, the second with twice the elements. */
+static double extrapolated(const struct run *coarse, const struct run *fine)
 {
-    const double change = fine->end_shear_velocity - coarse->end_shear_velocity;
-    const double likely = fmax(fabs(change), fall_at_least * fabs(change_before));
-    outcome->shear_velocity = fine->end_shear_velocity + part_taken_ex * change;
-    outcome->error_ex = share_of_change_ex * likely / setup->psi + error_ez + 4 * setup->closeness;
+    return fine->end_shear_velocity + part_taken_ex * (fine->end_shear_velocity - coarse->end_shear_velocity);
+}
+
+/* What three runs, each with twice the elements of the one before, say of the pair. */
+static void compare(const struct run_setup *setup, const struct run *run, int64_t n, struct rst_outcome *outcome)
+{
+    const struct run *fine = &run[2];
+    const double change = fine->end_shear_velocity - run[1].end_shear_velocity, best = extrapolated(&run[1], fine);
+    const double changed = fabs(best - extrapolated(&run[0], &run[1]));
+    outcome->shear_velocity = best;
+    outcome->error_ex =
+        share_of_change_ex * fmax(changed, least_share * fabs(change)) / setup->psi + outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
@@ -159,34 +168,43 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
                   problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
+/* Runs with a quarter, half and all of the elements. */
+static int start_refining(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory, int64_t n,
+                          struct run *run, restitute_error *error)
+{
+    int status = RESTITUTE_OK;
+    for (int i = 0; i < 3 && !status; i++) {
+        setup->max_updates = problem->max_updates - memory->updates;
+        status = solve_elements(setup, (n + (1 << (2 - i)) - 1) >> (2 - i), memory, NULL, &run[i], error);
+    }
+    return status;
+}
+
 /* Elements are doubled until the pair settles. */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
-    const int told = problem->elements > 0;
-    struct run coarse, fine;
-    double change = 0;
-    int64_t n = first_elements(problem), last = 0;
+    struct run run[3];
+    int64_t n = first_elements(problem);
     if (n > most_elements)
         return report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld", (long long)n,
                       (long long)most_elements);
     setup->radius = outcome->max_contact_radius;
-    int status = solve_elements(setup, (n + 1) / 2, memory, NULL, &coarse, error);
+    int status = start_refining(problem, setup, memory, n, run, error);
     while (!status) {
-        const int64_t before = memory->updates;
-        setup->max_updates = problem->max_updates - before;
-        status = solve_elements(setup, n, memory, NULL, &fine, error);
-        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && last > 0) return too_coarse(problem, outcome, "max_updates", error);
-        if (status) break;
-        compare(setup, &coarse, &fine, change, n, outcome->error_ez, outcome);
+        compare(setup, run, n, outcome);
         outcome->updates = memory->updates;
         if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return report_done(error);
-        if (told || 2 * n > most_elements) return too_coarse(problem, outcome, "elements", error);
-        last = memory->updates - before;
-        if (memory->updates + 3 * last > problem->max_updates) return too_coarse(problem, outcome, "max_updates", error);
-        change = fine.end_shear_velocity - coarse.end_shear_velocity;
-        coarse = fine;
+        if (problem->elements > 0 || 2 * n > most_elements) return too_coarse(problem, outcome, "elements", error);
+        /* twice the elements see twice the events, each looked for over all of them */
+        if (memory->updates + 4 * run[2].updates > problem->max_updates)
+            return too_coarse(problem, outcome, "max_updates", error);
+        run[0] = run[1];
+        run[1] = run[2];
         n *= 2;
+        setup->max_updates = problem->max_updates - memory->updates;
+        status = solve_elements(setup, n, memory, NULL, &run[2], error);
+        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, "max_updates", error);
     }
     return status;
 }
