@@ -18,8 +18,9 @@ static const double looser = 10, share_of_change_ez = 0.3;
 static const double closest = 1e-13;
 
 /* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left is judged
- * by how much that result changed from half as many elements, which is never taken for less than a part of the change itself. */
-static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, least_share = 0.01;
+ * by how much that result changed from half as many elements. A change may be small by chance, so the error of the median impact,
+ * 0.2 max(1, chi)^(3/2) n^(-5/2), is added, and twice that where psi is so small that few elements slip. */
+static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2, thin_slip = 0.1;
 
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
@@ -149,11 +150,10 @@ static double extrapolated(const struct run *coarse, const struct run *fine)
 static void compare(const struct run_setup *setup, const struct run *run, int64_t n, struct rst_outcome *outcome)
 {
     const struct run *fine = &run[2];
-    const double change = fine->end_shear_velocity - run[1].end_shear_velocity, best = extrapolated(&run[1], fine);
-    const double changed = fabs(best - extrapolated(&run[0], &run[1]));
+    const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
+    const double usual = usual_error * (1 + thin_slip / (thin_slip + setup->psi)) * pow(fmax(1, setup->chi), 1.5);
     outcome->shear_velocity = best;
-    outcome->error_ex =
-        share_of_change_ex * fmax(changed, least_share * fabs(change)) / setup->psi + outcome->error_ez;
+    outcome->error_ex = share_of_change_ex * changed / setup->psi + usual * pow((double)n, -2.5) + outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
