@@ -572,6 +572,11 @@ int run_follow(struct run *run, const struct run_setup *setup, struct trace *tra
     return status;
 }
 
+void run_evaluate(struct run *run)
+{
+    evaluate(run, run->time, run->y, run->scratch);
+}
+
 int run_look(struct run *run, double t, const double **y)
 {
     if (integrator_look(run->integrator, t, run->look)) return 1;

@@ -71,6 +71,9 @@ void run_release(struct run *run);
 /* States at a time within the last step, with the contact and, where there are elements, their margins and sums. Nonzero: not there. */
 int run_look(struct run *run, double t, const double **y);
 
+/* The contact, margins and sums of where the run is. */
+void run_evaluate(struct run *run);
+
 /* Velocities of the sphere now. */
 double run_velocity(const struct run *run, const double *y);
 double run_shear_velocity(const struct run *run, const double *y);

@@ -32,8 +32,9 @@ static const int64_t most_elements = 16384;
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
-/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation. */
-static const double stiff = 30;
+/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it is faster than
+ * the other, Adams' formulas would take their steps at the limit of stability, where their error is not estimated any more. */
+static const double stiff = 30, too_stiff = 300;
 
 /* Estimate of the largest indentation: energy balance with the modulus of that age (THEORY 4.4 has the exact motion). It gives
  * scales, on which nothing depends but the work. */
@@ -49,13 +50,19 @@ static double likely_depth(const struct rst_solid *s)
     return depth;
 }
 
-static enum integrator_family family_of(const struct rst_problem *problem, double depth)
+/* The fastest relaxation in a compression. */
+static double stiffness_of(const struct rst_problem *problem, double depth)
 {
     const struct rst_solid *s = &problem->solid;
     double fastest = 3.75 * fmax(1, problem->chi) * s->eta * sqrt(depth);
     for (int64_t k = 0; k < s->n_terms; k++)
         fastest = fmax(fastest, 1 / s->tau[k]);
-    return fastest * depth > stiff ? INTEGRATOR_BDF : INTEGRATOR_ADAMS;
+    return fastest * depth;
+}
+
+static enum integrator_family family_of(const struct rst_problem *problem, double depth)
+{
+    return stiffness_of(problem, depth) > stiff ? INTEGRATOR_BDF : INTEGRATOR_ADAMS;
 }
 
 struct run_setup cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
@@ -256,7 +263,11 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
 {
     struct run_setup setup = cvode_setup(problem, family);
     struct rst_outcome normal;
-    (void)keep_ledger;
+    const double stiffness = stiffness_of(problem, setup.depth);
+    if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
+        return report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                      "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
+                      stiffness, too_stiff);
     memory->work = (restitute_cvode_work){.stiff = setup.family == INTEGRATOR_BDF};
     memory->updates = 0;
     int status = solve_normal(&setup, memory, &normal, error);
@@ -270,6 +281,10 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
         status = without_elements(problem, &normal, outcome, error);
     else
         status = refine(problem, &setup, memory, outcome, error);
+    if (status >= 0 && keep_ledger) {
+        const int kept = cvode_ledger(&setup, memory, outcome, error);
+        if (kept < 0) return kept;
+    }
     if (status < 0 || !memory->wants_log) return status;
     const int logged = log_events(&setup, outcome, memory, error);
     return logged < 0 ? logged : status;

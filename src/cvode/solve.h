@@ -23,4 +23,8 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
 int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
                  const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error);
 
+/* Fill outcome->ledger; the rest of the outcome is known. */
+int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
+                 restitute_error *error);
+
 #endif
