@@ -81,7 +81,9 @@ contains
     call bracket(scene, g, tau, knot, memory, t, y, near)
     call edge_time(scene, g, tau, knot, memory, near, t, y, entered)
     call balance(scene, g, tau, knot, memory, near, t, y, entered, depth, residual, stiffness)
-    contact%square = depth + residual/max(stiffness, tiny(1.0_dp)*1.0e50_dp)
+    ! a solid that has forgotten all it bore lets go at once: not farther than the contact is wide
+    past = residual/max(stiffness, abs(residual)/knot(2, scene%n_knots), tiny(1.0_dp))
+    contact%square = depth + past
     contact%radius = sqrt(max(contact%square, 0.0_dp))
     contact%force = 0
     if (contact%square <= 0) return

@@ -13,7 +13,8 @@
 !>
 !> The integral is taken of f - q, which vanishes where the contact slips forward and, but for a parallel dashpot, at
 !> the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, with the first part exact and the second by the trapezium rule
-!> up to the last element and on to the edge. Of a term that relaxes faster than the edge passes from element to element the
+!> up to the last element and on to the edge; cells in which slip begins
+!> are divided where it does, for the annulus of slip may be thinner than a cell. Of a term that relaxes faster than the edge passes from element to element the
 !> fading memory b is a layer at the edge that the trapezium rule would not see; it is exponential in the time since entry,
 !> so what the rule misses of it in a cell is known: width times b at its younger end times
 !>
@@ -175,22 +176,63 @@ contains
     end if
   end function shortfall
 
-  !> f - q at the edge. There q is that of a dashpot, cut to f; without slip an element leaves with what it has.
-  pure function edge_shortfall(scene, contact, x, y, n, d) result(m)
+  !> Mean of f - q between two elements. Where the inner one sticks and the outer one slips the front between them is where the
+  !> force without slip, linear in X, meets the limit; it moves on while the outer one slips, whose margin is still that of
+  !> the force that it would have had.
+  pure function mean_shortfall(no_slip, motion, motion_out, d, d_out, f, f_out, m) result(mean)
+    integer(ip), intent(in) :: no_slip, motion, motion_out
+    real(dp), intent(in) :: d, d_out, f, f_out, m  !! m: shortfall of the inner one
+    real(dp) :: mean, left, left_out, part, limit
+    left = 2*f - d
+    left_out = 2*f_out - d_out
+    if (no_slip /= 0 .or. motion /= sticks) then
+      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+    else if (motion_out /= slips_backward .and. d > 0 .and. d_out < 0 .and. left > 0) then
+      mean = 0.5_dp*d*d/(d - d_out)
+    else if (motion_out /= slips_forward .and. d > 0 .and. left > 0 .and. left_out < 0) then
+      part = left/(left - left_out)
+      limit = d + part*(d_out - d)
+      mean = 0.5_dp*((d + limit)*part + (limit + 2*f_out)*(1 - part))
+    else
+      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+    end if
+  end function mean_shortfall
+
+  !> int (f - q) dX from the last element, n, to the edge.
+  pure function edge_cell(scene, contact, x, motion, n, d, f, y) result(missing)
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(dp), intent(in) :: x(scene%n_nodes), y(scene%n_states), d(scene%n_nodes)
-    integer(ip), intent(in) :: n
-    real(dp) :: m
-    m = 0
+    integer(ip), intent(in) :: n, motion(scene%n_nodes)
+    real(dp), intent(in) :: x(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(dp) :: missing, width, m, edge
+    width = contact%radius - x(n)
+    m = shortfall(scene%no_slip, motion(n), d(n), f(n))
     if (scene%restitution == 0) then
-      m = scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))
-      if (scene%no_slip == 0) m = max(0.0_dp, min(m, 2*scene%eta*y(state_velocity)))
-    else if (scene%no_slip /= 0) then
-      m = d(n)
-      if (n < scene%n_entered) m = m + (contact%radius - x(n))/(x(n + 1) - x(n))*(d(n + 1) - d(n))
+      edge = scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))  ! of a dashpot, cut to f
+      if (scene%no_slip == 0) edge = max(0.0_dp, min(edge, 2*scene%eta*y(state_velocity)))
+      missing = 0.5_dp*width*(m + edge)
+    else
+      edge = d(n)  ! f = 0, so this is minus the q of an element that does not slip there
+      if (n < scene%n_entered) edge = edge + width/(x(n + 1) - x(n))*(d(n + 1) - d(n))
+      missing = 0.5_dp*width*(m + merge(edge, 0.0_dp, scene%no_slip /= 0))
+      if (scene%no_slip == 0 .and. motion(n) == sticks) missing = width*thin_slip(d(n), f(n), edge)
     end if
-  end function edge_shortfall
+  end function edge_cell
+
+  !> Mean of f - q over a cell on whose inner side an element sticks and at whose outer side f = 0, f and the force without slip
+  !> being linear: an annulus that slips may be thinner than a cell. d, f: inside; edge: minus the force without slip outside.
+  pure function thin_slip(d, f, edge) result(mean)
+    real(dp), intent(in) :: d, f, edge
+    real(dp) :: mean, part, inner
+    inner = max(0.0_dp, min(d, 2*f))
+    if (edge < 0) then  ! slips forward behind this part of the cell: there f = q
+      mean = 0.5_dp*inner*inner/(inner - edge)
+    else                ! slips backward, f - q = 2 f
+      part = 1
+      if (edge > 0) part = (2*f - inner)/(2*f - inner + edge)
+      mean = 0.5_dp*inner*part + f*(1 - part)
+    end if
+  end function thin_slip
 
   !> What the cell between the last element and the edge misses, over its width. At the edge b is the whole memory of the sphere.
   pure function edge_layer(scene, tau, entry, t, y) result(layer)
@@ -255,7 +297,8 @@ contains
         weight = 0.5_dp*(contact%radius - before)
       end if
       m = shortfall(scene%no_slip, motion(i), d(i), f(i))
-      missing = missing + weight*m
+      if (i < n) missing = missing + (x(i + 1) - x(i))*mean_shortfall(scene%no_slip, motion(i), motion(i + 1), d(i), d(i + 1), &
+                                                                     f(i), f(i + 1), m)
       if (m >= 2*f(i) .and. scene%no_slip == 0) then
         backward = backward + weight
         held = .false.
@@ -269,7 +312,7 @@ contains
       before = x(i)
     end do
     if (n == 0) return
-    missing = missing + 0.5_dp*(contact%radius - x(n))*edge_shortfall(scene, contact, x, y, n, d)
+    missing = missing + edge_cell(scene, contact, x, motion, n, d, f, y)
     if (held) missing = missing + (contact%radius - x(n))*edge_layer(scene, tau, entry(n), t, y)
   end subroutine integrate
 

@@ -26,6 +26,10 @@ static const double shift_of_root = 1e-3;
  * error allowed. */
 static const double late_part = 1;
 
+/* The velocity of a sphere that may sink in is followed more closely where it is small: it must not pass through 0 by errors
+ * while it is told from rest_speed. */
+static const double sinking_scale = 0.02;
+
 /* Events that an element may have before it counts as a storm. */
 static const int64_t most_events = 64;
 
@@ -130,7 +134,7 @@ static void call_weights(void *owner, const double *y, double *weight)
     const double close = s->closeness, stress = 1 / (s->depth * sqrt(s->depth));
     const size_t n = (size_t)s->solid.n_terms, shear = position_of_shear(&run->scene);
     weight[0] = 1 / (close * fmax(s->depth, fabs(y[0])));
-    weight[1] = 1 / close;
+    weight[1] = 1 / (close * (s->solid.can_sink ? fmax(sinking_scale, fabs(y[1])) : 1));
     for (size_t k = 0; k < n; k++) {
         weight[2 + k] = 1 / (close * fmax(stress, fabs(y[2 + k])));
         weight[2 + n + k] = 1 / (close * fmax(stress * sqrt(s->depth), fabs(y[2 + n + k])));
