@@ -30,6 +30,9 @@ static const double late_part = 1;
  * while it is told from rest_speed. */
 static const double sinking_scale = 0.02;
 
+/* How many times the error of a step the states may be off (docs/cvode.md). */
+static const double error_margin = 100;
+
 /* Events that an element may have before it counts as a storm. */
 static const int64_t most_events = 64;
 
@@ -98,6 +101,12 @@ static double error_scale(const struct run *run)
     return run->setup->closeness * fmin(1, run->setup->psi);
 }
 
+/* What counts as 0 where something is 0 by construction. */
+static double nearly(const struct run *run)
+{
+    return shift_of_root * error_scale(run);
+}
+
 static void call_roots(void *owner, double t, const double *y, double *value)
 {
     struct run *run = owner;
@@ -113,7 +122,7 @@ static void call_roots(void *owner, double t, const double *y, double *value)
             value[ROOT_EXIT] = run->contact.square - e->x[run->outermost] * e->x[run->outermost];
     }
     if (!run->shears) return;
-    const double least = shift_of_root * error_scale(run);
+    const double least = nearly(run);
     rst_cvode_slip_rates(&run->scene, e->motion, run->inside, run->recovery.rate, run->recovery.u, e->amplitude, least,
                          least, e->d, e->f, t, y, value + ROOTS);
 }
@@ -165,6 +174,7 @@ static int64_t lay_out(struct run *run, double *block)
     e->x = take(&place, n);
     e->entry = take(&place, n);
     e->shift = take(&place, n);
+    e->value = take(&place, n);
     e->d = take(&place, n);
     e->f = take(&place, n);
     e->layer = take(&place, n);
@@ -226,7 +236,8 @@ static int prepare(struct run *run)
     const size_t size = (size_t)lay_out(run, run->doubles), modes = (size_t)run->scene.n_modes;
     run->doubles = calloc(size + 2 * modes * modes, sizeof(double));
     run->elements.motion = calloc((size_t)n + 1, sizeof *run->elements.motion);
-    if (!run->doubles || !run->elements.motion) return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
+    run->elements.change = calloc((size_t)n + 1, sizeof *run->elements.change);
+    if (!run->doubles || !run->elements.motion || !run->elements.change) return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     lay_out(run, run->doubles);
     if (n == 0) {
         trace_begin(run->trace, k);
@@ -265,8 +276,10 @@ void run_release(struct run *run)
     count_work(run);
     free(run->doubles); /* run->y is gone with it */
     free(run->elements.motion);
+    free(run->elements.change);
     run->doubles = NULL;
     run->elements.motion = NULL;
+    run->elements.change = NULL;
 }
 
 /* A new CVODE for the states that there are now. */
@@ -393,16 +406,48 @@ static double suffered(struct run *run, double weight)
     return 3.75 * run->setup->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
 }
 
-/* Elements whose functions fell through 0 change their motion: those that slip first, then those that stick. */
-static int change_motion(struct run *run, const int *fell, int *restart)
+/* The functions of the elements, of the margins last computed. */
+static void watch(struct run *run)
+{
+    const struct elements *e = &run->elements;
+    rst_cvode_slip_rates(&run->scene, e->motion, run->inside, run->recovery.rate, run->recovery.u, e->amplitude, 0, 0, e->d,
+                         e->f, run->time, run->y, e->value);
+}
+
+/* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if the slip
+ * has come to its end: CVODE did not watch them. */
+static void find_changes(struct run *run, int64_t first, const int *fell)
+{
+    const struct elements *e = &run->elements;
+    watch(run);
+    for (int64_t i = 0; i < run->inside; i++)
+        e->change[i] = fell[i] || (i >= first && e->motion[i] != RST_ELEMENT_STICKS && e->value[i] <= nearly(run));
+}
+
+/* At the end of a step those that are past their change by more than errors can explain: they entered and changed within it. */
+static int find_late(struct run *run)
+{
+    const struct elements *e = &run->elements;
+    const double depth = run->setup->depth, velocity = error_margin * error_scale(run);
+    const double stress = error_margin * run->setup->closeness / (depth * sqrt(depth));
+    int late = 0;
+    watch(run);
+    for (int64_t i = 0; i < run->inside; i++) {
+        e->change[i] = e->value[i] < -(e->motion[i] == RST_ELEMENT_STICKS ? stress : velocity);
+        late |= e->change[i];
+    }
+    return late;
+}
+
+/* Elements that are to change their motion do so. */
+static int change_motion(struct run *run, int *restart)
 {
     const struct elements *e = &run->elements;
     const struct rst_solid *s = &run->setup->solid;
     int slipping = 0, sticking = 0, status = RESTITUTE_OK;
     double slip_at = 0, stick_at = 0, weight = 0;
-    evaluate(run, run->time, run->y, run->scratch);
     for (int64_t i = 0; i < run->inside; i++) {
-        if (!fell[i]) continue;
+        if (!e->change[i]) continue;
         if (e->motion[i] == RST_ELEMENT_STICKS) {
             rst_cvode_begin_slip(&run->scene, s->g, e->x, i + 1, e->d, e->f, run->recovery.from_u, run->recovery.from_v,
                                  e->shift, e->c, e->b, run->y, e->motion, e->amplitude);
@@ -443,7 +488,7 @@ static int turn(struct run *run)
     return status ? status : restart(run);
 }
 
-static int react(struct run *run)
+static int react(struct run *run, int64_t first)
 {
     const int *fell = integrator_events(run->integrator);
     int status = RESTITUTE_OK, again = 0;
@@ -457,7 +502,8 @@ static int react(struct run *run)
         run->outermost--;
     }
     if (run->shears && !status) {
-        status = change_motion(run, fell + ROOTS, &again);
+        find_changes(run, first, fell + ROOTS);
+        status = change_motion(run, &again);
         if (!status && again && !fell[ROOT_PHASE]) return restart(run);
     }
     if (status) return status;
@@ -516,18 +562,29 @@ static void keep_largest(struct run *run)
     run->max_force = fmax(run->max_force, run->contact.force);
 }
 
+/* A step without an event, or behind its last one. */
+static int end_step(struct run *run)
+{
+    int status = RESTITUTE_OK, again = 0;
+    begin_step(run);
+    if (!run->shears || run->scene.no_slip || !find_late(run)) return status;
+    status = change_motion(run, &again);
+    begin_step(run);
+    return status;
+}
+
 /* One return of CVODE. */
 static int advance(struct run *run)
 {
     const double from = run->time;
+    const int64_t first = run->scene.n_entered;
     const enum integrator_return what = integrator_advance(run->integrator, &run->time, run->y);
     if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, integrator_text(run->integrator));
     if (run->shears && admit(run, run->time)) return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
     int status = run->setup->n_nodes == 0 && !run->scene.restitution ? extend_trace(run, from) : RESTITUTE_OK;
     if (status) return status;
     if (run->observe) run->observe(run, from, run->time);
-    if (what == INTEGRATOR_EVENT) status = react(run);
-    else begin_step(run);
+    status = what == INTEGRATOR_EVENT ? react(run, first) : end_step(run);
     keep_largest(run);
     return status;
 }

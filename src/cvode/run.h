@@ -26,8 +26,9 @@ struct run_setup {
 
 /* Elements: one block of memory. */
 struct elements {
-    double *x, *entry, *past, *shift, *c, *b, *amplitude, *d, *f, *layer, *layer_weight;
+    double *x, *entry, *past, *shift, *c, *b, *amplitude, *d, *f, *value, *layer, *layer_weight;
     int64_t *motion;
+    int *change; /* elements that are to change their motion now */
 };
 
 /* Modes in which a slipping element recovers. */
