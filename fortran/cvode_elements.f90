@@ -26,7 +26,7 @@ module rst_cvode_elements
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: layer_weights, margins, shear_rates, slip_rates, fade, enter_element, begin_slip, begin_stick
+  public :: layer_weights, margins, force_by_rule, shear_rates, slip_rates, fade, enter_element, begin_slip, begin_stick
 
   !> What an element does; twin of `enum cvode_motion`.
   integer(ip), parameter :: sticks = 0, slips_forward = 1, slips_backward = -1
@@ -246,6 +246,41 @@ contains
       layer = layer + missed(max(t - entry, 0.0_dp)/tau(k))*(y(memory_at(k)) - y(shear_memory_at(scene, k)))
     end do
   end function edge_layer
+
+  !> int_0^A f dX by the same rule as the shortfall. Where nearly all sticks and q is small beside f, the difference of the exact
+  !> force and a shortfall by the rule would be mostly the error of the rule.
+  subroutine force_by_rule(scene, tau, contact, x, entry, past, c, layer_weight, n, f, t, y, force) &
+    bind(c, name="rst_cvode_force_by_rule")
+    type(scene_type), intent(in) :: scene
+    type(contact_type), intent(in) :: contact
+    real(c_double), intent(in) :: tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
+    real(c_double), intent(in) :: past(scene%n_nodes, scene%n_terms), c(scene%n_nodes, scene%n_terms)
+    real(c_double), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
+    integer(c_int64_t), intent(in), value :: n
+    real(c_double), intent(in) :: f(scene%n_nodes), y(scene%n_states)
+    real(c_double), intent(in), value :: t
+    real(c_double), intent(out) :: force
+    real(dp) :: width, faded
+    integer(ip) :: i, k
+    force = 0
+    if (n == 0) return
+    do i = 2, n
+      force = force + 0.5_dp*(x(i) - x(i - 1))*(f(i - 1) + f(i))
+    end do
+    width = contact%radius - x(n)
+    force = force + 0.5_dp*width*f(n)
+    if (scene%restitution == 0) force = force + 0.5_dp*width*scene%eta*y(state_velocity)
+    do k = 1, scene%n_terms
+      faded = exp(-(t - scene%reference)/tau(k))
+      do i = 2, min(n, scene%n_entered)
+        force = force + (x(i) - x(i - 1))*layer_weight(i, k)*faded*c(i, k)
+      end do
+      do i = max(2_ip, scene%n_entered + 1), n
+        force = force + (x(i) - x(i - 1))*layer_weight(i, k)*exp(-max(t - entry(i), 0.0_dp)/tau(k))*past(i, k)
+      end do
+      if (scene%restitution == 0) force = force + width*missed(max(t - entry(n), 0.0_dp)/tau(k))*y(memory_at(k))
+    end do
+  end subroutine force_by_rule
 
   !> The tangential rates from the margins.
   subroutine shear_rates(scene, g, tau, contact, x, entry, motion, n_contact, d, f, layer, t, y, rate, sums) &

@@ -41,6 +41,10 @@ void rst_cvode_shear_rates(const struct cvode_scene *scene, const double *g, con
                            const struct cvode_contact *contact, const double *x, const double *entry,
                            const int64_t *motion, int64_t n_contact, const double *d, const double *f,
                            const double *layer, double t, const double *y, double *rate, struct cvode_sums *sums);
+void rst_cvode_force_by_rule(const struct cvode_scene *scene, const double *tau, const struct cvode_contact *contact,
+                             const double *x, const double *entry, const double *past, const double *c,
+                             const double *layer_weight, int64_t n_contact, const double *f, double t, const double *y,
+                             double *force);
 void rst_cvode_layer_weights(const struct cvode_scene *scene, const double *tau, const double *entry,
                              double *layer_weight);
 void rst_cvode_slip_rates(const struct cvode_scene *scene, const int64_t *motion, int64_t n_contact,

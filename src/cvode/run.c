@@ -30,6 +30,9 @@ static const double late_part = 1;
  * while it is told from rest_speed. */
 static const double sinking_scale = 0.02;
 
+/* Below this psi tangential stresses are small beside the normal ones almost everywhere. */
+static const double mostly_sticks = 0.2;
+
 /* How many times the error of a step the states may be off (docs/cvode.md). */
 static const double error_margin = 100;
 
@@ -80,7 +83,11 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
     if (!run->shears) return;
     rst_cvode_margins(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->shift, e->c, e->b,
                       e->layer_weight, run->start_y, run->start_rate, t, y, &run->inside, e->d, e->f, e->layer);
-    rst_cvode_shear_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->motion, run->inside, e->d, e->f,
+    struct cvode_contact contact = run->contact;
+    if (run->setup->psi < mostly_sticks || run->scene.no_slip)
+        rst_cvode_force_by_rule(&run->scene, s->tau, &run->contact, e->x, e->entry, e->past, e->c, e->layer_weight,
+                                run->inside, e->f, t, y, &contact.force);
+    rst_cvode_shear_rates(&run->scene, s->g, s->tau, &contact, e->x, e->entry, e->motion, run->inside, e->d, e->f,
                           e->layer, t, y, rate, &run->sums);
 }
 
