@@ -19,10 +19,8 @@ static const double closest = 1e-13;
 
 /* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left is judged
  * by how much that result changed from half as many elements. A change may be small by chance, so the error of the median impact,
- * 0.2 max(1, chi)^(3/2) n^(-5/2), is added, and where psi is small, so that the annulus of slip is thinner than a cell for
- * most of the time, 0.8 n^-2. */
+ * 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
-static const double thin_error = 0.8, thin_slip = 0.02;
 
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
@@ -160,11 +158,9 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
 {
     const struct run *fine = &run[2];
     const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
-    const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) / sqrt((double)n);
-    const double thin = setup->mode == RST_NO_SLIP ? 0 : thin_error * thin_slip / (thin_slip + setup->psi);
+    const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) * pow((double)n, -2.5);
     outcome->shear_velocity = best;
-    outcome->error_ex =
-        share_of_change_ex * changed / setup->psi + (usual + thin) / ((double)n * (double)n) + outcome->error_ez;
+    outcome->error_ex = share_of_change_ex * changed / setup->psi + usual + outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
