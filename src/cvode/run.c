@@ -592,6 +592,7 @@ static int advance(struct run *run)
     if (status) return status;
     if (run->observe) run->observe(run, from, run->time);
     status = what == INTEGRATOR_EVENT ? react(run, first) : end_step(run);
+    if (run->observe && what == INTEGRATOR_EVENT && !status) run->observe(run, run->time, run->time);
     keep_largest(run);
     return status;
 }

@@ -40,7 +40,8 @@ struct run {
     const struct run_setup *setup;
     struct trace *trace;   /* of the compression: written by a run without elements, read by all */
     struct event_log *log; /* NULL: not wanted */
-    void (*observe)(struct run *run, double from, double to); /* after each step or part of one; NULL: nobody looks */
+    void (*observe)(struct run *run, double from, double to); /* after each part of a step, and once more after an
+                                                                 event, from where to where it was; NULL: nobody looks */
     void *observer;
 
     struct cvode_scene scene;
