@@ -90,7 +90,7 @@ static void add_gross_slip(const struct run_setup *setup, double end, struct eul
 static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
 {
     struct euler_ledger *ledger = &outcome->ledger;
-    const double chi = setup->chi, psi = setup->psi;
+    const double chi = setup->chi, psi = setup->psi * setup->shear_scale;
     *ledger = (struct euler_ledger){.viscous_z = 1};
     if (setup->mode == RST_FRICTIONLESS) return;
     if (setup->mode == RST_GROSS_SLIP)
@@ -121,6 +121,10 @@ int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, str
     keeper.before_x = keeper.before_z + all.n_nodes;
     const int status = run_follow(&run, &all, &memory->trace, NULL);
     add_gross_slip(&all, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
+    const double scale = setup->shear_scale * setup->shear_scale; /* of energies */
+    keeper.ledger.friction_x *= scale;
+    keeper.ledger.viscous_x *= scale;
+    keeper.ledger.left_x *= scale;
     if (status == RESTITUTE_OK) outcome->ledger = keeper.ledger;
     run_release(&run);
     free(keeper.held_z);

@@ -21,7 +21,8 @@ static void keep(struct run *run, double t, const double *y)
                                                              .contact_radius = run->contact.radius,
                                                              .stick_radius = run_stick_radius(run),
                                                              .normal_force = 15.0 / 8 * run->contact.force,
-                                                             .shear_force = 15.0 / 8 * force,
+                                                             .shear_force =
+                                                                 15.0 / 8 * force * run->setup->shear_scale,
                                                              .velocity = run_velocity(run, y),
                                                              .shear_velocity =
                                                                  run_shear_velocity(run, y) / recorder->psi};
@@ -44,7 +45,7 @@ int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
                  const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
 {
     struct run_setup setup = cvode_setup(problem, family);
-    struct recorder recorder = {.history = history, .psi = problem->psi};
+    struct recorder recorder = {.history = history, .psi = setup.psi};
     struct run run = {.observe = sample, .observer = &recorder};
     const double *y;
     recorder.end = outcome->followed_time;

@@ -14,6 +14,7 @@ struct run_setup {
     double chi, psi;
     struct rst_solid solid;
     enum rst_mode mode;
+    double shear_scale;  /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
     int64_t n_nodes;     /* elements; 0: the normal side alone */
     double closeness;    /* relative error of a step */
     double depth;        /* scale of the depth */

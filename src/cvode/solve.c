@@ -22,6 +22,10 @@ static const double closest = 1e-13;
  * 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
+/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a small part of the
+ * tolerance. */
+static const double change_by_slip = 2, negligible_part = 0.05;
+
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
 
@@ -68,10 +72,13 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
 struct run_setup cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
 {
     const double depth = likely_depth(&problem->solid);
+    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
+                       change_by_slip * problem->psi < negligible_part * problem->tolerance;
     return (struct run_setup){.chi = problem->chi,
-                              .psi = problem->psi,
+                              .psi = strong ? 1 : problem->psi,
+                              .shear_scale = strong ? problem->psi : 1,
                               .solid = problem->solid,
-                              .mode = problem->mode,
+                              .mode = strong ? RST_NO_SLIP : problem->mode,
                               .closeness = fmax(closest, closeness_part * problem->tolerance),
                               .depth = depth,
                               .rebound = NAN,
@@ -159,8 +166,9 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
     const struct run *fine = &run[2];
     const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
     const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) * pow((double)n, -2.5);
-    outcome->shear_velocity = best;
+    outcome->shear_velocity = setup->shear_scale * best;
     outcome->error_ex = share_of_change_ex * changed / setup->psi + usual + outcome->error_ez;
+    if (setup->shear_scale < 1) outcome->error_ex += change_by_slip * setup->shear_scale;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
@@ -230,8 +238,8 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
                   problem->tolerance, outcome->error_ez, outcome->error_ex);
 }
 
-/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too; with 2 chi <= 1, rotation being blocked,
- * it slides slower and slower without a closed form: its velocity is between nothing and that of the sphere, 2 chi D'... */
+/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
+ * it slides slower and slower without a closed form. */
 static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
 {
     const int slides = problem->mode == RST_FRICTIONLESS ||
@@ -254,8 +262,11 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.rebound = -outcome->velocity;
     all.max_updates = INT64_MAX;
     memory->log.count = 0;
-    return solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, &memory->log, &run,
-                          error);
+    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, &memory->log,
+                                      &run, error);
+    for (size_t i = 0; i < memory->log.count; i++)
+        memory->log.event[i].tangential_velocity *= setup->shear_scale;
+    return status;
 }
 
 int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
