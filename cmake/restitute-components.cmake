@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_TABLE, RESTITUTE_WITH_TABLE_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
+# Sets RESTITUTE_WITH_<part> for each of RESTITUTE_PARTS.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -34,7 +34,8 @@ function(restitute_decide option title result)
   endif()
 endfunction()
 
-foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_TABLE RESTITUTE_TABLE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
+foreach(part IN LISTS RESTITUTE_PARTS)
+  set(option RESTITUTE_${part})
   if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
     message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
   endif()
@@ -70,6 +71,17 @@ restitute_decide(RESTITUTE_TABLE_FILES "the component table_files" RESTITUTE_WIT
                  RESTITUTE_WITH_TABLE "the component table (RESTITUTE_TABLE)" #
                  HDF5_FOUND "HDF5 (Debian: libhdf5-dev, found by pkg-config)")
 
+# Only the version is looked at here: from 6.4 on the interface is the same but for what src/cvode/integrator.c knows.
+if(RESTITUTE_CVODE)
+  find_package(SUNDIALS QUIET COMPONENTS cvode nvecserial)
+  set(RESTITUTE_SUNDIALS_FITS OFF)
+  if(SUNDIALS_FOUND AND SUNDIALS_VERSION VERSION_GREATER_EQUAL 6.4 AND SUNDIALS_VERSION VERSION_LESS 8)
+    set(RESTITUTE_SUNDIALS_FITS ON)
+  endif()
+endif()
+restitute_decide(RESTITUTE_CVODE "the component cvode" RESTITUTE_WITH_CVODE #
+                 RESTITUTE_SUNDIALS_FITS "SUNDIALS 6.4 to 7 (Debian: libsundials-dev)")
+
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
 endif()
@@ -94,7 +106,9 @@ if(RESTITUTE_TESTS)
   endif()
 endif()
 
-message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
-               "component table ${RESTITUTE_WITH_TABLE}, component table_files ${RESTITUTE_WITH_TABLE_FILES}, "
-               "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, OpenMP ${RESTITUTE_WITH_OPENMP}, "
-               "tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")
+set(summary "restitute ${PROJECT_VERSION}:")
+foreach(part IN LISTS RESTITUTE_PARTS)
+  string(TOLOWER "${part}" name)
+  string(APPEND summary " ${name} ${RESTITUTE_WITH_${part}},")
+endforeach()
+message(STATUS "${summary} tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

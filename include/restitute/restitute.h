@@ -255,7 +255,7 @@ typedef struct restitute_options {
     const restitute_method *method; /**< default @ref restitute_method_euler */
     double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default 1e-3 */
     int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0 (default): chosen. `sync` takes
-                                       up to 32768, rounded up to a multiple of 4, and not less than 8 */
+                                       up to 32768, rounded up to a multiple of 4, and not less than 8; `cvode` up to 16384 */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), > 0; 0 (default):
                                        chosen. A step that cannot be stable is refused with the largest that is */
     int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,

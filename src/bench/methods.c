@@ -4,12 +4,19 @@
 
 #include <string.h>
 
+#ifdef RESTITUTE_WITH_CVODE
+#include <restitute/cvode.h>
+#endif
+
 const struct bench_method bench_methods[BENCH_METHODS] = {
     {.name = "euler", .handle = restitute_method_euler, .takes_time_step = 1, .finest = 1e-5, .fine = 1e-4},
     {.name = "sync", .handle = restitute_method_sync, .finest = 1e-8, .fine = 1e-8},
     {.name = "paper-euler", .motion = PAPER_EULER, .takes_time_step = 1},
     {.name = "paper-verlet", .motion = PAPER_VERLET, .takes_time_step = 1},
     {.name = "paper-forward", .motion = PAPER_FORWARD, .takes_time_step = 1},
+#ifdef RESTITUTE_WITH_CVODE
+    {.name = "cvode", .handle = restitute_method_cvode},
+#endif
 };
 
 const struct bench_method *bench_reference_method(void)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "timing.h"
+#include "work.h"
 
 /* Work longer than this (s) is timed once. */
 static const double long_work = 0.05;
@@ -97,6 +98,7 @@ static int run_library(const struct bench_plan *plan, const struct bench_scene *
     options.max_updates = (int64_t)fmax(1, plan->budget * updates_per_second);
     if (restitute_solver_create(&options, &work.solver, NULL)) return 1;
     const struct bench_time time = bench_time_work(solve_by_library, &work, long_work);
+    if (work.status >= 0) bench_read_work(work.solver, run);
     restitute_solver_destroy(work.solver);
     run->seconds = time.seconds;
     run->repeats = time.repeats;

@@ -29,6 +29,7 @@ struct bench_run {
     double estimate;                   /* larger of the two; NaN if the method makes none */
     int status;
     int64_t elements, steps, updates;
+    int64_t restarts, events; /* of the method cvode, with all its steps; 0: it has none */
 };
 
 struct bench_runs {

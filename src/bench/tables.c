@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "work.h"
+
 enum { most_summaries = 128 };
 
 /* Text of a status for a cell: nothing for OK. */
@@ -42,7 +44,7 @@ static void write_whole(FILE *stream, int64_t value, char after)
 void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *stream)
 {
     fputs("set,scene,chi,psi,delta1,gamma,method,tolerance,resolution,seconds,repeats,ez,ex,error_ez,error_ex,estimate,"
-          "reference_error,reference,elements,steps,updates,status\n",
+          "reference_error,reference,elements,steps,updates,restarts,events,status\n",
           stream);
     for (size_t i = 0; i < runs->count; i++) {
         const struct bench_run *r = &runs->runs[i];
@@ -63,6 +65,8 @@ void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs
         write_whole(stream, r->elements, ',');
         write_whole(stream, r->steps, ',');
         write_whole(stream, r->updates, ',');
+        write_whole(stream, r->restarts, ',');
+        write_whole(stream, r->events, ',');
         write_text(stream, status_cell(r->status), '\n');
     }
 }
@@ -156,6 +160,7 @@ void bench_print_precision(const struct bench_scenes *scenes, const struct bench
                            FILE *stream)
 {
     print_summary(scenes, runs, stream);
+    bench_print_work(runs, methods, stream);
     fputs("\nTime for a verified error, standard solids, 0 < psi < psi_c; ratio: paper-euler's time at that error\n"
           "method           error  reached    us median      ratio  extrapolated\n",
           stream);

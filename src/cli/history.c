@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "events.h"
 #include "figure.h"
 #include "output.h"
 #include "provenance.h"
@@ -71,14 +72,15 @@ static bool check_options(const struct settings *settings, struct reason *why)
 }
 
 static bool solve(const struct settings *settings, const struct problem *problem, restitute_history *history,
-                  int *status, struct reason *why)
+                  struct event_table *events, int *status, struct reason *why)
 {
     restitute_solver *solver;
     restitute_result result;
     restitute_error error;
     restitute_result_init(&result);
     if (restitute_solver_create(&settings->solver, &solver, &error) < 0) return refuse(why, "%s", error.message);
-    *status = problem_solve(solver, problem, &result, NULL, history, &error);
+    *status = settings->text[TEXT_EVENTS] ? events_solve(solver, problem, &result, history, events, &error)
+                                          : problem_solve(solver, problem, &result, NULL, history, &error);
     restitute_solver_destroy(solver);
     if (*status < 0) return refuse(why, "%s", error.message);
     if (*status != RESTITUTE_OK) complain("remark: %s", restitute_status_text(*status));
@@ -86,8 +88,10 @@ static bool solve(const struct settings *settings, const struct problem *problem
 }
 
 static bool write_result(const struct settings *settings, const struct problem *problem, struct materials *materials,
-                         const restitute_history *history, int status, struct reason *why)
+                         const restitute_history *history, const struct event_table *events, int status,
+                         struct reason *why)
 {
+    const char *events_path = settings->text[TEXT_EVENTS];
     const char *path = settings->text[TEXT_OUTPUT], *figure = settings->text[TEXT_FIGURE];
     struct output output;
     if (!provenance_write_beside(path, make_record(settings, materials, problem->physical, status), why) ||
@@ -95,21 +99,26 @@ static bool write_result(const struct settings *settings, const struct problem *
         return false;
     write_rows(output.stream, history, problem->physical);
     if (!output_finish(&output, why)) return false;
+    if (events_path && !events_write(events_path, events, problem->physical, why)) return false;
     return !figure || figure_of_history(figure, settings, problem, history, why);
 }
 
-int history_run(const struct settings *settings)
+int history_run(const struct settings *given)
 {
+    struct settings chosen = *given;
+    const struct settings *settings = &chosen;
+    struct event_table events = {0};
     struct materials materials = {NULL, NULL};
     struct problem problem;
     struct reason why;
     restitute_history history;
     int status = RESTITUTE_OK;
     allocate_history(settings->samples, &history);
-    const bool done = check_options(settings, &why) &&
+    const bool done = check_options(settings, &why) && events_check(&chosen, &why) &&
                       problem_build(&settings->values, NAME_OPTIONS, &materials, &problem, &why) &&
-                      solve(settings, &problem, &history, &status, &why) &&
-                      write_result(settings, &problem, &materials, &history, status, &why);
+                      solve(settings, &problem, &history, &events, &status, &why) &&
+                      write_result(settings, &problem, &materials, &history, &events, status, &why);
+    events_release(&events);
     free(history.time);
     materials_release(&materials);
     return done ? EXIT_DONE : complain("%s", why.text);

@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef RESTITUTE_WITH_CVODE
+#include <restitute/cvode.h>
+#endif
 #include <restitute/files.h>
 
 #include "output.h"
@@ -47,6 +50,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_DISPLACEMENT_LIMIT] = "displacement-limit",
     [TEXT_DUNDURS_LIMIT] = "dundurs-limit",
     [TEXT_THREADS] = "threads",
+    [TEXT_EVENTS] = "events",
 };
 
 static struct poptOption more_scene_options[] = {
@@ -60,7 +64,8 @@ static struct poptOption more_scene_options[] = {
 
 static struct poptOption solution_options[] = {
     ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME",
-          "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3"),
+          "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
+          "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode)"),
     ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
     ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
@@ -94,6 +99,8 @@ static struct poptOption history_output_options[] = {
     ENTRY("samples", CODE_TEXT + TEXT_SAMPLES, "N",
           "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
     ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
+    ENTRY("events", CODE_TEXT + TEXT_EVENTS, "FILE",
+          "write the log of events here, as CSV, or as HDF5 if the name ends in .h5; takes the method cvode"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
     FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND};
 
@@ -222,13 +229,21 @@ static bool read_solver(struct settings *settings, struct reason *why)
 }
 
 /* The methods of this build, the default first. */
-static const restitute_method *(*const methods[])(void) = {restitute_method_euler, restitute_method_sync};
+static const restitute_method *(*const methods[])(void) = {
+    restitute_method_euler,
+    restitute_method_sync,
+#ifdef RESTITUTE_WITH_CVODE
+    restitute_method_cvode,
+    restitute_method_cvode_bdf,
+    restitute_method_cvode_adams,
+#endif
+};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static bool read_method(struct settings *settings, struct reason *why)
 {
     const char *text = settings->text[TEXT_METHOD];
-    char names[64] = "";
+    char names[96] = "";
     if (!text) return true;
     for (int i = 0; i < METHODS; i++) {
         const char *name = restitute_method_name(methods[i]());
@@ -238,6 +253,11 @@ static bool read_method(struct settings *settings, struct reason *why)
         }
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", name);
     }
+#ifndef RESTITUTE_WITH_CVODE
+    if (strncmp(text, "cvode", strlen("cvode")) == 0)
+        return refuse(why, "--method = \"%.64s\": the component cvode is not in this build (SUNDIALS; Debian: "
+                           "libsundials-dev); must be among %s", text, names);
+#endif
     return refuse(why, "--method = \"%.64s\": is not in this build; must be among %s", text, names);
 }
 
@@ -318,6 +338,7 @@ bool settings_spare_inputs(const struct settings *settings, struct reason *why)
     const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material, settings->values.partner};
     for (int i = 0; i < 3; i++)
         if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
+            !output_spares(settings->text[TEXT_EVENTS], "--events", inputs[i], why) ||
             !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why))
             return false;
     return true;

@@ -114,6 +114,16 @@ void restitute_solver_destroy(restitute_solver *solver)
     free(solver);
 }
 
+const struct restitute_method *restitute_private_method(const restitute_solver *solver)
+{
+    return solver->options.method;
+}
+
+struct rst_workspace *restitute_private_workspace(restitute_solver *solver)
+{
+    return &solver->workspace;
+}
+
 /* What merging did to a problem. */
 struct merged {
     int64_t terms;

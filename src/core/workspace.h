@@ -16,6 +16,8 @@ struct rst_workspace {
     double *levels; /* the same, kept while room for elements grows */
     size_t levels_size;
     sync_loop *loop; /* of the method sync, the widest that this processor has */
+    void *own;       /* what a method of another component keeps from call to call; released with the solver */
+    void (*release_own)(void *own);
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */

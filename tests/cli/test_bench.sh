@@ -9,11 +9,11 @@ expect 0 bench --quick --budget 60 --output report
 has out 'paper-euler' 'Time for a verified error'
 has report-runs.csv.meta.json '"version"' '"command"' '"tolerances"' '"paper-verlet"'
 [ "$(head -1 report-runs.csv)" = "set,scene,chi,psi,delta1,gamma,method,tolerance,resolution,seconds,repeats,ez,ex,\
-error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,status" ] || fail "columns of the runs"
+error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,restarts,events,status" ] || fail "columns of the runs"
 [ -s report-speed.csv ] && [ -s report-summary.csv ] || fail "a table is missing"
 
 # Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it promises at 1e-3.
-awk -F, 'NR > 1 { if (NF != 22 || !($10 > 0) || $12 < -1e-6 || $12 > 1 + 1e-6 || $14 < 0 || $15 < 0) { print; exit 1 } }
+awk -F, 'NR > 1 { if (NF != 24 || !($10 > 0) || $12 < -1e-6 || $12 > 1 + 1e-6 || $14 < 0 || $15 < 0) { print; exit 1 } }
     $7 == "euler" && $8 == 0.001 && ($14 > 0.001 || $15 > 0.001) { print; exit 1 }
     END { exit NR < 50 }' report-runs.csv >bad || fail "a run: $(cat bad)"
 for set in truth stiff prony all; do

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_TABLE WITH_TABLE_FILES WITH_FORTRAN WITH_OPENMP SANITIZED
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CVODE TABLE TABLE_FILES FORTRAN OPENMP
 # The working directory is used up.
 set -eu
 
@@ -33,7 +33,9 @@ else
     installed_from=$work/other
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
-        -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
+        -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
+        -DRESTITUTE_CVODE="$WITH_CVODE" \
+        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
@@ -47,6 +49,7 @@ components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"
 [ "$WITH_TABLE" = OFF ] || components="$components;table"
 [ "$WITH_TABLE_FILES" = OFF ] || components="$components;table_files"
+[ "$WITH_CVODE" = OFF ] || components="$components;cvode"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
@@ -59,6 +62,7 @@ if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
         --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
     user/consumer_table_files user/table.h5
 fi
+[ "$WITH_CVODE" = OFF ] || user/consumer_cvode
 
 echo "== find_package without components takes all that are installed"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -120,6 +124,12 @@ if [ "$WITH_FORTRAN" != OFF ]; then
     "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \
         $(pkg-config --cflags --libs $static restitute-fortran)
     user/fortran_by_pkg_config
+fi
+if [ "$WITH_CVODE" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$CC" -o user/cvode_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_cvode.c" \
+        $(pkg-config --cflags --libs $static restitute-cvode)
+    user/cvode_by_pkg_config
 fi
 if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046

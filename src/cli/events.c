@@ -1,0 +1,141 @@
+/* The event log as CSV, and where it comes from.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "events.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef RESTITUTE_WITH_CVODE
+#include <restitute/cvode.h>
+#endif
+
+#include "events_hdf5.h"
+#include "output.h"
+
+static const struct {
+    const char *physical, *physical_unit, *dimensionless, *dimensionless_unit;
+} columns[EVENT_COLUMNS] = {
+    [EVENT_TIME] = {"time_s", "s", "time_T", "T"},
+    [EVENT_KIND] = {"event", "", "event", ""},
+    [EVENT_POSITION] = {"position_m", "m", "position_a_el", "a_el"},
+    [EVENT_INDENTATION] = {"indentation_m", "m", "indentation_d0", "d0"},
+    [EVENT_NORMAL_VELOCITY] = {"normal_velocity_m_s", "m/s", "normal_velocity_v0", "v0 = v_z0"},
+    [EVENT_TANGENTIAL_VELOCITY] = {"tangential_velocity_m_s", "m/s", "tangential_velocity_V0",
+                                   "V0 = friction v_z0 (2-nu)/(2-2nu)"},
+    [EVENT_ELEMENTS] = {"elements", "1", "elements", "1"},
+};
+
+const char *event_column_name(int column, bool physical)
+{
+    return physical ? columns[column].physical : columns[column].dimensionless;
+}
+
+const char *event_column_unit(int column, bool physical)
+{
+    return physical ? columns[column].physical_unit : columns[column].dimensionless_unit;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), wanted = strlen(end);
+    return length >= wanted && strcmp(text + length - wanted, end) == 0;
+}
+
+static bool is_hdf5(const char *path)
+{
+    return ends_with(path, ".h5") || ends_with(path, ".hdf5");
+}
+
+#ifdef RESTITUTE_WITH_CVODE
+bool events_check(struct settings *settings, struct reason *why)
+{
+    const char *path = settings->text[TEXT_EVENTS], *method = restitute_method_name(settings->solver.method);
+    if (!path) return true;
+    if (!settings->text[TEXT_METHOD])
+        settings->solver.method = restitute_method_cvode();
+    else if (strncmp(method, "cvode", strlen("cvode")) != 0)
+        return refuse(why, "--events: the method %s logs none; must be cvode, cvode-bdf or cvode-adams", method);
+    if (is_hdf5(path) && !events_hdf5_built())
+        return refuse(why, "--events = \"%.64s\": HDF5 is not in this build (Debian: libhdf5-dev); take a .csv", path);
+    return output_check(path, "--events", why);
+}
+
+static int solve_into(restitute_solver *solver, const struct problem *problem, restitute_result *result,
+                      restitute_history *history, restitute_cvode_events *events, restitute_error *error)
+{
+    return problem->physical ? restitute_cvode_solve_scene(solver, &problem->scene, result, NULL, history, events, error)
+                             : restitute_cvode_solve(solver, &problem->impact, result, NULL, history, events, error);
+}
+
+int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
+                 restitute_history *history, struct event_table *table, restitute_error *error)
+{
+    restitute_cvode_events events;
+    restitute_cvode_events_init(&events);
+    int status;
+    do { /* the number is known after the first time */
+        free(events.event);
+        events.capacity = events.count ? events.count : 4096;
+        events.event = allocate(events.capacity, sizeof *events.event);
+        status = solve_into(solver, problem, result, history, &events, error);
+    } while (status >= 0 && events.count > events.capacity);
+    const size_t n = status >= 0 ? events.count : 0;
+    table->count = n;
+    table->kind = allocate(n, sizeof *table->kind);
+    for (int column = 0; column < EVENT_COLUMNS; column++)
+        table->number[column] = allocate(n, sizeof(double));
+    for (size_t i = 0; i < n; i++) {
+        const restitute_cvode_event *event = &events.event[i];
+        table->kind[i] = restitute_cvode_event_text(event->kind);
+        table->number[EVENT_TIME][i] = event->time;
+        table->number[EVENT_KIND][i] = event->kind;
+        table->number[EVENT_POSITION][i] = event->position;
+        table->number[EVENT_INDENTATION][i] = event->indentation;
+        table->number[EVENT_NORMAL_VELOCITY][i] = event->normal_velocity;
+        table->number[EVENT_TANGENTIAL_VELOCITY][i] = event->tangential_velocity;
+        table->number[EVENT_ELEMENTS][i] = event->elements;
+    }
+    free(events.event);
+    return status;
+}
+#else
+bool events_check(struct settings *settings, struct reason *why)
+{
+    if (!settings->text[TEXT_EVENTS]) return true;
+    return refuse(why, "--events needs the component cvode, which is not in this build (SUNDIALS; Debian: libsundials-dev)");
+}
+
+/* Never reached: events_check() refuses first. */
+int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
+                 restitute_history *history, struct event_table *table, restitute_error *error)
+{
+    (void)table;
+    return problem_solve(solver, problem, result, NULL, history, error);
+}
+#endif
+
+static bool write_csv(const char *path, const struct event_table *table, bool physical, struct reason *why)
+{
+    struct output output;
+    if (!output_open(path, &output, why)) return false;
+    for (int column = 0; column < EVENT_COLUMNS; column++)
+        fprintf(output.stream, "%s%c", event_column_name(column, physical), column + 1 < EVENT_COLUMNS ? ',' : '\n');
+    for (size_t i = 0; i < table->count; i++)
+        for (int column = 0; column < EVENT_COLUMNS; column++)
+            fprintf(output.stream, "%s%c",
+                    column == EVENT_KIND ? table->kind[i] : number_text(table->number[column][i]).text,
+                    column + 1 < EVENT_COLUMNS ? ',' : '\n');
+    return output_finish(&output, why);
+}
+
+bool events_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+{
+    return is_hdf5(path) ? events_hdf5_write(path, table, physical, why) : write_csv(path, table, physical, why);
+}
+
+void events_release(struct event_table *table)
+{
+    for (int column = 0; column < EVENT_COLUMNS; column++)
+        free(table->number[column]);
+    free(table->kind);
+}

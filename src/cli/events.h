@@ -1,0 +1,43 @@
+/* The event log of one impact: `restitute history --events`, by the component cvode where it is built.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef CLI_EVENTS_H
+#define CLI_EVENTS_H
+
+#include "options.h"
+#include "problem.h"
+
+/* Columns of the log. The kind is a word, the others numbers. */
+enum event_column {
+    EVENT_TIME,
+    EVENT_KIND,
+    EVENT_POSITION,
+    EVENT_INDENTATION,
+    EVENT_NORMAL_VELOCITY,
+    EVENT_TANGENTIAL_VELOCITY,
+    EVENT_ELEMENTS,
+    EVENT_COLUMNS
+};
+
+/* Events by columns; `kind` points to words that live for ever. */
+struct event_table {
+    size_t count;
+    double *number[EVENT_COLUMNS];
+    const char **kind;
+};
+
+const char *event_column_name(int column, bool physical);
+const char *event_column_unit(int column, bool physical);
+
+/* Refuse --events in a build without the component, and with a method that logs none; without --method, take cvode. */
+bool events_check(struct settings *settings, struct reason *why);
+
+/* Solve, with the events. Returns the library's status. */
+int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
+                 restitute_history *history, struct event_table *table, restitute_error *error);
+
+/* Write the table to `path`: HDF5 if it ends in .h5 or .hdf5, else CSV. */
+bool events_write(const char *path, const struct event_table *table, bool physical, struct reason *why);
+
+void events_release(struct event_table *table);
+
+#endif

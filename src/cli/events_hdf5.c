@@ -1,0 +1,87 @@
+/* The event log as an HDF5 file: /events/<column>, numbers as doubles and kinds as numbers and words.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "events_hdf5.h"
+
+#ifdef RESTITUTE_WITH_HDF5
+#include <hdf5.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "output.h"
+
+bool events_hdf5_built(void)
+{
+    return true;
+}
+
+/* A text attribute. */
+static bool describe(hid_t object, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text) + 1);
+    const hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    if (attribute >= 0) H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    return good;
+}
+
+static bool write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
+{
+    const hsize_t length = count;
+    const hid_t space = H5Screate_simple(1, &length, NULL);
+    const hid_t set = H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    if (good && *unit) good = describe(set, "unit", unit);
+    if (set >= 0) H5Dclose(set);
+    H5Sclose(space);
+    return good;
+}
+
+static bool write_group(hid_t file, const struct event_table *table, bool physical)
+{
+    const hid_t group = H5Gcreate2(file, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = group >= 0 && describe(file, "restitute_version", restitute_version());
+    const hid_t word = H5Tcopy(H5T_C_S1);
+    H5Tset_size(word, H5T_VARIABLE);
+    for (int column = 0; column < EVENT_COLUMNS && good; column++)
+        good = column == EVENT_KIND
+                   ? write_column(group, event_column_name(column, physical), "", word, table->kind, table->count)
+                   : write_column(group, event_column_name(column, physical), event_column_unit(column, physical),
+                                  H5T_NATIVE_DOUBLE, table->number[column], table->count);
+    H5Tclose(word);
+    if (group >= 0) H5Gclose(group);
+    return good;
+}
+
+bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+{
+    char *temporary = path_with_suffix(path, ".tmp");
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* messages are ours */
+    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = file >= 0 && write_group(file, table, physical);
+    if (file >= 0) good = H5Fclose(file) >= 0 && good;
+    good = good && rename(temporary, path) == 0;
+    if (!good) {
+        unlink(temporary);
+        refuse(why, "%.200s cannot be written as HDF5", path);
+    }
+    free(temporary);
+    return good;
+}
+#else
+bool events_hdf5_built(void)
+{
+    return false;
+}
+
+/* Never reached: events_check() refuses first. */
+bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+{
+    (void)table, (void)physical;
+    return refuse(why, "%.200s: HDF5 is not in this build", path);
+}
+#endif

@@ -1,0 +1,262 @@
+/* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or fixed-point iteration, and
+ * messages that are kept and never printed.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_version.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+#if !defined(SUNDIALS_DOUBLE_PRECISION)
+#error "SUNDIALS must be built for double precision"
+#endif
+
+enum { TEXT_SIZE = 200 };
+
+struct integrator {
+    struct integrator_system system;
+    SUNContext context;
+    void *cvode;
+    N_Vector y;
+    SUNLinearSolver linear;
+    SUNNonlinearSolver nonlinear;
+    int *direction, *events;
+    int64_t restarts, steps, rates, roots; /* counts up to the last restart */
+    char text[TEXT_SIZE];
+};
+
+static void keep_text(struct integrator *g, const char *where, const char *message)
+{
+    snprintf(g->text, sizeof g->text, "%s: %s", where ? where : "CVODE", message ? message : "no message");
+}
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+static void on_error(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *data,
+                     SUNContext context)
+{
+    (void)line, (void)file, (void)code, (void)context;
+    keep_text(data, function, message);
+}
+
+static int make_context(struct integrator *g)
+{
+    if (SUNContext_Create(SUN_COMM_NULL, &g->context)) return 1;
+    SUNContext_ClearErrHandlers(g->context); /* the default one prints */
+    return SUNContext_PushErrHandler(g->context, on_error, g);
+}
+
+static int listen(struct integrator *g)
+{
+    (void)g;
+    return 0;
+}
+#else
+static void on_error(int code, const char *module, const char *function, char *message, void *data)
+{
+    (void)code, (void)module;
+    keep_text(data, function, message);
+}
+
+static int make_context(struct integrator *g)
+{
+    return SUNContext_Create(NULL, &g->context);
+}
+
+static int listen(struct integrator *g)
+{
+    return CVodeSetErrHandlerFn(g->cvode, on_error, g);
+}
+#endif
+
+static int call_rates(double t, N_Vector y, N_Vector rate, void *data)
+{
+    const struct integrator *g = data;
+    return g->system.rates(g->system.owner, t, NV_DATA_S(y), NV_DATA_S(rate)) ? 1 : 0; /* 1: try a shorter step */
+}
+
+static int call_roots(double t, N_Vector y, double *value, void *data)
+{
+    const struct integrator *g = data;
+    g->system.roots(g->system.owner, t, NV_DATA_S(y), value);
+    return 0;
+}
+
+static int call_weights(N_Vector y, N_Vector weight, void *data)
+{
+    const struct integrator *g = data;
+    g->system.weights(g->system.owner, NV_DATA_S(y), NV_DATA_S(weight));
+    return 0;
+}
+
+/* The linear solver: it holds its matrix itself, and CVODE tells it gamma and where it is. */
+static SUNLinearSolver_Type linear_type(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_MATRIX_EMBEDDED;
+}
+
+static SUNLinearSolver_ID linear_id(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_CUSTOM;
+}
+
+static int linear_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, double tolerance)
+{
+    struct integrator *g = solver->content;
+    double t, gamma, rl1;
+    N_Vector predicted, now, rate, zn1;
+    void *data;
+    (void)matrix, (void)tolerance;
+    if (CVodeGetNonlinearSystemData(g->cvode, &t, &predicted, &now, &rate, &gamma, &rl1, &zn1, &data)) return -1;
+    g->system.newton(g->system.owner, gamma, NV_DATA_S(now), NV_DATA_S(b), NV_DATA_S(x));
+    return 0;
+}
+
+/* Nonzero: no memory. */
+static int make_linear(struct integrator *g)
+{
+    g->linear = SUNLinSolNewEmpty(g->context);
+    if (!g->linear) return 1;
+    g->linear->ops->gettype = linear_type;
+    g->linear->ops->getid = linear_id;
+    g->linear->ops->solve = linear_solve;
+    g->linear->content = g;
+    return 0;
+}
+
+static int make_solvers(struct integrator *g)
+{
+    if (g->system.family == INTEGRATOR_ADAMS) {
+        g->nonlinear = SUNNonlinSol_FixedPoint(g->y, 0, g->context);
+        return !g->nonlinear || CVodeSetNonlinearSolver(g->cvode, g->nonlinear);
+    }
+    g->nonlinear = SUNNonlinSol_Newton(g->y, g->context);
+    if (!g->nonlinear || CVodeSetNonlinearSolver(g->cvode, g->nonlinear)) return 1;
+    return make_linear(g) || CVodeSetLinearSolver(g->cvode, g->linear, NULL);
+}
+
+static int set_up(struct integrator *g, double t)
+{
+    g->cvode = CVodeCreate(g->system.family == INTEGRATOR_BDF ? CV_BDF : CV_ADAMS, g->context);
+    if (!g->cvode || listen(g)) return 1;
+    if (CVodeInit(g->cvode, call_rates, t, g->y) || CVodeSetUserData(g->cvode, g) ||
+        CVodeWFtolerances(g->cvode, call_weights) || make_solvers(g))
+        return 1;
+    if (g->system.n_roots == 0) return 0;
+    return CVodeRootInit(g->cvode, (int)g->system.n_roots, call_roots) ||
+           CVodeSetRootDirection(g->cvode, g->direction) || CVodeSetNoInactiveRootWarn(g->cvode);
+}
+
+struct integrator *integrator_create(const struct integrator_system *system, double t, const double *y, char *text,
+                                     int text_size)
+{
+    const size_t roots = system->n_roots > 0 ? (size_t)system->n_roots : 1;
+    struct integrator *g = calloc(1, sizeof *g);
+    snprintf(text, (size_t)text_size, "out of memory");
+    if (!g) return NULL;
+    g->system = *system;
+    g->direction = malloc(roots * sizeof *g->direction);
+    g->events = calloc(roots, sizeof *g->events);
+    if (g->direction && g->events && make_context(g) == 0) g->y = N_VNew_Serial(system->n_states, g->context);
+    if (g->y) {
+        memcpy(NV_DATA_S(g->y), y, (size_t)system->n_states * sizeof *y);
+        for (size_t i = 0; i < roots; i++)
+            g->direction[i] = -1;
+        if (set_up(g, t) == 0) return g;
+        if (g->text[0]) snprintf(text, (size_t)text_size, "%s", g->text);
+    }
+    integrator_destroy(g);
+    return NULL;
+}
+
+void integrator_destroy(struct integrator *g)
+{
+    if (!g) return;
+    if (g->cvode) CVodeFree(&g->cvode);
+    if (g->nonlinear) SUNNonlinSolFree(g->nonlinear);
+    if (g->linear) SUNLinSolFreeEmpty(g->linear);
+    if (g->y) N_VDestroy(g->y);
+    if (g->context) SUNContext_Free(&g->context);
+    free(g->direction);
+    free(g->events);
+    free(g);
+}
+
+enum integrator_return integrator_advance(struct integrator *g, double *t, double *y)
+{
+    const int status = CVode(g->cvode, g->system.horizon + *t, g->y, t, CV_ONE_STEP);
+    if (status < 0) return INTEGRATOR_FAILED;
+    memcpy(y, NV_DATA_S(g->y), (size_t)g->system.n_states * sizeof *y);
+    return status == CV_ROOT_RETURN ? INTEGRATOR_EVENT : INTEGRATOR_STEP;
+}
+
+const int *integrator_events(struct integrator *g)
+{
+    if (CVodeGetRootInfo(g->cvode, g->events)) memset(g->events, 0, (size_t)g->system.n_roots * sizeof *g->events);
+    return g->events;
+}
+
+int integrator_look(struct integrator *g, double t, double *y)
+{
+    if (CVodeGetDky(g->cvode, t, 0, g->y)) return 1;
+    memcpy(y, NV_DATA_S(g->y), (size_t)g->system.n_states * sizeof *y);
+    return 0;
+}
+
+double integrator_reached(struct integrator *g)
+{
+    double t = 0;
+    CVodeGetCurrentTime(g->cvode, &t);
+    return t;
+}
+
+static void count(struct integrator *g, int64_t *steps, int64_t *rates, int64_t *roots)
+{
+    long n_steps = 0, n_rates = 0, n_roots = 0;
+    CVodeGetNumSteps(g->cvode, &n_steps);
+    CVodeGetNumRhsEvals(g->cvode, &n_rates);
+    CVodeGetNumGEvals(g->cvode, &n_roots);
+    *steps = n_steps;
+    *rates = n_rates;
+    *roots = n_roots;
+}
+
+int integrator_restart(struct integrator *g, double t, const double *y)
+{
+    int64_t steps, rates, roots;
+    count(g, &steps, &rates, &roots);
+    g->steps += steps;
+    g->rates += rates;
+    g->roots += roots;
+    g->restarts++;
+    memcpy(NV_DATA_S(g->y), y, (size_t)g->system.n_states * sizeof *y);
+    return CVodeReInit(g->cvode, t, g->y);
+}
+
+struct integrator_counts integrator_work(struct integrator *g)
+{
+    struct integrator_counts work;
+    count(g, &work.steps, &work.rates, &work.roots);
+    work.steps += g->steps;
+    work.rates += g->rates;
+    work.roots += g->roots;
+    work.restarts = g->restarts;
+    return work;
+}
+
+const char *integrator_text(const struct integrator *g)
+{
+    return g->text[0] ? g->text : "no message";
+}
+
+const char *integrator_version(void)
+{
+    return SUNDIALS_VERSION;
+}

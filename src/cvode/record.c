@@ -1,0 +1,63 @@
+/* The history of an impact by the method cvode: the run once more, sampled evenly by CVODE's own interpolation.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "report.h"
+#include "solve.h"
+
+struct recorder {
+    struct rst_history *history;
+    double interval, end;
+    double psi;
+};
+
+static void keep(struct run *run, double t, const double *y)
+{
+    const struct recorder *recorder = run->observer;
+    struct rst_history *history = recorder->history;
+    const double force = run->setup->mode == RST_FRICTIONLESS ? 0 : run->shears ? run->sums.force : run->contact.force;
+    history->samples[history->count++] = (struct rst_sample){.time = t,
+                                                             .indentation = y[0],
+                                                             .contact_radius = run->contact.radius,
+                                                             .stick_radius = run_stick_radius(run),
+                                                             .normal_force = 15.0 / 8 * run->contact.force,
+                                                             .shear_force =
+                                                                 15.0 / 8 * force * run->setup->shear_scale,
+                                                             .velocity = run_velocity(run, y),
+                                                             .shear_velocity =
+                                                                 run_shear_velocity(run, y) / recorder->psi};
+}
+
+static void sample(struct run *run, double from, double to)
+{
+    const struct recorder *recorder = run->observer;
+    struct rst_history *history = recorder->history;
+    (void)from;
+    while (history->count + 1 < history->capacity) {
+        const double t = (double)history->count * recorder->interval;
+        const double *y;
+        if (t > to || run_look(run, t, &y)) return;
+        keep(run, t, y);
+    }
+}
+
+int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
+                 const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    struct run_setup setup = cvode_setup(problem, family);
+    struct recorder recorder = {.history = history, .psi = setup.psi};
+    struct run run = {.observe = sample, .observer = &recorder};
+    const double *y;
+    recorder.end = outcome->followed_time;
+    recorder.interval = recorder.end / (double)(history->capacity - 1);
+    setup.n_nodes = outcome->elements > 0 ? outcome->elements : 2;
+    setup.radius = outcome->max_contact_radius;
+    setup.rebound = -outcome->velocity;
+    setup.max_updates = INT64_MAX;
+    history->samples[0] = (struct rst_sample){.velocity = 1, .shear_velocity = 1};
+    history->count = 1;
+    const int status = run_follow(&run, &setup, &memory->trace, NULL);
+    if (!status && run_look(&run, run.time, &y) == 0) keep(&run, run.time, y);
+    run_release(&run);
+    return status ? report(error, status, "%s", run.text) : RESTITUTE_OK;
+}

@@ -1,0 +1,87 @@
+/* One impact at one resolution by the method cvode, from first touch to the end of contact.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_CVODE_RUN_H
+#define RST_CVODE_RUN_H
+
+#include "integrator.h"
+#include "cvode_kernels.h"
+#include "log.h"
+#include "method.h"
+#include "trace.h"
+
+/* The scene and how closely it is followed. */
+struct run_setup {
+    double chi, psi;
+    struct rst_solid solid;
+    enum rst_mode mode;
+    double shear_scale;  /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
+    int64_t n_nodes;     /* elements; 0: the normal side alone */
+    double closeness;    /* relative error of a step */
+    double depth;        /* scale of the depth */
+    double radius;       /* largest, of the elements; 0 without elements */
+    double rebound;      /* D' at the end, where known: decides on slip to the end */
+    double rest_speed;   /* a sphere that cannot rebound faster has sunk in */
+    enum integrator_family family;
+    int64_t max_updates; /* that this run may spend */
+};
+
+/* Elements: one block of memory. */
+struct elements {
+    double *x, *entry, *past, *shift, *c, *b, *amplitude, *d, *f, *value, *layer, *layer_weight;
+    int64_t *motion;
+    int *change; /* elements that are to change their motion now */
+};
+
+/* Modes in which a slipping element recovers. */
+struct recovery {
+    double *rate, *u, *v, *from_u, *from_v;
+};
+
+struct run {
+    const struct run_setup *setup;
+    struct trace *trace;   /* of the compression: written by a run without elements, read by all */
+    struct event_log *log; /* NULL: not wanted */
+    void (*observe)(struct run *run, double from, double to); /* after each part of a step, and once more after an
+                                                                 event, from where to where it was; NULL: nobody looks */
+    void *observer;
+
+    struct cvode_scene scene;
+    struct cvode_contact contact;
+    struct cvode_sums sums;
+    struct elements elements;
+    struct recovery recovery;
+    double *doubles;       /* what the last two point into */
+    struct integrator *integrator;
+    double time, *y, *start_y, *start_rate, *look, *scratch;
+    int64_t near, inside;  /* where to look first */
+    int64_t next_entry, outermost; /* for entry and exit events */
+    double slip_end;       /* D' at which gross slip ends; below any: it does not */
+    int shears;            /* tangential states are being integrated */
+    int ended, sunk;
+
+    double max_depth, max_time, max_force;
+    double end_velocity, end_shear_velocity, depth; /* where it ended */
+    struct integrator_counts work;
+    int64_t updates, event_count;
+    char text[200];
+};
+
+/* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is released by run_release(),
+ * whatever the status. */
+int run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log);
+void run_release(struct run *run);
+
+/* States at a time within the last step, with the contact and, where there are elements, their margins and sums. Nonzero: not there. */
+int run_look(struct run *run, double t, const double **y);
+
+/* The contact, margins and sums of where the run is. */
+void run_evaluate(struct run *run);
+
+/* Velocities of the sphere now. */
+double run_velocity(const struct run *run, const double *y);
+double run_shear_velocity(const struct run *run, const double *y);
+
+/* Radius of the zone that sticks, of the margins last computed. */
+double run_stick_radius(const struct run *run);
+
+#endif

@@ -1,0 +1,302 @@
+/* The method `cvode`: the normal side at two tolerances, then elements in doubled numbers until their pairs agree.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "report.h"
+#include "solve.h"
+
+/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add up to this
+ * many times as much (docs/cvode.md). */
+static const double closeness_part = 2e-3, adding_up = 50;
+
+/* The normal side is also followed this much less closely; a part of the change is left. */
+static const double looser = 10, share_of_change_ez = 0.3;
+
+/* Rounding in CVODE's predictions. */
+static const double closest = 1e-13;
+
+/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left is judged
+ * by how much that result changed from half as many elements. A change may be small by chance, so the error of the median impact,
+ * 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
+static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
+
+/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a small part of the
+ * tolerance. */
+static const double change_by_slip = 2, negligible_part = 0.05;
+
+/* The rest of the tolerance is for merged terms. */
+static const double acceptance = 0.9;
+
+static const int64_t most_elements = 16384;
+
+/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where the
+ * pair needs none. */
+static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
+static const int64_t elements_of_log = 64;
+
+/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it is faster than
+ * the other, Adams' formulas would take their steps at the limit of stability, where their error is not estimated any more. */
+static const double stiff = 30, too_stiff = 300;
+
+/* Estimate of the largest indentation: energy balance with the modulus of that age (THEORY 4.4 has the exact motion). It gives
+ * scales, on which nothing depends but the work. */
+static double likely_depth(const struct rst_solid *s)
+{
+    double depth = 1;
+    for (int i = 0; i < 60; i++) {
+        double modulus = s->g_inf + 1.25 * s->eta / depth;
+        for (int64_t k = 0; k < s->n_terms; k++)
+            modulus += s->g[k] / (1 + 0.8 * depth / s->tau[k]);
+        depth *= 1 / sqrt(modulus * depth * depth * sqrt(depth));
+    }
+    return depth;
+}
+
+/* The fastest relaxation in a compression. */
+static double stiffness_of(const struct rst_problem *problem, double depth)
+{
+    const struct rst_solid *s = &problem->solid;
+    double fastest = 3.75 * fmax(1, problem->chi) * s->eta * sqrt(depth);
+    for (int64_t k = 0; k < s->n_terms; k++)
+        fastest = fmax(fastest, 1 / s->tau[k]);
+    return fastest * depth;
+}
+
+static enum integrator_family family_of(const struct rst_problem *problem, double depth)
+{
+    return stiffness_of(problem, depth) > stiff ? INTEGRATOR_BDF : INTEGRATOR_ADAMS;
+}
+
+struct run_setup cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
+{
+    const double depth = likely_depth(&problem->solid);
+    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
+                       change_by_slip * problem->psi < negligible_part * problem->tolerance;
+    return (struct run_setup){.chi = problem->chi,
+                              .psi = strong ? 1 : problem->psi,
+                              .shear_scale = strong ? problem->psi : 1,
+                              .solid = problem->solid,
+                              .mode = strong ? RST_NO_SLIP : problem->mode,
+                              .closeness = fmax(closest, closeness_part * problem->tolerance),
+                              .depth = depth,
+                              .rebound = NAN,
+                              .rest_speed = 0.01 * problem->tolerance,
+                              .family = family ? *family : family_of(problem, depth),
+                              .max_updates = problem->max_updates};
+}
+
+static int slips_to_the_end(const struct run_setup *setup, double rebound)
+{
+    if (setup->mode == RST_FRICTIONLESS) return 1;
+    if (setup->mode != RST_GROSS_SLIP) return 0;
+    return 2 * setup->chi <= 1 || setup->psi >= 2 * setup->chi * (1 + rebound) - rebound;
+}
+
+static void add_work(struct cvode_memory *memory, const struct run *run)
+{
+    memory->work.steps += run->work.steps;
+    memory->work.restarts += run->work.restarts;
+    memory->work.rates += run->work.rates;
+    memory->work.events += run->event_count;
+    memory->updates += run->updates;
+}
+
+/* The normal side alone, followed `looser` times less closely and as closely as is wanted; its trace stays in memory. */
+static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
+                        restitute_error *error)
+{
+    const double close = setup->closeness;
+    double velocity = 0;
+    for (int i = 0; i < 2; i++) {
+        struct run run = {0};
+        setup->closeness = i == 0 ? fmin(looser * close, 1e-3) : close;
+        const int status = run_follow(&run, setup, &memory->trace, NULL);
+        run_release(&run);
+        add_work(memory, &run);
+        if (status) return report(error, status, "%s", run.text);
+        *outcome = (struct rst_outcome){
+            .velocity = run.sunk ? 0 : run.end_velocity,
+            .shear_velocity = run.end_shear_velocity,
+            .error_ez = run.sunk ? 0 : share_of_change_ez * fabs(run.end_velocity - velocity) + adding_up * close,
+            .contact_time = run.sunk ? INFINITY : run.time,
+            .followed_time = run.time,
+            .max_indentation = run.sunk ? run.depth : run.max_depth,
+            .max_normal_force = 15.0 / 8 * run.max_force,
+            .steps = run.work.steps,
+            .step = run.time / (double)run.work.steps,
+            .sunk = run.sunk};
+        outcome->max_contact_radius = sqrt(outcome->max_indentation);
+        velocity = run.end_velocity;
+    }
+    return RESTITUTE_OK;
+}
+
+/* One run with elements. */
+static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode_memory *memory, struct event_log *log,
+                          struct run *run, restitute_error *error)
+{
+    struct run_setup with_elements = *setup;
+    with_elements.n_nodes = n;
+    *run = (struct run){0};
+    const int status = run_follow(run, &with_elements, &memory->trace, log);
+    run_release(run);
+    add_work(memory, run);
+    return status ? report(error, status, "%s", run->text) : RESTITUTE_OK;
+}
+
+static int64_t first_elements(const struct rst_problem *problem)
+{
+    if (problem->elements > 0) return problem->elements;
+    const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
+    return (int64_t)fmin((double)most_elements,
+                         4 * ceil(0.25 * usual_elements * faster * pow(usual_tolerance / problem->tolerance, usual_power)));
+}
+
+/* U' at the end, extrapolated from two runs, the second with twice the elements. */
+static double extrapolated(const struct run *coarse, const struct run *fine)
+{
+    return fine->end_shear_velocity + part_taken_ex * (fine->end_shear_velocity - coarse->end_shear_velocity);
+}
+
+/* What three runs, each with twice the elements of the one before, say of the pair. */
+static void compare(const struct run_setup *setup, const struct run *run, int64_t n, struct rst_outcome *outcome)
+{
+    const struct run *fine = &run[2];
+    const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
+    const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) * pow((double)n, -2.5);
+    outcome->shear_velocity = setup->shear_scale * best;
+    outcome->error_ex = share_of_change_ex * changed / setup->psi + usual + outcome->error_ez;
+    if (setup->shear_scale < 1) outcome->error_ex += change_by_slip * setup->shear_scale;
+    outcome->elements = n;
+    outcome->spacing = outcome->max_contact_radius / (double)n;
+    outcome->steps = fine->work.steps;
+    outcome->step = fine->time / (double)fine->work.steps;
+}
+
+static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *limit,
+                      restitute_error *error)
+{
+    return report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                  "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s: no more allowed",
+                  problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
+}
+
+/* Runs with a quarter, half and all of the elements. */
+static int start_refining(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory, int64_t n,
+                          struct run *run, restitute_error *error)
+{
+    int status = RESTITUTE_OK;
+    for (int i = 0; i < 3 && !status; i++) {
+        setup->max_updates = problem->max_updates - memory->updates;
+        status = solve_elements(setup, (n + (1 << (2 - i)) - 1) >> (2 - i), memory, NULL, &run[i], error);
+    }
+    return status;
+}
+
+/* Elements are doubled until the pair settles. */
+static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
+                  struct rst_outcome *outcome, restitute_error *error)
+{
+    struct run run[3];
+    int64_t n = first_elements(problem);
+    if (n > most_elements)
+        return report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld", (long long)n,
+                      (long long)most_elements);
+    setup->radius = outcome->max_contact_radius;
+    int status = start_refining(problem, setup, memory, n, run, error);
+    while (!status) {
+        compare(setup, run, n, outcome);
+        outcome->updates = memory->updates;
+        if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return report_done(error);
+        if (problem->elements > 0 || 2 * n > most_elements) return too_coarse(problem, outcome, "elements", error);
+        /* twice the elements see twice the events, each looked for over all of them */
+        if (memory->updates + 4 * run[2].updates > problem->max_updates)
+            return too_coarse(problem, outcome, "max_updates", error);
+        run[0] = run[1];
+        run[1] = run[2];
+        n *= 2;
+        setup->max_updates = problem->max_updates - memory->updates;
+        status = solve_elements(setup, n, memory, NULL, &run[2], error);
+        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, "max_updates", error);
+    }
+    return status;
+}
+
+/* Closed forms: no friction, slip to the end (27). */
+static int without_elements(const struct rst_problem *problem, const struct rst_outcome *normal, struct rst_outcome *outcome,
+                            restitute_error *error)
+{
+    *outcome = *normal;
+    if (problem->mode != RST_FRICTIONLESS) {
+        outcome->shear_velocity = problem->psi - 2 * problem->chi * (1 - normal->velocity);
+        outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->psi;
+    }
+    if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return report_done(error);
+    return report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
+                  problem->tolerance, outcome->error_ez, outcome->error_ex);
+}
+
+/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
+ * it slides slower and slower without a closed form. */
+static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
+{
+    const int slides = problem->mode == RST_FRICTIONLESS ||
+                       (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
+    if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
+        return report(error, RESTITUTE_ERROR_DOMAIN,
+                      "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler", problem->chi,
+                      problem->psi);
+    outcome->shear_velocity = slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+    return report_done(error);
+}
+
+/* Once more with the log, for those who asked for it. */
+static int log_events(const struct run_setup *setup, const struct rst_outcome *outcome, struct cvode_memory *memory,
+                      restitute_error *error)
+{
+    struct run run;
+    struct run_setup all = *setup;
+    all.radius = outcome->max_contact_radius;
+    all.rebound = -outcome->velocity;
+    all.max_updates = INT64_MAX;
+    memory->log.count = 0;
+    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, &memory->log,
+                                      &run, error);
+    for (size_t i = 0; i < memory->log.count; i++)
+        memory->log.event[i].tangential_velocity *= setup->shear_scale;
+    return status;
+}
+
+int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
+                int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+{
+    struct run_setup setup = cvode_setup(problem, family);
+    struct rst_outcome normal;
+    const double stiffness = stiffness_of(problem, setup.depth);
+    if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
+        return report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                      "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
+                      stiffness, too_stiff);
+    memory->work = (restitute_cvode_work){.stiff = setup.family == INTEGRATOR_BDF};
+    memory->updates = 0;
+    int status = solve_normal(&setup, memory, &normal, error);
+    if (status) return status;
+    setup.rebound = -normal.velocity;
+    *outcome = normal;
+    outcome->updates = memory->updates;
+    if (normal.sunk)
+        status = stay(problem, outcome, error);
+    else if (slips_to_the_end(&setup, setup.rebound))
+        status = without_elements(problem, &normal, outcome, error);
+    else
+        status = refine(problem, &setup, memory, outcome, error);
+    if (status >= 0 && keep_ledger) {
+        const int kept = cvode_ledger(&setup, memory, outcome, error);
+        if (kept < 0) return kept;
+    }
+    if (status < 0 || !memory->wants_log) return status;
+    const int logged = log_events(&setup, outcome, memory, error);
+    return logged < 0 ? logged : status;
+}

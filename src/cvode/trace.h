@@ -1,0 +1,25 @@
+/* The compression as it was: depth, velocity and memory at instants close enough to interpolate.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_CVODE_TRACE_H
+#define RST_CVODE_TRACE_H
+
+#include <stdint.h>
+
+struct trace {
+    int64_t n_terms, count, capacity;
+    double *knot;   /* time, depth, velocity */
+    double *memory; /* 2 n_terms: M and P */
+};
+
+/* Empty it, for a solid of n_terms terms. */
+void trace_begin(struct trace *trace, int64_t n_terms);
+
+/* One more instant, later than all before. Nonzero: no memory. */
+int trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory);
+
+/* When the sphere first was that deep, which it has been. */
+double trace_time(const struct trace *trace, double depth);
+
+void trace_release(struct trace *trace);
+
+#endif

@@ -1,0 +1,205 @@
+/* What restitute/cvode.h promises beside the physics: refusals, untouched outputs, work, history.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+#include <string.h>
+
+#include "../support/cvode.h"
+
+static restitute_solver *make(restitute_options options)
+{
+    restitute_solver *solver;
+    restitute_error error;
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    return solver;
+}
+
+/* The call fails with this status and a message that holds `word`, and `log` stays as it was. */
+static void refused(restitute_solver *solver, restitute_impact impact, int status, const char *word)
+{
+    static struct logged log, before;
+    restitute_error error;
+    memset(&log, 7, sizeof log);
+    restitute_result_init(&log.result);
+    restitute_cvode_events_init(&log.events);
+    log.events.event = log.event;
+    log.events.capacity = most_events;
+    log.events.count = 77;
+    before = log;
+    const int found = restitute_cvode_solve(solver, &impact, &log.result, NULL, NULL, &log.events, &error);
+    CHECK(found == status, "%d and not %d: %s", found, status, error.message);
+    CHECK(strstr(error.message, word) != NULL, "\"%s\" is not in \"%s\"", word, error.message);
+    CHECK(memcmp(&log, &before, sizeof log) == 0, "an output was touched: %s", error.message);
+}
+
+static void failures_touch_nothing(void **state)
+{
+    restitute_options options = cvode_to(1e-5);
+    (void)state;
+    restitute_solver *solver = make(options);
+    refused(solver, impact_of(7.0 / 6, -1, 1, 1), RESTITUTE_ERROR_DOMAIN, "psi");
+    refused(solver, impact_of(7.0 / 6, NAN, 1, 1), RESTITUTE_ERROR_DOMAIN, "psi");
+    refused(solver, impact_of(0, 1, 1, 1), RESTITUTE_ERROR_DOMAIN, "chi");
+    restitute_solver_destroy(solver);
+    options.max_updates = 1000; /* less than one run of the normal side and its elements */
+    solver = make(options);
+    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates");
+    restitute_solver_destroy(solver);
+    options = cvode_to(1e-5);
+    options.elements = 100000;
+    solver = make(options);
+    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_DOMAIN, "16384");
+    restitute_solver_destroy(solver);
+    options = cvode_to(1e-5);
+    options.method = restitute_method_cvode_adams();
+    solver = make(options);
+    refused(solver, impact_of(7.0 / 6, 0.5, 0.1, 1e-3), RESTITUTE_ERROR_UNSTABLE_STEP, "cvode-bdf");
+    restitute_solver_destroy(solver);
+    solver = make(default_options());
+    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_DOMAIN, "euler");
+    restitute_solver_destroy(solver);
+}
+
+static void arguments_are_checked(void **state)
+{
+    restitute_solver *solver = make(cvode_to(1e-3));
+    restitute_impact impact = impact_of(7.0 / 6, 0.5, 1, 1);
+    restitute_cvode_events events;
+    restitute_cvode_work work;
+    restitute_error error;
+    restitute_options options = cvode_to(1e-3);
+    (void)state;
+    restitute_cvode_events_init(&events);
+    CHECK(restitute_cvode_solve(NULL, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "solver");
+    CHECK(restitute_cvode_solve(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "impact");
+    CHECK(restitute_cvode_solve_scene(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "scene");
+    events.capacity = 3;
+    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "array");
+    events.struct_size = 1;
+    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    restitute_cvode_work_init(&work);
+    CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_ERROR_DOMAIN, "nothing solved yet");
+    CHECK(restitute_cvode_last_work(solver, NULL, &error) == RESTITUTE_ERROR_NULL, "work");
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(work.steps > 0 && work.rates >= work.steps && work.events > 0 && work.restarts > 0 && !work.stiff, "%lld steps",
+          (long long)work.steps);
+    restitute_solver_destroy(solver);
+    options.time_step = 0.1;
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_ERROR_DOMAIN, "time_step");
+    CHECK(strcmp(restitute_cvode_event_text(RESTITUTE_EVENT_STICK_TO_SLIP), "stick-to-slip") == 0, "text");
+    CHECK(strcmp(restitute_cvode_event_text(99), "unknown event") == 0, "text");
+}
+
+/* capacity 0 tells how many there are; a short array gets the first ones. */
+static void events_may_be_counted_first(void **state)
+{
+    restitute_solver *solver = make(cvode_to(1e-3));
+    restitute_impact impact = impact_of(7.0 / 6, 0.5, 1, 1);
+    restitute_cvode_events events;
+    restitute_cvode_event few[3] = {{0}};
+    restitute_error error;
+    (void)state;
+    restitute_cvode_events_init(&events);
+    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == 0, "%s", error.message);
+    const size_t count = events.count;
+    CHECK(count > 10, "%zu", count);
+    events.event = few;
+    events.capacity = 2;
+    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == 0, "%s", error.message);
+    CHECK(events.count == count && few[1].kind == RESTITUTE_EVENT_ENTRY && few[2].kind == 0, "%zu", events.count);
+    restitute_solver_destroy(solver);
+}
+
+/* Work follows the scene: nothing tangential without friction or in slip to the end, fewer steps for a larger tolerance. */
+static void scenes_leave_out_what_they_do_not_need(void **state)
+{
+    const double psi[] = {0.5, 9};
+    restitute_cvode_work work[2];
+    restitute_error error;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        restitute_solver *solver = make(cvode_to(1e-5));
+        restitute_impact impact = impact_of(7.0 / 6, psi[i], 0, 1);
+        CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == 0, "%s", error.message);
+        restitute_cvode_work_init(&work[i]);
+        CHECK(restitute_cvode_last_work(solver, &work[i], &error) == 0, "%s", error.message);
+        restitute_solver_destroy(solver);
+    }
+    CHECK(work[1].events <= 4, "slip to the end: turn and end of two runs, and no more: %lld", (long long)work[1].events);
+    CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
+}
+
+/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. */
+static void history_ends_with_the_pair(void **state)
+{
+    enum { samples = 50 };
+    static double a[8][samples];
+    restitute_solver *solver = make(cvode_to(1e-5));
+    const double psi[] = {0, 0.7, 1.8, 9};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        restitute_impact impact = impact_of(7.0 / 6, psi[i], 1, 1);
+        restitute_result result;
+        restitute_history h;
+        restitute_error error;
+        restitute_result_init(&result);
+        restitute_history_init(&h);
+        h.capacity = samples;
+        h.time = a[0], h.indentation = a[1], h.contact_radius = a[2], h.stick_radius = a[3];
+        h.normal_force = a[4], h.tangential_force = a[5], h.normal_velocity = a[6], h.tangential_velocity = a[7];
+        CHECK(restitute_solve(solver, &impact, &result, NULL, &h, &error) == 0, "%s", error.message);
+        CHECK(h.count == samples, "%zu", h.count);
+        for (int k = 0; k < samples; k++) {
+            CHECK_NEAR(a[0][k], k * result.contact_time / (samples - 1), 1e-5, "sample %d", k);
+            CHECK(a[3][k] <= a[2][k] && a[4][k] >= -1e-6, "sample %d: %g of %g, force %g", k, a[3][k], a[2][k], a[4][k]);
+            if (psi[i] > 0) CHECK(fabs(a[5][k]) <= a[4][k] + 1e-6, "sample %d: more than friction gives", k);
+        }
+        const double scale = psi[i] > 0 ? psi[i] : 1;
+        CHECK_NEAR(-a[6][samples - 1], result.ez, 1e-5, "psi %g", psi[i]);
+        CHECK_NEAR(-a[7][samples - 1] / scale, result.ex, 1e-3, "psi %g: not extrapolated", psi[i]);
+    }
+    restitute_solver_destroy(solver);
+}
+
+/* A Maxwell body with a short tau (THEORY 4.9); nothing is left to slide with 2 chi > 1. */
+static void sinking_spheres_are_told(void **state)
+{
+    const double tau[] = {0.2}, g[] = {1};
+    (void)state;
+    restitute_material *maxwell = solid_of(0, 0, 1, tau, g);
+    const struct solution s = solve_impact(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
+    CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
+    CHECK(s.result.ez == 0 && s.result.ex == 0 && isinf(s.result.contact_time), "%g %g", s.result.ez, s.result.ex);
+    restitute_material_destroy(maxwell);
+}
+
+/* One solver, one answer, in whatever order impacts come. */
+static void a_solver_keeps_nothing_of_the_last_impact(void **state)
+{
+    restitute_solver *solver = make(cvode_to(1e-4));
+    const restitute_impact one = impact_of(7.0 / 6, 0.5, 1, 1), other = impact_of(2, 0.3, 0.1, 0);
+    restitute_result first, again;
+    restitute_error error;
+    (void)state;
+    restitute_result_init(&first);
+    restitute_result_init(&again);
+    CHECK(restitute_solve(solver, &one, &first, NULL, NULL, &error) == 0, "%s", error.message);
+    CHECK(restitute_solve(solver, &other, &again, NULL, NULL, &error) == 0, "%s", error.message);
+    CHECK(restitute_solve(solver, &one, &again, NULL, NULL, &error) == 0, "%s", error.message);
+    CHECK(first.ez == again.ez && first.ex == again.ex, "%.17g %.17g", first.ex, again.ex);
+    restitute_solver_destroy(solver);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(failures_touch_nothing),
+        cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(events_may_be_counted_first),
+        cmocka_unit_test(scenes_leave_out_what_they_do_not_need),
+        cmocka_unit_test(history_ends_with_the_pair),
+        cmocka_unit_test(sinking_spheres_are_told),
+        cmocka_unit_test(a_solver_keeps_nothing_of_the_last_impact),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# The method cvode and the event log by the command; in a build without the component both are refused by its name.
+. "$(dirname -- "$0")/common.sh"
+
+numbers="--chi 1.1667 --psi 2 --delta1 1 --gamma 1"
+if ! "$RESTITUTE" pair $numbers --method cvode >/dev/null 2>&1; then
+    refused 'component cvode is not in this build' pair $numbers --method cvode
+    refused 'component cvode' history $numbers --events e.csv
+    exit 0
+fi
+
+expect 0 pair $numbers --method sync --tolerance 1e-5 --format csv
+cp out sync.csv
+for method in cvode cvode-bdf cvode-adams; do
+    expect 0 pair $numbers --method $method --tolerance 1e-5 --format csv
+    has out $method
+    near "$(value out ez)" "$(value sync.csv ez)" 2e-5 # the tolerances of both
+    near "$(value out ex)" "$(value sync.csv ex)" 2e-5
+done
+expect 0 pair $scene --velocity 1 --angle 30 --method cvode
+has out 'cvode, tolerance'
+
+expect 0 history $numbers --events e.csv --output h.csv
+[ "$(head -1 e.csv)" = "time_T,event,position_a_el,indentation_d0,normal_velocity_v0,tangential_velocity_V0,elements" ] ||
+    fail "the header is $(head -1 e.csv)"
+for event in entry exit gross-slip-end stick-to-slip turn contact-end; do
+    grep -q ",$event," e.csv || fail "no $event in the log"
+done
+[ "$(grep -c ,gross-slip-end, e.csv)" = 1 ] || fail "gross slip ends more than once"
+awk -F, 'NR > 2 && $1 < before { exit 1 } NR > 1 { before = $1 }' e.csv || fail "events are not in order"
+# THEORY 4.3; the tolerance is 1e-3
+near "$(awk -F, '$2 == "gross-slip-end" { print $5 }' e.csv)" "$(awk 'BEGIN { print (2 * 1.1667 - 2) / (2 * 1.1667 - 1) }')" 1e-3
+expect 0 history $scene --velocity 1 --angle 30 --events e.csv --output h.csv
+has e.csv time_s position_m normal_velocity_m_s
+has h.csv.meta.json '"cvode"'
+
+if expect 0 history $numbers --events e.h5 --output h.csv 2>/dev/null && command -v h5dump >/dev/null; then
+    h5dump -d /events/event e.h5 >dump
+    has dump gross-slip-end contact-end
+    h5dump -a /events/time_T/unit e.h5 >dump
+    has dump '"T"'
+fi
+
+refused 'the method sync logs none' history $numbers --method sync --events e.csv
+refused 'no/such' history $numbers --events no/such/e.csv
+refused 'time_step' pair $numbers --method cvode --time-step 0.1
+refused 'unknown option' pair $numbers --events e.csv
