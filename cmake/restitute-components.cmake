@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
+# Sets RESTITUTE_WITH_OPENMP, RESTITUTE_WITH_FILES, RESTITUTE_WITH_BEM, RESTITUTE_WITH_COMMAND and RESTITUTE_WITH_FORTRAN.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -34,7 +34,7 @@ function(restitute_decide option title result)
   endif()
 endfunction()
 
-foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
+foreach(option IN ITEMS RESTITUTE_FILES RESTITUTE_BEM RESTITUTE_COMMAND RESTITUTE_FORTRAN RESTITUTE_OPENMP)
   if(NOT "${${option}}" MATCHES "^(AUTO|ON|OFF|YES|NO|TRUE|FALSE|1|0)$")
     message(FATAL_ERROR "restitute: ${option}=${${option}}: must be AUTO, ON or OFF")
   endif()
@@ -54,6 +54,14 @@ endif()
 restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
                  JANSSON_FOUND "Jansson (Debian: libjansson-dev, found by pkg-config)" #
                  Libcsv_FOUND "libcsv (Debian: libcsv-dev)")
+
+if(RESTITUTE_BEM)
+  restitute_find_pkg_config_library(FFTW fftw3)
+  find_package(Threads QUIET)
+endif()
+restitute_decide(RESTITUTE_BEM "the component bem" RESTITUTE_WITH_BEM #
+                 FFTW_FOUND "FFTW (Debian: libfftw3-dev, found by pkg-config)" #
+                 Threads_FOUND "POSIX threads")
 
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
@@ -79,6 +87,6 @@ if(RESTITUTE_TESTS)
   endif()
 endif()
 
-message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, "
+message(STATUS "restitute ${PROJECT_VERSION}: component files ${RESTITUTE_WITH_FILES}, component bem ${RESTITUTE_WITH_BEM}, "
                "command ${RESTITUTE_WITH_COMMAND}, Fortran module ${RESTITUTE_WITH_FORTRAN}, OpenMP ${RESTITUTE_WITH_OPENMP}, "
                "tests ${RESTITUTE_TESTS}, sanitizers ${RESTITUTE_SANITIZE}")

@@ -9,6 +9,9 @@
 #include <string.h>
 
 #include <restitute/files.h>
+#ifdef CLI_WITH_BEM
+#include <restitute/bem.h>
+#endif
 
 #include "output.h"
 
@@ -60,7 +63,8 @@ static struct poptOption more_scene_options[] = {
 
 static struct poptOption solution_options[] = {
     ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME",
-          "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3"),
+          "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
+          "bem, bem-paper: boundary elements, an independent check (where built in)"),
     ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
     ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
@@ -222,7 +226,14 @@ static bool read_solver(struct settings *settings, struct reason *why)
 }
 
 /* The methods of this build, the default first. */
-static const restitute_method *(*const methods[])(void) = {restitute_method_euler, restitute_method_sync};
+static const restitute_method *(*const methods[])(void) = {
+    restitute_method_euler,
+    restitute_method_sync,
+#ifdef CLI_WITH_BEM
+    restitute_method_bem,
+    restitute_method_bem_paper,
+#endif
+};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static bool read_method(struct settings *settings, struct reason *why)

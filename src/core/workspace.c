@@ -30,5 +30,6 @@ void rst_workspace_free(struct rst_workspace *workspace)
 {
     free(workspace->terms);
     free(workspace->elements);
+    if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }

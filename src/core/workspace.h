@@ -8,11 +8,17 @@
 
 #include "kernels.h"
 
+/* First member of what a method of another component keeps in the workspace. */
+struct rst_own_memory {
+    void (*release)(struct rst_own_memory *memory);
+};
+
 struct rst_workspace {
     double *terms; /* term_arrays times n_terms values: g, tau, decay, gain, stress */
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;
+    struct rst_own_memory *own; /* of the solver's method; NULL: none */
     sync_loop *loop; /* of the method sync, the widest that this processor has */
 };
 
