@@ -68,6 +68,12 @@ static int64_t fast_size(double cells)
     }
 }
 
+/* A slower rebound is none: it changes ez by far less than the tolerance, or than what iterations leave. */
+static double rest_speed(const struct rst_problem *problem)
+{
+    return fmax(1e-5, 0.01 * problem->tolerance);
+}
+
 static struct bem_setup setup_of(struct impact *impact, double elements, double step, double spacing)
 {
     const struct bem_box *box = &impact->box;
@@ -78,7 +84,7 @@ static struct bem_setup setup_of(struct impact *impact, double elements, double 
                               .m = fast_size(margin * elements + margin_cells),
                               .spacing = spacing > 0 ? spacing : box->radius / elements,
                               .step = step,
-                              .rest_speed = 0.01 * impact->problem->tolerance,
+                              .rest_speed = rest_speed(impact->problem),
                               .most_steps = (int64_t)ceil(20 * duration / step) + 100};
 }
 
@@ -171,7 +177,7 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, d
     const double change = outcome->sunk ? 0 : part * (outcome->velocity - coarse->last.velocity);
     const double shear_change = part * (outcome->shear_velocity - coarse->last.shear_velocity);
     outcome->error_ez = fabs(change) + grid_error_ez * grid;
-    if (outcome->sunk) outcome->error_ez = 0.01 * impact->problem->tolerance;
+    if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
     outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * grid + outcome->error_ez;

@@ -15,8 +15,9 @@ enum { most_tries = 60, most_iterations = 60 };
 static double guess_depth(const struct rst_solid *solid)
 {
     double depth = pow(bem_solid_modulus(solid, 0), -0.4);
-    for (int i = 0; i < most_iterations; i++)
-        depth = pow(fmax(bem_solid_modulus(solid, depth), 1e-12), -0.4);
+    const double most = 100 * depth; /* a solid that flows would have no end */
+    for (int i = 0; i < most_iterations && depth < most; i++)
+        depth = fmin(most, pow(bem_solid_modulus(solid, depth), -0.4));
     return depth;
 }
 
@@ -41,21 +42,22 @@ int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, str
                                         .m = coarse,
                                         .spacing = side / (double)coarse,
                                         .step = step,
-                                        .rest_speed = 1e-3 * fmax(problem->tolerance, 1e-3),
+                                        .rest_speed = 1e-4,
                                         .most_steps = 30 * coarse_steps};
         bem_solid_step(step, variant.explicit_euler, solid);
         bem_run(&setup, memory, NULL, &run);
         if (run.end == BEM_NO_MEMORY) return run.end;
         box->radius = sqrt(run.max_area / 3.14159265358979);
-        if (run.end == BEM_UNSETTLED) return BEM_UNSETTLED;
-        if (run.end == BEM_OUTGREW) {
+        if (run.end == BEM_UNSETTLED) {
+            step /= 4; /* unstable */
+        } else if (run.end == BEM_OUTGREW) {
             side *= 1.5;
         } else if (run.end == BEM_TOO_LONG) {
             step *= 4;
+        } else if (box->radius < least_part * side) {
+            side = fmax(side / 4, generous * box->radius);
         } else if (run.steps < coarse_steps / 2) {
             step /= 2;
-        } else if (box->radius < least_part * side) {
-            side = generous * box->radius;
         } else {
             settle_time(&run, box);
             return BEM_REBOUND;

@@ -64,7 +64,7 @@ enum bem_end bem_solve_normal(struct bem_stepper *s, double depth, double shift)
     if (bem_solve_target(s, BEM_NORMAL, closeness * depth / solid->c, f->p_new)) return BEM_UNSETTLED;
     if (touches_side(s)) return BEM_OUTGREW;
     spread(s, BEM_NORMAL, f->p_new);
-    const double first_ratio = s->run->steps == 0 && !naive ? shift / depth : -1;
+    const double first_ratio = !(s->run->max_force > 0) && !naive ? shift / depth : -1;
     rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio, f->p_new, f->p, f->gap, naive ? f->gap : f->gap_before,
                   f->s, f->s_before, f->anchor);
     rst_bem_measure(ld, m, s->near->m, solid->c, f->f_new, f->target, f->p_new, f->gap, f->gap_before, &sum, &cells);
