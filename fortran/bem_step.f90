@@ -35,7 +35,7 @@ contains
     do j = 1, m
       do i = 1, m
         start(i, j) = merge(sign(high(i, j), tau(i, j)), 2*tau(i, j) - tau_before(i, j), &
-                            abs(tau(i, j)) >= p(i, j) .and. p(i, j) > 0)
+                            abs(tau(i, j)) >= p(i, j) .and. p(i, j) > 0 .and. high(i, j) < huge(1.0_dp))
       end do
     end do
   end subroutine start_shear
