@@ -25,8 +25,8 @@ static void compare(restitute_impact impact, const char *name)
     CHECK_NEAR(bem.result.ez, sync.result.ez, 3 * bem.result.error_ez, "estimate of ez of %s", name);
     CHECK_NEAR(bem.result.ex, sync.result.ex, 3 * bem.result.error_ex, "estimate of ex of %s", name);
     CHECK_NEAR(bem.result.max_indentation, sync.result.max_indentation, 1e-3, "depth of %s", name);
-    if (isfinite(sync.result.contact_time))
-        CHECK_NEAR(bem.result.contact_time, sync.result.contact_time, 0.002 * sync.result.contact_time, "time of %s", name);
+    if (isfinite(sync.result.contact_time)) /* strong damping: the force fades away long before the contact ends */
+        CHECK_NEAR(bem.result.contact_time, sync.result.contact_time, 0.02 * sync.result.contact_time, "time of %s", name);
     CHECK_NEAR(bem.result.max_normal_force, sync.result.max_normal_force, 2e-3 * sync.result.max_normal_force, "force of %s", name);
     /* sync counts what elements hold when they leave, bem what is still there at the end, some of it relaxed */
     CHECK(bem.ledger.left_z >= 0 && bem.ledger.left_z <= sync.ledger.left_z + 2e-3, "energy left of %s: %g, %g", name,
