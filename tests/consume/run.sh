@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_FORTRAN WITH_OPENMP SANITIZED
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS WITH_FILES WITH_BEM WITH_FORTRAN WITH_OPENMP SANITIZED
 # The working directory is used up.
 set -eu
 
@@ -32,7 +32,7 @@ if [ "$built" = "$wanted" ]; then
 else
     installed_from=$work/other
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
-        -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
+        -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" -DRESTITUTE_BEM="$WITH_BEM" \
         -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
@@ -45,12 +45,14 @@ prefix=$work/second
 echo "== find_package"
 components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"
+[ "$WITH_BEM" = OFF ] || components="$components;bem"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
 user/consumer
 user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+[ "$WITH_BEM" = OFF ] || user/consumer_bem
 
 echo "== find_package without components takes all that are installed"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -104,6 +106,12 @@ if [ "$WITH_FORTRAN" != OFF ]; then
     "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \
         $(pkg-config --cflags --libs $static restitute-fortran)
     user/fortran_by_pkg_config
+fi
+if [ "$WITH_BEM" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$CC" -o user/bem_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_bem.c" \
+        $(pkg-config --cflags --libs $static restitute-bem)
+    user/bem_by_pkg_config
 fi
 if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046
