@@ -10,7 +10,7 @@
 # Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 
-run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libfftw3-dev gnuplot-nox"
+run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libfftw3-dev libhdf5-dev gnuplot-nox"
 test_packages="g++ libcmocka-dev mandoc python3 valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;

@@ -65,6 +65,7 @@ restitute_decide(RESTITUTE_BEM "the component bem" RESTITUTE_WITH_BEM #
 
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
+  find_package(HDF5 QUIET COMPONENTS C) # fields of the component bem; without it they are figures only
 endif()
 restitute_decide(RESTITUTE_COMMAND "the command restitute" RESTITUTE_WITH_COMMAND #
                  RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #

@@ -50,6 +50,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_DISPLACEMENT_LIMIT] = "displacement-limit",
     [TEXT_DUNDURS_LIMIT] = "dundurs-limit",
     [TEXT_THREADS] = "threads",
+    [TEXT_FIELDS] = "fields",
 };
 
 static struct poptOption more_scene_options[] = {
@@ -99,6 +100,8 @@ static struct poptOption history_output_options[] = {
           "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
     ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
+    ENTRY("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
+          "with --method bem: pressure, traction and stick map at nine times to .h5, or the middle one to .svg or .png"),
     FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND};
 
 static const char pair_footer[] =
@@ -329,7 +332,8 @@ bool settings_spare_inputs(const struct settings *settings, struct reason *why)
     const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material, settings->values.partner};
     for (int i = 0; i < 3; i++)
         if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
-            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why))
+            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why) ||
+            !output_spares(settings->text[TEXT_FIELDS], "--fields", inputs[i], why))
             return false;
     return true;
 }

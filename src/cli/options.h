@@ -25,6 +25,7 @@ enum text_option {
     TEXT_DISPLACEMENT_LIMIT,
     TEXT_DUNDURS_LIMIT,
     TEXT_THREADS,
+    TEXT_FIELDS,
     TEXT_COUNT
 };
 
