@@ -359,6 +359,13 @@ static const struct bem_method standard = {.base = BASE("bem")};
 static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),
                                                .variant = {.explicit_euler = 1, .stick_sets = 1}};
 
+static const struct bem_method in_both_directions = {.base = BASE("bem-both"), .variant = {.both_directions = 1}};
+
+const restitute_method *restitute_method_bem_both(void)
+{
+    return &in_both_directions.base;
+}
+
 const restitute_method *restitute_method_bem(void)
 {
     return &standard.base;

@@ -9,6 +9,9 @@
 /* Kinds of fortran/bem_influence.f90. */
 enum bem_kind { BEM_NORMAL = 0, BEM_SHEAR = 1, BEM_CROSS = 2 };
 
+/* Displacement along y under a traction along y, both odd in x and in y; see plane.h. */
+enum { BEM_SHEAR_Y = 3 };
+
 void rst_bem_influence_table(int64_t kind, int64_t n, double *table);
 void rst_bem_creep_form(double g_inf, int64_t n, const double *g, const double *tau, double *instantaneous, double *flow,
                    int64_t *n_creep, double *compliance, double *lambda);

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "transform.h"
+#include "plane.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -11,6 +12,16 @@
 
 /* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing needs no lock. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+void bem_lock_planner(void)
+{
+    pthread_mutex_lock(&planner);
+}
+
+void bem_unlock_planner(void)
+{
+    pthread_mutex_unlock(&planner);
+}
 
 /* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
 enum { line_gap = 4 };
@@ -33,22 +44,22 @@ static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
     c->columns = fftw_alloc_complex((size_t)(c->line * n / 2));
     if (!c->twiddles || !c->scratch || !c->rows || !c->columns) return 1;
     rst_bem_set_twiddles(n, c->twiddles);
-    pthread_mutex_lock(&planner);
+    bem_lock_planner();
     c->row_forward = plan_lines(n, m / 2, c->line, c->rows, FFTW_FORWARD);
     c->row_backward = plan_lines(n, m / 2, c->line, c->rows, FFTW_BACKWARD);
     c->column_forward = plan_lines(n, n / 2, c->line, c->columns, FFTW_FORWARD);
     c->column_backward = plan_lines(n, n / 2, c->line, c->columns, FFTW_BACKWARD);
-    pthread_mutex_unlock(&planner);
+    bem_unlock_planner();
     return !c->row_forward || !c->row_backward || !c->column_forward || !c->column_backward;
 }
 
 static void cosine_release(struct bem_cosine *c)
 {
     fftw_plan plans[] = {c->row_forward, c->row_backward, c->column_forward, c->column_backward};
-    pthread_mutex_lock(&planner);
+    bem_lock_planner();
     for (int i = 0; i < 4; i++)
         if (plans[i]) fftw_destroy_plan(plans[i]);
-    pthread_mutex_unlock(&planner);
+    bem_unlock_planner();
     fftw_free(c->twiddles);
     fftw_free(c->scratch);
     fftw_free(c->rows);
@@ -72,14 +83,14 @@ static void apply(const struct bem_cosine *c, const double *factor, int64_t ld, 
 static int transform_table(enum bem_kind kind, int64_t n, double *table)
 {
     rst_bem_influence_table(kind, n, table);
-    pthread_mutex_lock(&planner);
+    bem_lock_planner();
     fftw_plan plan = fftw_plan_r2r_2d((int)n + 1, (int)n + 1, table, table, FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE);
-    pthread_mutex_unlock(&planner);
+    bem_unlock_planner();
     if (!plan) return 1;
     fftw_execute(plan);
-    pthread_mutex_lock(&planner);
+    bem_lock_planner();
     fftw_destroy_plan(plan);
-    pthread_mutex_unlock(&planner);
+    bem_unlock_planner();
     return 0;
 }
 
@@ -123,6 +134,7 @@ void bem_transform_destroy(struct bem_transform *t)
     if (!t) return;
     cosine_release(&t->padded);
     cosine_release(&t->plain);
+    bem_plane_destroy(t->plane);
     for (int kind = 0; kind < 2; kind++) {
         fftw_free(t->spectrum[kind]);
         fftw_free(t->inverse[kind]);
@@ -132,10 +144,17 @@ void bem_transform_destroy(struct bem_transform *t)
 
 void bem_convolve(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *x, double *u)
 {
-    apply(&t->padded, t->spectrum[kind], ld, x, u);
+    if ((int)kind == BEM_SHEAR_Y)
+        bem_plane_convolve(t->plane, BEM_Y_FROM_Y, ld, x, u);
+    else
+        apply(&t->padded, t->spectrum[kind], ld, x, u);
 }
 
 void bem_precondition(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *r, double *z)
 {
-    apply(&t->plain, t->inverse[kind], ld, r, z);
+    if ((int)kind == BEM_SHEAR_Y) /* seldom needed: none */
+        for (int64_t j = 0; j < t->m; j++)
+            memcpy(z + j * ld, r + j * ld, (size_t)t->m * sizeof *z);
+    else
+        apply(&t->plain, t->inverse[kind], ld, r, z);
 }

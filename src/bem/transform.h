@@ -16,8 +16,13 @@ struct bem_cosine {
 struct bem_transform {
     int64_t m;
     struct bem_cosine padded, plain;
+    struct bem_plane *plane; /* NULL: not made */
     double *spectrum[2], *inverse[2]; /* of BEM_NORMAL and BEM_SHEAR: times n^-2; 1/spectrum of the unpadded grid */
 };
+
+/* FFTW plans by one thread at a time. */
+void bem_lock_planner(void);
+void bem_unlock_planner(void);
 
 /* A new transform; NULL: out of memory. m: even. */
 struct bem_transform *bem_transform_create(int64_t m);

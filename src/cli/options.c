@@ -65,7 +65,7 @@ static struct poptOption more_scene_options[] = {
 static struct poptOption solution_options[] = {
     ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME",
           "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
-          "bem, bem-paper: boundary elements, an independent check (where built in)"),
+          "bem, bem-paper, bem-both: boundary elements, an independent check (where built in)"),
     ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
     ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
@@ -235,6 +235,7 @@ static const restitute_method *(*const methods[])(void) = {
 #ifdef CLI_WITH_BEM
     restitute_method_bem,
     restitute_method_bem_paper,
+    restitute_method_bem_both,
 #endif
 };
 enum { METHODS = sizeof methods / sizeof *methods };

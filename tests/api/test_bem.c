@@ -18,6 +18,7 @@ static void names(void **state)
     (void)state;
     assert_string_equal(restitute_method_name(restitute_method_bem()), "bem");
     assert_string_equal(restitute_method_name(restitute_method_bem_paper()), "bem-paper");
+    assert_string_equal(restitute_method_name(restitute_method_bem_both()), "bem-both");
 }
 
 /* Solve a case that must fail; returns the message. */

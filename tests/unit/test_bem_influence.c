@@ -4,6 +4,7 @@
 
 #include "../support/check.h"
 #include "../support/random.h"
+#include "plane.h"
 #include "transform.h"
 
 static const double pi = 3.14159265358979323846;
@@ -99,6 +100,42 @@ static void convolution_is_the_sum(void **state)
     }
 }
 
+static double table_at(const double *table, int n, int di, int dj)
+{
+    return table[abs(dj) * (n + 1) + abs(di)];
+}
+
+/* Tractions along x are even in both directions, those along y odd; so are the displacements that each causes. */
+static void plane_is_the_sum(void **state)
+{
+    enum { m = 8, n = 2 * m };
+    static double shear[(n + 1) * (n + 1)], cross[(n + 1) * (n + 1)], x[m * m], u[m * m];
+    struct bem_plane *plane = bem_plane_create(m);
+    uint64_t seed = 3;
+    (void)state;
+    assert_non_null(plane);
+    rst_bem_influence_table(BEM_SHEAR, n, shear);
+    rst_bem_influence_table(BEM_CROSS, n, cross);
+    for (int i = 0; i < m * m; i++)
+        x[i] = random_in(&seed, -1, 1);
+    for (enum bem_plane_kind kind = BEM_Y_FROM_Y; kind <= BEM_X_FROM_Y; kind++) {
+        bem_plane_convolve(plane, kind, m, x, u);
+        for (int j = 0; j < m; j++)
+            for (int i = 0; i < m; i++) {
+                double sum = 0;
+                for (int l = -m; l < m; l++)
+                    for (int k = -m; k < m; k++) {
+                        const int odd = kind != BEM_Y_FROM_X && (l < 0) != (k < 0), di = i - k, dj = j - l;
+                        const double value = x[(l < 0 ? -l - 1 : l) * m + (k < 0 ? -k - 1 : k)] * (odd ? -1 : 1);
+                        const double sign = (di < 0) != (dj < 0) ? -1 : 1; /* of x y; 0 on the axes */
+                        sum += value * (kind == BEM_Y_FROM_Y ? table_at(shear, n, dj, di) : sign * table_at(cross, n, di, dj));
+                    }
+                CHECK_NEAR(u[j * m + i], sum, 1e-13, "kind %d at %d, %d", kind, i, j); /* like the sums above */
+            }
+    }
+    bem_plane_destroy(plane);
+}
+
 /* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from the side within a few percent. */
 static void preconditioner_inverts(void **state)
 {
@@ -126,7 +163,7 @@ static void preconditioner_inverts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients_are_the_integrals), cmocka_unit_test(own_cell),
-                                       cmocka_unit_test(convolution_is_the_sum),
+                                       cmocka_unit_test(convolution_is_the_sum), cmocka_unit_test(plane_is_the_sum),
                                        cmocka_unit_test(preconditioner_inverts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
