@@ -122,8 +122,8 @@ static int begin(const struct rst_problem *problem, struct rst_workspace *worksp
     impact->memory = bem_memory_of(workspace);
     double *terms = impact->memory ? bem_memory_terms(impact->memory, 4 * n) : NULL;
     if (!terms) return out_of_memory(error);
-    impact->solid = (struct bem_solid){
-        .compliance = terms, .lambda = terms + n, .decay = terms + 2 * n, .gain = terms + 3 * n};
+    impact->solid =
+        (struct bem_solid){.compliance = terms, .lambda = terms + n, .decay = terms + 2 * n, .gain = terms + 3 * n};
     bem_solid_creep(&problem->solid, &impact->solid);
     return RESTITUTE_OK;
 }
@@ -149,20 +149,20 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
     const struct bem_work *w = &run->work;
     const struct bem_solid *solid = &impact->solid;
     const int elastic = solid->n_terms == 0 && !(solid->flow > 0), sunk = run->end == BEM_SUNK;
-    *outcome = (struct rst_outcome){
-        .velocity = sunk ? 0 : q->velocity,
-        .shear_velocity = sunk && impact->problem->mode == RST_NO_SLIP ? 0 : q->shear_velocity,
-        .contact_time = sunk ? INFINITY : run->contact_time,
-        .followed_time = q->time,
-        .max_indentation = run->max_depth,
-        .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
-        .max_normal_force = 15.0 / 64 * run->max_force,
-        .spacing = setup->spacing,
-        .step = setup->step,
-        .elements = (int64_t)elements,
-        .steps = run->steps,
-        .updates = impact->updates,
-        .sunk = sunk};
+    *outcome =
+        (struct rst_outcome){.velocity = sunk ? 0 : q->velocity,
+                             .shear_velocity = sunk && impact->problem->mode == RST_NO_SLIP ? 0 : q->shear_velocity,
+                             .contact_time = sunk ? INFINITY : run->contact_time,
+                             .followed_time = q->time,
+                             .max_indentation = run->max_depth,
+                             .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
+                             .max_normal_force = 15.0 / 64 * run->max_force,
+                             .spacing = setup->spacing,
+                             .step = setup->step,
+                             .elements = (int64_t)elements,
+                             .steps = run->steps,
+                             .updates = impact->updates,
+                             .sunk = sunk};
     outcome->ledger = (struct euler_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
                                             .left_z = w->left_normal,
                                             .friction_x = w->friction,
@@ -195,10 +195,11 @@ static int met(const struct impact *impact, const struct rst_outcome *outcome)
 
 static int not_reached(const struct impact *impact, const struct rst_outcome *outcome, restitute_error *error)
 {
-    return bem_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
-                      impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
-                      (long long)outcome->steps);
+    return bem_report(
+        error, RESTITUTE_TOLERANCE_NOT_REACHED,
+        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
+        impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
+        (long long)outcome->steps);
 }
 
 static int no_result(const struct impact *impact, enum bem_end end, double step, restitute_error *error)
@@ -215,7 +216,8 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
 
 static double steps_wanted(const struct impact *impact, double elements)
 {
-    const double faster = impact->problem->mode == RST_FRICTIONLESS ? 1 : sqrt(fmax(1, impact->problem->chi / usual_chi));
+    const double faster =
+        impact->problem->mode == RST_FRICTIONLESS ? 1 : sqrt(fmax(1, impact->problem->chi / usual_chi));
     return usual_steps * faster * elements / usual_elements;
 }
 
@@ -298,9 +300,8 @@ static double radius_of(double area)
     return sqrt(area / 3.14159265358979323846);
 }
 
-static void add_sample(struct sampler *sampler, double psi, const struct bem_motion *q, double chi)
+static void add_sample(struct sampler *sampler, double psi, const struct bem_motion *q)
 {
-    (void)chi;
     sampler->history->samples[sampler->history->count++] =
         (struct rst_sample){.time = q->time,
                             .indentation = q->depth,
@@ -325,7 +326,7 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
         q.time = s->outcome->contact_time;
         q.contact = q.stick = q.force = q.shear_force = 0;
     }
-    add_sample(s, setup->problem->psi, &q, setup->problem->chi);
+    add_sample(s, setup->problem->psi, &q);
 }
 
 static int bem_record(const struct rst_problem *problem, struct rst_workspace *workspace,
@@ -343,7 +344,7 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
     history->count = 0;
     if (sampler.recorder) bem_recorder_begin(sampler.recorder);
-    add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi}, problem->chi);
+    add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi});
     bem_run(&setup, impact.memory, &sampler.observer, &run);
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }

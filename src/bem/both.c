@@ -52,7 +52,9 @@ static double solve_y(struct bem_stepper *s, int no_slip, double residual)
     bem_plane_convolve(s->near->plane, BEM_Y_FROM_X, f->m, f->tau_new, f->cross);
     for (int64_t i = 0; i < cells; i++) {
         const double v_x = f->full_x[i] - f->total_x[i], v_y = f->full_y[i] - f->total_y[i], v = hypot(v_x, v_y);
-        f->high[i] = no_slip && f->p_new[i] > 0 ? DBL_MAX : f->slips[i] > 0 ? f->p_new[i] : beside(f->p_new[i], f->tau_new[i]);
+        f->high[i] = no_slip && f->p_new[i] > 0 ? DBL_MAX
+                     : f->slips[i] > 0          ? f->p_new[i]
+                                                : beside(f->p_new[i], f->tau_new[i]);
         f->low[i] = -f->high[i];
         f->resistance[i] = f->slips[i] > 0 ? v / f->p_new[i] : 0;
         f->target[i] = f->full_y[i] - f->cross[i];
@@ -84,14 +86,16 @@ static void finish(struct bem_stepper *s, double shift)
         f->high[i] = f->slips[i] > 0 ? -DBL_MAX : DBL_MAX;
         f->low[i] = -DBL_MAX;
     }
-    rst_bem_settle(m, m, m, 0, solid->c, f->h_y, f->total_y, f->p_new, f->tau_y, f->tau_y, f->low, f->high, f->anchor_y, f->s_y,
-                   f->s_y_before, &unused[0], &unused[1], &work);
+    rst_bem_settle(m, m, m, 0, solid->c, f->h_y, f->total_y, f->p_new, f->tau_y, f->tau_y, f->low, f->high, f->anchor_y,
+                   f->s_y, f->s_y_before, &unused[0], &unused[1], &work);
     s->run->work.friction += work * s->cell;
-    rst_bem_settle(m, m, m, shift, solid->c, f->h, f->total_x, f->p_new, f->tau, f->tau_new, f->low, f->high, f->anchor, f->s,
-                   f->s_before, &sum, &stick, &work);
+    rst_bem_settle(m, m, m, shift, solid->c, f->h, f->total_x, f->p_new, f->tau, f->tau_new, f->low, f->high, f->anchor,
+                   f->s, f->s_before, &sum, &stick, &work);
     s->run->work.friction += work * s->cell;
-    rst_bem_remember(m, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->total_x, f->b_x, f->drift_x, f->f_x);
-    rst_bem_remember(m, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->total_y, f->b_y, f->drift_y, f->f_y);
+    rst_bem_remember(m, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->total_x, f->b_x, f->drift_x,
+                     f->f_x);
+    rst_bem_remember(m, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->total_y, f->b_y, f->drift_y,
+                     f->f_y);
     s->motion.shear_force = sum * s->cell;
     s->motion.stick = stick * s->cell * s->setup->spacing;
 }

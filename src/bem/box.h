@@ -8,7 +8,7 @@
 struct bem_box {
     double radius, time; /* of contact; time is infinite if it sinks */
     int sinks;
-    double sink_time;    /* until it rests */
+    double sink_time; /* until it rests */
 };
 
 /* BEM_REBOUND, or why there is no answer; negative: out of memory. */

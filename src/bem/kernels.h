@@ -13,8 +13,8 @@ enum bem_kind { BEM_NORMAL = 0, BEM_SHEAR = 1, BEM_CROSS = 2 };
 enum { BEM_SHEAR_Y = 3 };
 
 void rst_bem_influence_table(int64_t kind, int64_t n, double *table);
-void rst_bem_creep_form(double g_inf, int64_t n, const double *g, const double *tau, double *instantaneous, double *flow,
-                   int64_t *n_creep, double *compliance, double *lambda);
+void rst_bem_creep_form(double g_inf, int64_t n, const double *g, const double *tau, double *instantaneous,
+                        double *flow, int64_t *n_creep, double *compliance, double *lambda);
 
 void rst_bem_set_twiddles(int64_t n, fftw_complex *w);
 void rst_bem_lay_rows(int64_t ld, int64_t m, int64_t n, const double *x, int64_t ldv, fftw_complex *v);
@@ -41,8 +41,8 @@ void rst_bem_start_shear(int64_t ld, int64_t m, const double *p, const double *t
                          const double *high, double *start);
 void rst_bem_recall(int64_t ld, int64_t m, int64_t n_terms, const double *decay, const double *b, double held,
                     const double *drift, const double *f, double *h);
-void rst_bem_remember(int64_t ld, int64_t m, int64_t n_terms, const double *decay, const double *gain,
-                      double half_flow, const double *f_new, double *b, double *drift, double *f);
+void rst_bem_remember(int64_t ld, int64_t m, int64_t n_terms, const double *decay, const double *gain, double half_flow,
+                      const double *f_new, double *b, double *drift, double *f);
 void rst_bem_normal_target(int64_t ld, int64_t m, double spacing, double depth, double c, const double *h,
                            double *target);
 void rst_bem_enter(int64_t ld, int64_t m, double spacing, double first_ratio, const double *p, const double *p_before,
@@ -50,10 +50,10 @@ void rst_bem_enter(int64_t ld, int64_t m, double spacing, double first_ratio, co
 void rst_bem_shear_bounds(int64_t ld, int64_t m, int64_t no_slip, const double *p, double *low, double *high);
 void rst_bem_shear_target(int64_t ld, int64_t m, double shift, double c, const double *a, const double *h,
                           double *target);
-void rst_bem_measure(int64_t ld, int64_t m, int64_t near, double c, const double *f, const double *target, const double *p,
-                     double *gap, double *gap_before, double *force, double *contact);
-void rst_bem_settle(int64_t ld, int64_t m, int64_t near, double shift, double c, const double *h, const double *f, const double *p,
-                    const double *tau_before, const double *tau, const double *low, const double *high,
+void rst_bem_measure(int64_t ld, int64_t m, int64_t near, double c, const double *f, const double *target,
+                     const double *p, double *gap, double *gap_before, double *force, double *contact);
+void rst_bem_settle(int64_t ld, int64_t m, int64_t near, double shift, double c, const double *h, const double *f,
+                    const double *p, const double *tau_before, const double *tau, const double *low, const double *high,
                     double *a, double *s, double *s_before, double *force, double *stick, double *work);
 
 #endif

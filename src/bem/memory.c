@@ -29,14 +29,15 @@ struct bem_memory *bem_memory_of(struct rst_workspace *workspace)
 int bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
                       struct bem_fields *fields)
 {
-    double **single[] = {&fields->p,       &fields->p_before, &fields->p_new,   &fields->tau,        &fields->tau_before,
-                         &fields->tau_new, &fields->f_z,      &fields->f_x,     &fields->f_new,      &fields->drift_z,
-                         &fields->drift_x, &fields->h,        &fields->target,  &fields->low,        &fields->high,
-                         &fields->gap,     &fields->s,        &fields->anchor,  &fields->gap_before, &fields->s_before,
-                         &fields->free,    &fields->r,        &fields->z,       &fields->d,          &fields->kd,
+    double **single[] = {&fields->p,       &fields->p_before, &fields->p_new,  &fields->tau,        &fields->tau_before,
+                         &fields->tau_new, &fields->f_z,      &fields->f_x,    &fields->f_new,      &fields->drift_z,
+                         &fields->drift_x, &fields->h,        &fields->target, &fields->low,        &fields->high,
+                         &fields->gap,     &fields->s,        &fields->anchor, &fields->gap_before, &fields->s_before,
+                         &fields->free,    &fields->r,        &fields->z,      &fields->d,          &fields->kd,
                          &fields->touched};
-    double **more[] = {&fields->tau_y,    &fields->f_y,    &fields->drift_y, &fields->h_y,   &fields->s_y,    &fields->s_y_before,
-                       &fields->anchor_y, &fields->full_x, &fields->full_y,  &fields->cross, &fields->total_x, &fields->total_y, &fields->slips, &fields->resistance};
+    double **more[] = {&fields->tau_y,      &fields->f_y,      &fields->drift_y, &fields->h_y,       &fields->s_y,
+                       &fields->s_y_before, &fields->anchor_y, &fields->full_x,  &fields->full_y,    &fields->cross,
+                       &fields->total_x,    &fields->total_y,  &fields->slips,   &fields->resistance};
     const size_t basic = sizeof single / sizeof *single, extra = both_directions ? sizeof more / sizeof *more : 0;
     const size_t count = basic + extra, cells = (size_t)(m * m);
     const size_t wanted = cells * (count + (both_directions ? 3 : 2) * (size_t)n_terms);

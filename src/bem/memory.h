@@ -19,10 +19,10 @@ struct bem_fields {
     double *b_z, *b_x, *drift_z, *drift_x; /* memory of the solid; b: n_terms fields */
     double *h, *target, *low, *high;
     double *gap, *gap_before, *s, *s_before, *anchor;
-    double *tau_y, *f_y, *b_y, *drift_y;   /* the same along y, odd in x and in y; with both directions only */
+    double *tau_y, *f_y, *b_y, *drift_y; /* the same along y, odd in x and in y; with both directions only */
     double *h_y, *s_y, *s_y_before, *anchor_y;
     double *full_x, *full_y, *cross, *total_x, *total_y, *slips, *resistance;
-    double *touched;                       /* > 0: has been in contact; kept for the ledger only */
+    double *touched; /* > 0: has been in contact; kept for the ledger only */
     double *free, *r, *z, *d, *kd;
 };
 

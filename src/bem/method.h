@@ -6,8 +6,6 @@
 #include "../core/method.h"
 #include "run.h"
 
-struct bem_recorder;
-
 struct bem_method {
     struct restitute_method base; /* first: the core's pointer is one to the whole */
     struct bem_variant variant;
@@ -19,8 +17,10 @@ extern const struct restitute_method bem_base_method;
 /* Fill `error` (if wanted) and return `status`. */
 int bem_report(restitute_error *error, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* The recorder's snapshot of a step, if it is time for one; nonzero: out of memory. */
+/* A new impact: forget the last one. */
 void bem_recorder_begin(struct restitute_bem_recorder *recorder);
+
+/* Its snapshot of a step, if it is time for one; nonzero: out of memory. */
 int bem_recorder_see(struct restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step,
                      int64_t steps, const struct bem_motion *motion, const struct bem_fields *fields);
 

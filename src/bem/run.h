@@ -8,9 +8,9 @@
 
 /* How the steps are made; all 0: the method of the component. */
 struct bem_variant {
-    int explicit_euler; /* positions, forces, velocities; entering cells stick from the step's beginning */
+    int explicit_euler;  /* positions, forces, velocities; entering cells stick from the step's beginning */
     int both_directions; /* tractions along y too */
-    int stick_sets;     /* the sticking set shrinks until none of it passes the friction limit */
+    int stick_sets;      /* the sticking set shrinks until none of it passes the friction limit */
 };
 
 struct bem_setup {
@@ -18,15 +18,15 @@ struct bem_setup {
     struct bem_solid *solid;
     struct bem_variant variant;
     int normal_only, keep_ledger;
-    int64_t m;             /* the grid has 2m x 2m cells, a quarter of it is computed */
+    int64_t m; /* the grid has 2m x 2m cells, a quarter of it is computed */
     double spacing, step;
-    double rest_speed;     /* a sphere that sinks is at rest below it */
+    double rest_speed; /* a sphere that sinks is at rest below it */
     int64_t most_steps;
 };
 
 enum bem_end {
     BEM_REBOUND,
-    BEM_OUTGREW,   /* the contact reached the side of the grid */
+    BEM_OUTGREW, /* the contact reached the side of the grid */
     BEM_SUNK,
     BEM_TOO_LONG,  /* most_steps */
     BEM_UNSETTLED, /* a contact problem did not settle, or the step is unstable */

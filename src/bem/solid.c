@@ -11,7 +11,7 @@
 void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep)
 {
     rst_bem_creep_form(relaxation->g_inf, relaxation->n_terms, relaxation->g, relaxation->tau, &creep->instantaneous,
-                  &creep->flow, &creep->n_terms, creep->compliance, creep->lambda);
+                       &creep->flow, &creep->n_terms, creep->compliance, creep->lambda);
 }
 
 /* A term relaxes by J_k (1 - exp(-t/lambda_k)): with lambda_k far below the duration it is J_k but for about J_k lambda_k/t of the time,

@@ -12,7 +12,7 @@ struct bem_solid {
     double instantaneous, flow;
     int64_t n_terms;
     double *compliance, *lambda;
-    double *decay, *gain; /* of a step: b_k = decay_k b_k + gain_k df */
+    double *decay, *gain;      /* of a step: b_k = decay_k b_k + gain_k df */
     double c, held, half_flow; /* u = c f - sum decay_k b_k + held f_before + drift */
 };
 

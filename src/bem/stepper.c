@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stepper.h"
 
-#include <math.h>
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 static const double closeness = 1e-6;
@@ -66,11 +66,11 @@ enum bem_end bem_solve_normal(struct bem_stepper *s, double depth, double shift)
     if (touches_side(s)) return BEM_OUTGREW;
     spread(s, BEM_NORMAL, f->p_new);
     const double first_ratio = !(s->run->max_force > 0) && !naive ? shift / depth : -1;
-    rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio, f->p_new, f->p, f->gap, naive ? f->gap : f->gap_before,
-                  f->s, f->s_before, f->anchor);
+    rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio, f->p_new, f->p, f->gap,
+                  naive ? f->gap : f->gap_before, f->s, f->s_before, f->anchor);
     if (s->setup->variant.both_directions && !s->setup->normal_only)
-        rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio < 0 ? -1 : 0, f->p_new, f->p, f->gap, f->gap_before, f->s_y,
-                      f->s_y_before, f->anchor_y);
+        rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio < 0 ? -1 : 0, f->p_new, f->p, f->gap,
+                      f->gap_before, f->s_y, f->s_y_before, f->anchor_y);
     rst_bem_measure(ld, m, s->near->m, solid->c, f->f_new, f->target, f->p_new, f->gap, f->gap_before, &sum, &cells);
     rst_bem_remember(ld, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->f_new, f->b_z, f->drift_z,
                      f->f_z);
@@ -121,8 +121,8 @@ enum bem_end bem_solve_shear(struct bem_stepper *s, double shift)
                                      : bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new))
         return BEM_UNSETTLED;
     spread(s, BEM_SHEAR, f->tau_new);
-    rst_bem_settle(ld, m, near, shift, solid->c, f->h, f->f_new, f->p_new, f->tau, f->tau_new, f->low, f->high, f->anchor,
-                   f->s, f->s_before, &sum, &stick, &work);
+    rst_bem_settle(ld, m, near, shift, solid->c, f->h, f->f_new, f->p_new, f->tau, f->tau_new, f->low, f->high,
+                   f->anchor, f->s, f->s_before, &sum, &stick, &work);
     rst_bem_remember(ld, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->f_new, f->b_x, f->drift_x,
                      f->f_x);
     s->motion.shear_force = sum * s->cell;

@@ -71,8 +71,8 @@ int bench_bem_run(restitute_solver *sync, restitute_solver *bem, long index, con
     impact.psi = draw->psi;
     impact.delta1 = draw->delta1;
     if (draw->kind == DRAWN_STANDARD) impact.gamma = draw->gamma;
-    if (draw->kind == DRAWN_PRONY && restitute_material_prony(draw->g_inf, 0, (size_t)draw->n_terms, draw->tau, draw->g,
-                                                              0.5, &solid, NULL) < 0)
+    if (draw->kind == DRAWN_PRONY &&
+        restitute_material_prony(draw->g_inf, 0, (size_t)draw->n_terms, draw->tau, draw->g, 0.5, &solid, NULL) < 0)
         return 1;
     impact.solid = solid;
     *row = (struct bench_bem_row){.index = index, .draw = *draw};
@@ -96,10 +96,14 @@ void bench_write_bem_row(const struct bench_bem_row *r, FILE *stream)
 {
     const struct bench_draw *d = &r->draw;
     fprintf(stream, "%ld,%s,%.9g,%.9g,", r->index, solid_names[d->kind], d->chi, d->psi);
-    if (d->kind == DRAWN_STANDARD) fprintf(stream, "%.9g,%.9g", d->delta1, d->gamma);
-    else fputc(',', stream);
-    if (d->kind == DRAWN_PRONY) fprintf(stream, ",%g,", d->g_inf);
-    else fputs(",,", stream);
+    if (d->kind == DRAWN_STANDARD)
+        fprintf(stream, "%.9g,%.9g", d->delta1, d->gamma);
+    else
+        fputc(',', stream);
+    if (d->kind == DRAWN_PRONY)
+        fprintf(stream, ",%g,", d->g_inf);
+    else
+        fputs(",,", stream);
     for (int k = 0; k < d->n_terms; k++)
         fprintf(stream, "%s%.9g:%.9g", k ? " " : "", d->tau[k], d->g[k]);
     fprintf(stream, ",%.9g,%.9g,%.9g,%.9g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%d,%d\n", r->ez_sync, r->ex_sync, r->ez_bem,
@@ -126,8 +130,8 @@ int bench_read_bem_row(const char *line, unsigned seed, struct bench_bem_row *r)
     if (end == line || *end != ',' || r->index < 0 || !drawn || !solved) return 0;
     if (sscanf(drawn, "%lf,%lf", &chi, &psi) != 2) return 0;
     if (sscanf(solved, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%d,%d", &r->ez_sync, &r->ex_sync, &r->ez_bem,
-               &r->ex_bem, &difference_ez, &difference_ex, &r->error_ez, &r->error_ex, &r->seconds_sync, &r->seconds_bem,
-               &r->status_sync, &r->status_bem) != 12)
+               &r->ex_bem, &difference_ez, &difference_ex, &r->error_ez, &r->error_ex, &r->seconds_sync,
+               &r->seconds_bem, &r->status_sync, &r->status_bem) != 12)
         return 0;
     bench_draw_impact(seed, r->index, &r->draw);
     return fabs(chi / r->draw.chi - 1) < 1e-8 && fabs(psi / r->draw.psi - 1) < 1e-8; /* nine digits were written */
@@ -190,7 +194,8 @@ void bench_print_bem(const struct bench_bem_row *rows, size_t n, double limit, F
             fprintf(stream, "  set %ld failed: sync: %s; bem: %s\n", r->index, restitute_status_text(r->status_sync),
                     restitute_status_text(r->status_bem));
         else if (!(fabs(dz) <= limit && fabs(dx) <= limit))
-            fprintf(stream, "  set %ld (%s, chi %.4g, psi %.4g): differences %.2g (ez), %.2g (ex); bem estimates %.1g, %.1g\n",
+            fprintf(stream,
+                    "  set %ld (%s, chi %.4g, psi %.4g): differences %.2g (ez), %.2g (ex); bem estimates %.1g, %.1g\n",
                     r->index, solid_names[r->draw.kind], r->draw.chi, r->draw.psi, dz, dx, r->error_ez, r->error_ex);
     }
 }
@@ -210,11 +215,13 @@ void bench_draw_bem(const struct bench_bem_row *rows, size_t n, FILE *commands)
 {
     static const char *const colours[DRAWN_SOLIDS] = {"#4477aa", "#ee6677", "#228833"};
     static const char *const titles[DRAWN_SOLIDS] = {"elastic", "standard solid", "Prony series"};
-    fputs("set multiplot layout 1,2\nset logscale xy\nset xlabel '{/Symbol y}'\nset format y '10^{%L}'\nset yrange [1e-8:1e-2]\n"
+    fputs("set multiplot layout 1,2\nset logscale xy\nset xlabel '{/Symbol y}'\nset format y '10^{%L}'\nset yrange "
+          "[1e-8:1e-2]\n"
           "set xrange [0.04:12]\nset key bottom right\nset grid\n",
           commands);
     for (int of_ex = 0; of_ex < 2; of_ex++) {
-        fprintf(commands, "set title '|difference in %s|'\nplot 0.002 lc '#888888' dt 2 title '0.002'", of_ex ? "e_x" : "e_z");
+        fprintf(commands, "set title '|difference in %s|'\nplot 0.002 lc '#888888' dt 2 title '0.002'",
+                of_ex ? "e_x" : "e_z");
         for (int kind = 0; kind < DRAWN_SOLIDS; kind++)
             fprintf(commands, ", '-' with points pt 7 ps 0.5 lc rgb '%s' title '%s'", colours[kind], titles[kind]);
         fputc('\n', commands);

@@ -104,8 +104,9 @@ static bool fill_file(hid_t file, const restitute_bem_recorder *recorder)
     }
     const hsize_t shape[3] = {count, cells, cells}, one = 1;
     const bool good = write_text(file, "version", restitute_version()) &&
-                      write_text(file, "units", "time: T; spacing: a_el; pressure: G_r d0/a_el; traction: that times "
-                                                "friction; stick: 1 sticks, 0 does not; axes: time, y, x") &&
+                      write_text(file, "units",
+                                 "time: T; spacing: a_el; pressure: G_r d0/a_el; traction: that times "
+                                 "friction; stick: 1 sticks, 0 does not; axes: time, y, x") &&
                       write_array(file, "time", 1, shape, times) && write_array(file, "spacing", 1, &one, &spacing) &&
                       write_array(file, "pressure", 3, shape, fields) &&
                       write_array(file, "traction", 3, shape, fields + count * grid) &&
@@ -147,7 +148,8 @@ static bool draw(const char *path, const restitute_bem_recorder *recorder, struc
     const double *const values[] = {shot.pressure, shot.traction, shot.stick};
     if (!gnuplot_open(path, 1000, 340, &gnuplot, why)) return false;
     fprintf(gnuplot.commands,
-            "set multiplot layout 1,3 title 'x and y in a_{el}, t = %.4g T'\nset size ratio -1\nset tics 0.5\nset cbtics auto\nunset key\n"
+            "set multiplot layout 1,3 title 'x and y in a_{el}, t = %.4g T'\nset size ratio -1\nset tics 0.5\nset "
+            "cbtics auto\nunset key\n"
             "set palette defined (0 '#ffffff', 1 '#3b518b', 2 '#21908d', 3 '#fde725')\n",
             shot.time);
     for (int i = 0; i < 3; i++) {

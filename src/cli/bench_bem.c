@@ -65,7 +65,8 @@ static bool read_rows(struct campaign *c, const char *path, const char *option, 
     char expected[128], line[1024];
     struct bench_bem_row row;
     FILE *stream = fopen(path, "r");
-    if (!stream) return errno == ENOENT && !must_exist ? true : refuse(why, "%s: %.200s: %s", option, path, strerror(errno));
+    if (!stream)
+        return errno == ENOENT && !must_exist ? true : refuse(why, "%s: %.200s: %s", option, path, strerror(errno));
     settings_line(c, expected, sizeof expected);
     bool good = fgets(line, sizeof line, stream) && strcmp(line, expected) == 0;
     if (!good) refuse(why, "%s: %.200s is of a run with other settings", option, path);

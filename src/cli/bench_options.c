@@ -15,10 +15,23 @@ enum { OPTION_QUICK = 1, OPTION_OMISSIONS, OPTION_STABILITY, OPTION_RESUME, OPTI
 /* Largest campaign: its rows are kept in memory. */
 static const double most_sets = 100000;
 
-enum { TEXT_METHODS, TEXT_SETS, TEXT_TOLERANCES, TEXT_BUDGET, TEXT_CAMPAIGN, TEXT_GRID, TEXT_SEED, TEXT_SHARD, TEXT_JOIN, TEXT_OUTPUT, TEXT_FIGURE, TEXTS };
+enum {
+    TEXT_METHODS,
+    TEXT_SETS,
+    TEXT_TOLERANCES,
+    TEXT_BUDGET,
+    TEXT_CAMPAIGN,
+    TEXT_GRID,
+    TEXT_SEED,
+    TEXT_SHARD,
+    TEXT_JOIN,
+    TEXT_OUTPUT,
+    TEXT_FIGURE,
+    TEXTS
+};
 
-static const char *const names[TEXTS] = {"methods", "sets", "tolerances", "budget", "bem-campaign",
-                                          "grid",    "seed", "shard",      "join",   "output", "figure"};
+static const char *const names[TEXTS] = {"methods", "sets",  "tolerances", "budget", "bem-campaign", "grid",
+                                         "seed",    "shard", "join",       "output", "figure"};
 
 #define ENTRY(name, text, argument, help)                                                                              \
     {                                                                                                                  \
@@ -130,7 +143,8 @@ static bool read_tolerances(const char *list, struct bench_plan *plan, struct re
 static bool read_whole(const char *option, const char *text, double low, double high, double *value, struct reason *why)
 {
     if (!text) return true;
-    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high && *value == floor(*value))
+    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high &&
+        *value == floor(*value))
         return true;
     return refuse(why, "--%s = \"%.64s\": must be a whole number in [%g, %g]", option, text, low, high);
 }
@@ -144,7 +158,8 @@ static bool read_shard(const char *text, struct bench_campaign *campaign, struct
     campaign->shard = campaign->shards = 1;
     if (!text) return true;
     if (slash && slash - text < (int)sizeof first) memcpy(first, text, (size_t)(slash - text));
-    if (restitute_number_read(first, &shard) != RESTITUTE_OK || restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
+    if (restitute_number_read(first, &shard) != RESTITUTE_OK ||
+        restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
         !(shard >= 1 && shard <= shards && shards <= 10000) || shard != floor(shard) || shards != floor(shards))
         return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
     campaign->shard = (int)shard;
@@ -218,8 +233,9 @@ static bool check_mode(const struct bench_settings *settings, char *const *text,
         return refuse(why, "--resume: only with --stability or --bem-campaign, and --output");
     if (text[TEXT_CAMPAIGN] && (omissions || stability || settings->quick || text[TEXT_METHODS] || text[TEXT_SETS] ||
                                 text[TEXT_TOLERANCES] || text[TEXT_BUDGET]))
-        return refuse(why, "--bem-campaign: has impacts and methods of its own; it takes --grid, --seed, --shard, --join, "
-                           "--resume, --output, --figure");
+        return refuse(why,
+                      "--bem-campaign: has impacts and methods of its own; it takes --grid, --seed, --shard, --join, "
+                      "--resume, --output, --figure");
     for (int i = TEXT_GRID; i <= TEXT_JOIN; i++)
         if (text[i] && !text[TEXT_CAMPAIGN]) return refuse(why, "--%s: only with --bem-campaign", names[i]);
     return true;

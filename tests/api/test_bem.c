@@ -101,7 +101,8 @@ static void scene(void **state)
     assert_int_equal(restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL), RESTITUTE_OK);
     restitute_scene_init(&s);
     restitute_numbers_init(&numbers);
-    s.material = rubber, s.radius1 = 0.005, s.mass1 = 0.004, s.friction = 0.3, s.normal_speed = 1.0, s.tangential_speed = 0.8;
+    s.material = rubber, s.radius1 = 0.005, s.mass1 = 0.004, s.friction = 0.3, s.normal_speed = 1.0,
+    s.tangential_speed = 0.8;
     assert_int_equal(restitute_scene_numbers(&s, &numbers, NULL), RESTITUTE_OK);
     const struct solution si = solve_scene(options_of(16, 0.1), &s);
     const struct solution own =
@@ -154,7 +155,8 @@ static void history_and_snapshots(void **state)
     }
     assert_true(sticking > 0 && broken == 0);
     assert_true(shot.pressure[0] == 0 && shot.pressure[shot.cells / 2 * (shot.cells + 1)] > 0);
-    CHECK_NEAR(15.0 / 64 * sum * shot.spacing * shot.spacing, force[5], 0.02, "its sum is the force"); /* samples differ by half a step */
+    CHECK_NEAR(15.0 / 64 * sum * shot.spacing * shot.spacing, force[5], 0.02,
+               "its sum is the force"); /* samples differ by half a step */
     assert_int_equal(restitute_bem_recorder_get(recorder, 3, &shot, &error), RESTITUTE_ERROR_DOMAIN);
     assert_int_equal(restitute_bem_recorder_get(NULL, 0, &shot, &error), RESTITUTE_ERROR_NULL);
     shot.struct_size = 1;
@@ -169,9 +171,11 @@ static void history_and_snapshots(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names),            cmocka_unit_test(refusals),
-        cmocka_unit_test(tolerance_is_met_or_told), cmocka_unit_test(repeats_its_bits),
-        cmocka_unit_test(scene),            cmocka_unit_test(history_and_snapshots)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(names),
+                                       cmocka_unit_test(refusals),
+                                       cmocka_unit_test(tolerance_is_met_or_told),
+                                       cmocka_unit_test(repeats_its_bits),
+                                       cmocka_unit_test(scene),
+                                       cmocka_unit_test(history_and_snapshots)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,9 +37,21 @@ int main(int count, char **arguments)
         if (!(fields[i] = calloc((size_t)(m * m), sizeof(double)))) return 1;
     for (int64_t i = 0; i < m * m; i++)
         fields[1][i] = DBL_MAX;
-    struct bem_bounded b = {.transform = bem_transform_create(m), .kind = BEM_NORMAL, .ld = m, .low = fields[0], .high = fields[1],
-                            .rhs = fields[2], .x = fields[3], .u = fields[4], .free = fields[5], .r = fields[6], .z = fields[7],
-                            .d = fields[8], .kd = fields[9], .closeness = 1e-8, .most_iterations = 300};
+    struct bem_bounded b = {.transform = bem_transform_create(m),
+                            .kind = BEM_NORMAL,
+                            .ld = m,
+                            .low = fields[0],
+                            .high = fields[1],
+                            .rhs = fields[2],
+                            .x = fields[3],
+                            .u = fields[4],
+                            .free = fields[5],
+                            .r = fields[6],
+                            .z = fields[7],
+                            .d = fields[8],
+                            .kd = fields[9],
+                            .closeness = 1e-8,
+                            .most_iterations = 300};
     FILE *file = fopen(arguments[2], "w");
     if (!b.transform || !file) return 1;
     for (int i = 0; i < 10; i++) {

@@ -26,8 +26,10 @@ static void compare(restitute_impact impact, const char *name)
     CHECK_NEAR(bem.result.ex, sync.result.ex, 3 * bem.result.error_ex, "estimate of ex of %s", name);
     CHECK_NEAR(bem.result.max_indentation, sync.result.max_indentation, 1e-3, "depth of %s", name);
     if (isfinite(sync.result.contact_time)) /* strong damping: the force fades away long before the contact ends */
-        CHECK_NEAR(bem.result.contact_time, sync.result.contact_time, 0.02 * sync.result.contact_time, "time of %s", name);
-    CHECK_NEAR(bem.result.max_normal_force, sync.result.max_normal_force, 2e-3 * sync.result.max_normal_force, "force of %s", name);
+        CHECK_NEAR(bem.result.contact_time, sync.result.contact_time, 0.02 * sync.result.contact_time, "time of %s",
+                   name);
+    CHECK_NEAR(bem.result.max_normal_force, sync.result.max_normal_force, 2e-3 * sync.result.max_normal_force,
+               "force of %s", name);
     /* sync counts what elements hold when they leave, bem what is still there at the end, some of it relaxed */
     CHECK(bem.ledger.left_z >= 0 && bem.ledger.left_z <= sync.ledger.left_z + 2e-3, "energy left of %s: %g, %g", name,
           bem.ledger.left_z, sync.ledger.left_z);
@@ -75,7 +77,8 @@ static void no_slip(void **state)
 /* Tractions across the sliding direction: small, but there, without slip as with it (docs/bem.md). */
 static void both_directions(void **state)
 {
-    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 0, INFINITY), impact_of(7.0 / 6, 2, 1, 1), impact_of(4, 3, 0, INFINITY)};
+    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 0, INFINITY), impact_of(7.0 / 6, 2, 1, 1),
+                                        impact_of(4, 3, 0, INFINITY)};
     (void)state;
     for (int i = 0; i < 3; i++) {
         restitute_options options = bem_options(20);
@@ -84,7 +87,8 @@ static void both_directions(void **state)
         const struct solution both = solve_impact(options, impacts[i]);
         CHECK_NEAR(both.result.ex, one.result.ex, 0.003, "ex of %d", i); /* up to 0.0018 with 30 cells */
         assert_true(fabs(both.result.ex - one.result.ex) > 1e-5);
-        CHECK_NEAR(both.result.ez, one.result.ez, 1e-6, "ez of %d", i); /* iterations stop at 1e-6; the parts of the grid differ */
+        CHECK_NEAR(both.result.ez, one.result.ez, 1e-6, "ez of %d",
+                   i); /* iterations stop at 1e-6; the parts of the grid differ */
     }
 }
 
@@ -112,7 +116,8 @@ static void ledger(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard), cmocka_unit_test(prony_and_flow),
-                                       cmocka_unit_test(no_slip), cmocka_unit_test(both_directions), cmocka_unit_test(slip_to_the_end), cmocka_unit_test(ledger)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic_and_standard), cmocka_unit_test(prony_and_flow),  cmocka_unit_test(no_slip),
+        cmocka_unit_test(both_directions),      cmocka_unit_test(slip_to_the_end), cmocka_unit_test(ledger)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,16 +22,30 @@ static double radius2(int i, double spacing)
 
 static void solve(enum bem_kind kind)
 {
-    struct bem_bounded b = {.transform = transform, .kind = kind, .ld = m, .low = low, .high = high, .rhs = target, .x = x, .u = u,
-                            .free = room[0], .r = room[1], .z = room[2], .d = room[3], .kd = room[4],
-                            .closeness = 1e-9, .most_iterations = 200};
+    struct bem_bounded b = {.transform = transform,
+                            .kind = kind,
+                            .ld = m,
+                            .low = low,
+                            .high = high,
+                            .rhs = target,
+                            .x = x,
+                            .u = u,
+                            .free = room[0],
+                            .r = room[1],
+                            .z = room[2],
+                            .d = room[3],
+                            .kd = room[4],
+                            .closeness = 1e-9,
+                            .most_iterations = 200};
     CHECK(bem_solve_bounded(&b) == 0, "not settled after %d iterations", (int)b.iterations);
     CHECK(b.iterations < 60, "%d iterations: the preconditioner does nothing", (int)b.iterations);
     for (int i = 0; i < cells; i++) { /* the conditions that make it the solution */
         const double r = target[i] - u[i];
         CHECK(x[i] >= low[i] && x[i] <= high[i], "cell %d out of bounds", i);
-        if (x[i] > low[i] && x[i] < high[i]) CHECK(fabs(r) < 1e-7, "cell %d is free and misses by %g", i, r);
-        else if (low[i] < high[i]) CHECK(x[i] <= low[i] ? r <= 1e-7 : r >= -1e-7, "cell %d is held by no residual", i);
+        if (x[i] > low[i] && x[i] < high[i])
+            CHECK(fabs(r) < 1e-7, "cell %d is free and misses by %g", i, r);
+        else if (low[i] < high[i])
+            CHECK(x[i] <= low[i] ? r <= 1e-7 : r >= -1e-7, "cell %d is held by no residual", i);
     }
 }
 
@@ -73,7 +87,8 @@ static void hertz(void **state)
         if (r < 1 - spacing) CHECK(x[i] > 0, "no contact at r = %g", r);
         if (r > 1 + spacing) CHECK(x[i] <= 0, "contact at r = %g", r);
     }
-    CHECK(worst < 0.01, "pressure inside of 0.9 a is off by %g of 8/pi", worst); /* 0.4 %, of the piecewise constant traction */
+    CHECK(worst < 0.01, "pressure inside of 0.9 a is off by %g of 8/pi",
+          worst); /* 0.4 %, of the piecewise constant traction */
     CHECK_NEAR(sqrt(4 * contact / pi) * spacing, 1, 0.01, "radius from the area"); /* half a cell */
 }
 
@@ -118,15 +133,18 @@ static void cattaneo_mindlin(void **state)
         for (int i = 0; i < cells; i++) {
             const double r = sqrt(radius2(i, spacing));
             if (high[i] <= 0) continue;
-            if (x[i] < high[i]) inside = fmax(inside, r);
-            else outside = fmin(outside, r);
+            if (x[i] < high[i])
+                inside = fmax(inside, r);
+            else
+                outside = fmin(outside, r);
             if (r > 0.9 * c) continue;
             const double exact = 8 / pi * (sqrt(1 - r * r) - sqrt(c * c - r * r));
             worst = fmax(worst, fabs(x[i] / spacing - exact));
         }
         CHECK_NEAR(inside, c, 1.5 * spacing, "outermost cell that sticks"); /* one cell, and its diagonal */
         CHECK_NEAR(outside, c, 1.5 * spacing, "innermost cell that slips");
-        CHECK(worst < 0.03, "traction within 0.9 c is off by %g, c = %g", worst, c); /* 1 % of 8/pi: the edge is one cell sharp */
+        CHECK(worst < 0.03, "traction within 0.9 c is off by %g, c = %g", worst,
+              c); /* 1 % of 8/pi: the edge is one cell sharp */
     }
 }
 
@@ -146,6 +164,7 @@ static int drop_transform(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hertz), cmocka_unit_test(flat_punch), cmocka_unit_test(cattaneo_mindlin)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hertz), cmocka_unit_test(flat_punch),
+                                       cmocka_unit_test(cattaneo_mindlin)};
     return cmocka_run_group_tests(tests, make_transform, drop_transform);
 }

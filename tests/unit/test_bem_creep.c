@@ -4,8 +4,8 @@
 
 #include "../support/check.h"
 #include "../support/random.h"
-#include "solid.h"
 #include "kernels.h"
+#include "solid.h"
 
 enum { most = 32 };
 
@@ -25,11 +25,12 @@ static struct creep creep_of(double g_inf, int64_t n, const double *g, const dou
 static double exponential_pair(double t, double a, double b)
 {
     double sum = 0; /* Gauss-Legendre of 3 nodes on cells that grow from both ends: smooth, error below 1e-9 */
-    static const double node[] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    static const double node[] = {-0.7745966692414834, 0, 0.7745966692414834},
+                        weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     enum { cells = 4000 };
     for (int i = 0; i < cells; i++)
         for (int k = 0; k < 3; k++) {
-            const double z = (i + 0.5 + 0.5 * node[k]) / cells;        /* 0 to 1 */
+            const double z = (i + 0.5 + 0.5 * node[k]) / cells; /* 0 to 1 */
             const double s = t * z * z * (3 - 2 * z), rate = t * 6 * z * (1 - z) / cells;
             sum += weight[k] * rate * exp(-(t - s) / a) * -expm1(-s / b);
         }
@@ -95,11 +96,12 @@ static void poles_interlace_and_product_is_t(void **state)
             int larger = 0; /* retardation times above this one: as many as relaxation times above it, or one less */
             for (int64_t i = 0; i < c.n; i++)
                 larger += c.lambda[i] > c.lambda[j];
-            CHECK(above + below == n && larger == above - (g_inf > 0 ? 0 : 1), "round %d: lambda %g: %d above, %d larger",
-                  round, c.lambda[j], above, larger);
+            CHECK(above + below == n && larger == above - (g_inf > 0 ? 0 : 1),
+                  "round %d: lambda %g: %d above, %d larger", round, c.lambda[j], above, larger);
         }
         for (double t = 0.05; t < 20; t *= 3)
-            CHECK_NEAR(product(t, g_inf, n, g, tau, &c) / t, 1, 1e-7, "round %d, t = %g", round, t); /* the quadrature's */
+            CHECK_NEAR(product(t, g_inf, n, g, tau, &c) / t, 1, 1e-7, "round %d, t = %g", round,
+                       t); /* the quadrature's */
     }
 }
 
@@ -130,7 +132,12 @@ static void wide_spectrum(void **state)
 static void recursion_is_exact_for_lines(void **state)
 {
     double compliance = 0.7, lambda = 0.3, decay, gain, b = 0;
-    struct bem_solid s = {.instantaneous = 0.2, .n_terms = 1, .compliance = &compliance, .lambda = &lambda, .decay = &decay, .gain = &gain};
+    struct bem_solid s = {.instantaneous = 0.2,
+                          .n_terms = 1,
+                          .compliance = &compliance,
+                          .lambda = &lambda,
+                          .decay = &decay,
+                          .gain = &gain};
     (void)state;
     bem_solid_step(0.125, 0, &s);
     for (int i = 0; i < 8; i++)
@@ -143,7 +150,7 @@ static void recursion_is_exact_for_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(standard_solid_is_known), cmocka_unit_test(maxwell_flows),
-                                       cmocka_unit_test(poles_interlace_and_product_is_t), cmocka_unit_test(wide_spectrum),
-                                       cmocka_unit_test(recursion_is_exact_for_lines)};
+                                       cmocka_unit_test(poles_interlace_and_product_is_t),
+                                       cmocka_unit_test(wide_spectrum), cmocka_unit_test(recursion_is_exact_for_lines)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

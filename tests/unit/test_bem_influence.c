@@ -91,7 +91,8 @@ static void convolution_is_the_sum(void **state)
             bem_convolve(t, kind, ld, x, u);
             for (int j = 0; j < m; j++)
                 for (int i = 0; i < m; i++) /* sums of some hundred terms of order 0.1 */
-                    CHECK_NEAR(u[j * ld + i], by_sum(table, n, m, ld, x, i, j), 1e-13, "m %d kind %d at %d, %d", m, kind, i, j);
+                    CHECK_NEAR(u[j * ld + i], by_sum(table, n, m, ld, x, i, j), 1e-13, "m %d kind %d at %d, %d", m,
+                               kind, i, j);
         }
         bem_transform_destroy(t);
         free(table);
@@ -128,7 +129,8 @@ static void plane_is_the_sum(void **state)
                         const int odd = kind != BEM_Y_FROM_X && (l < 0) != (k < 0), di = i - k, dj = j - l;
                         const double value = x[(l < 0 ? -l - 1 : l) * m + (k < 0 ? -k - 1 : k)] * (odd ? -1 : 1);
                         const double sign = (di < 0) != (dj < 0) ? -1 : 1; /* of x y; 0 on the axes */
-                        sum += value * (kind == BEM_Y_FROM_Y ? table_at(shear, n, dj, di) : sign * table_at(cross, n, di, dj));
+                        sum += value *
+                               (kind == BEM_Y_FROM_Y ? table_at(shear, n, dj, di) : sign * table_at(cross, n, di, dj));
                     }
                 CHECK_NEAR(u[j * m + i], sum, 1e-13, "kind %d at %d, %d", kind, i, j); /* like the sums above */
             }

@@ -9,20 +9,27 @@ static double g = 2, tau = 0.5, room[8];
 
 static struct rst_problem problem_of(double psi, int standard_solid)
 {
-    struct rst_problem p = {.chi = 7.0 / 6, .psi = psi, .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP, .tolerance = 1e-3};
+    struct rst_problem p = {
+        .chi = 7.0 / 6, .psi = psi, .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP, .tolerance = 1e-3};
     p.solid = (struct rst_solid){.g_inf = 1, .n_terms = standard_solid, .g = &g, .tau = &tau};
     return p;
 }
 
-static struct bem_run run_of(const struct rst_problem *problem, struct bem_variant variant, int64_t m, double radius, double step,
-                             struct bem_observer *observer)
+static struct bem_run run_of(const struct rst_problem *problem, struct bem_variant variant, int64_t m, double radius,
+                             double step, struct bem_observer *observer)
 {
     struct bem_solid solid = {.compliance = room, .lambda = room + 2, .decay = room + 4, .gain = room + 6};
     struct rst_workspace workspace = {0};
     struct bem_memory *memory = bem_memory_of(&workspace);
     struct bem_run run;
-    const struct bem_setup setup = {.problem = problem, .solid = &solid, .variant = variant, .m = m, .spacing = 1.1 * radius / (double)m,
-                                    .step = step, .rest_speed = 1e-5, .most_steps = 100000};
+    const struct bem_setup setup = {.problem = problem,
+                                    .solid = &solid,
+                                    .variant = variant,
+                                    .m = m,
+                                    .spacing = 1.1 * radius / (double)m,
+                                    .step = step,
+                                    .rest_speed = 1e-5,
+                                    .most_steps = 100000};
     assert_non_null(memory);
     bem_solid_creep(&problem->solid, &solid);
     bem_solid_step(step, variant.explicit_euler, &solid);
@@ -68,7 +75,8 @@ static void lee_radok_loading(void **state)
         if (l.depth[i] < 0.1) continue; /* few cells */
         const double expected = hertz + g * memory;
         CHECK_NEAR(l.force[i] / expected, 1, 1e-3, "P at t = %g", l.time[i]); /* 18 to 58 cells over the radius */
-        CHECK_NEAR(l.area[i] / (3.14159265358979 * l.depth[i]), 1, 0.05, "area at t = %g", l.time[i]); /* of whole cells */
+        CHECK_NEAR(l.area[i] / (3.14159265358979 * l.depth[i]), 1, 0.05, "area at t = %g",
+                   l.time[i]); /* of whole cells */
         checked++;
     }
     CHECK(checked > 30, "%d steps were looked at", checked);
@@ -111,7 +119,8 @@ static void stick_sets_agree_with_bounds(void **state)
     const struct bem_run a = run_of(&problem, (struct bem_variant){0}, 24, 0.95, 0.02, NULL);
     const struct bem_run b = run_of(&problem, (struct bem_variant){.stick_sets = 1}, 24, 0.95, 0.02, NULL);
     (void)state;
-    CHECK_NEAR(a.last.shear_velocity, b.last.shear_velocity, 1e-3, "U' after"); /* the sets do not let a cell stick again */
+    CHECK_NEAR(a.last.shear_velocity, b.last.shear_velocity, 1e-3,
+               "U' after"); /* the sets do not let a cell stick again */
 }
 
 /* Against the largest force of a fine grid, whole cells make noise. */
@@ -123,15 +132,16 @@ static void converges_with_the_grid(void **state)
     (void)state;
     for (int i = 0; i < 3; i++)
         force[i] = run_of(&problem, (struct bem_variant){0}, m[i], 0.95, 0.02, NULL).max_force;
-    CHECK(fabs(force[1] - force[2]) < 0.5 * fabs(force[0] - force[2]), "forces %.8g %.8g %.8g", force[0], force[1], force[2]);
+    CHECK(fabs(force[1] - force[2]) < 0.5 * fabs(force[0] - force[2]), "forces %.8g %.8g %.8g", force[0], force[1],
+          force[2]);
     CHECK(fabs(force[1] - force[2]) < 1e-3 * force[2], "forces %.8g %.8g", force[1], force[2]);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lee_radok_loading), cmocka_unit_test(second_order_in_the_step),
-        cmocka_unit_test(the_papers_steps_are_of_first_order), cmocka_unit_test(stick_sets_agree_with_bounds),
-        cmocka_unit_test(converges_with_the_grid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lee_radok_loading), cmocka_unit_test(second_order_in_the_step),
+                                       cmocka_unit_test(the_papers_steps_are_of_first_order),
+                                       cmocka_unit_test(stick_sets_agree_with_bounds),
+                                       cmocka_unit_test(converges_with_the_grid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
