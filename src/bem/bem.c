@@ -77,10 +77,15 @@ static double rest_speed(const struct rst_problem *problem)
     return fmax(1e-5, 0.01 * problem->tolerance);
 }
 
+static double duration_of(const struct impact *impact)
+{
+    return impact->box.sinks ? impact->box.sink_time : impact->box.time;
+}
+
 static struct bem_setup setup_of(struct impact *impact, double elements, double step, double spacing)
 {
     const struct bem_box *box = &impact->box;
-    const double duration = box->sinks ? box->sink_time : box->time;
+    const double duration = duration_of(impact);
     return (struct bem_setup){.problem = impact->problem,
                               .solid = &impact->solid,
                               .variant = impact->method->variant,
@@ -209,6 +214,9 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
     if (end == BEM_TOO_LONG)
         return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
                           step * p->time_unit, p->unit_name);
+    if (end == BEM_REBOUND || end == BEM_SUNK) /* a run, but none to compare it with */
+        return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_updates = %lld: spent before there was a result; raise it", (long long)p->max_updates);
     return bem_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                       "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
                       step * p->time_unit, p->unit_name);
@@ -221,15 +229,31 @@ static double steps_wanted(const struct impact *impact, double elements)
     return usual_steps * faster * elements / usual_elements;
 }
 
+/* Convolutions of a step, usually. */
+static const double convolutions_per_step = 12;
+
+static int too_many_steps(struct impact *impact, double elements, double step, restitute_error *error)
+{
+    const struct rst_problem *p = impact->problem;
+    const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
+    const double updates = duration / step * convolutions_per_step * 4 * m * m;
+    if (updates <= (double)p->max_updates) return RESTITUTE_OK;
+    return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
+                      (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);
+}
+
 /* Elements or step given: one run with them, and one with half the cells and twice the step. */
 static int solve_as_told(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
-    const double duration = impact->box.sinks ? impact->box.sink_time : impact->box.time;
+    const double duration = duration_of(impact);
     const double elements = p->elements > 0 ? (double)p->elements : usual_elements;
     const double step = p->time_step > 0 ? p->time_step : duration / steps_wanted(impact, usual_elements);
     struct bem_setup setup, beside;
     struct bem_run run, coarse;
+    const int status = too_many_steps(impact, elements, step, error);
+    if (status) return status;
     const enum bem_end end_of_coarse = run_once(impact, elements / 2, 2 * step, 0, &beside, &coarse);
     const enum bem_end end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
     if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, error);
@@ -249,7 +273,7 @@ static int too_much(const struct impact *impact, int64_t last)
 
 static int solve_refining(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
 {
-    const double duration = impact->box.sinks ? impact->box.sink_time : impact->box.time;
+    const double duration = duration_of(impact);
     struct bem_setup setup;
     struct bem_run run, coarse = {.end = BEM_UNSETTLED};
     int found = 0;

@@ -48,6 +48,13 @@ static void refusals(void **state)
     options.time_step = 3;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
     assert_non_null(strstr(error.message, "steps of 3 T"));
+    options.time_step = 1e-12;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    assert_non_null(strstr(error.message, "max_updates = 10000000000"));
+    options = options_of(0, 1e-3);
+    options.max_updates = 1;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    assert_non_null(strstr(error.message, "spent before there was a result"));
     options = options_of(0, 1e-3);
     error = refused(options, impact_of(1, 0.5, 1, 1e-300), RESTITUTE_ERROR_TOO_MUCH_WORK);
     assert_non_null(strstr(error.message, "no box"));
