@@ -15,6 +15,9 @@ static const double taken = 1.0 / 3;
 /* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
 static const double grid_error_ez = 0.002, grid_error_ex = 0.03;
 
+/* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
+static const double largest_chi = 10, thin_slip = 0.1;
+
 /* Without slip the traction is singular at the rim, and the grid errors are larger by this. */
 static const double no_slip_factor = 5;
 
@@ -181,6 +184,7 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, d
 {
     const double psi = impact->problem->psi;
     const double grid = pow(elements, -1.5) * (impact->problem->mode == RST_NO_SLIP ? no_slip_factor : 1);
+    const double harder = fmin(largest_chi, fmax(1, impact->problem->chi)) * (1 + thin_slip / (thin_slip + psi));
     double part = taken;
     if (impact->method->variant.explicit_euler) part = 1; /* of first order */
     const double change = outcome->sunk ? 0 : part * (outcome->velocity - coarse->last.velocity);
@@ -189,7 +193,7 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, d
     if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
-    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * grid + outcome->error_ez;
+    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * grid * harder + outcome->error_ez;
     outcome->shear_velocity += shear_change;
 }
 
@@ -238,9 +242,10 @@ static int too_many_steps(struct impact *impact, double elements, double step, r
     const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
     const double updates = duration / step * convolutions_per_step * 4 * m * m;
     if (updates <= (double)p->max_updates) return RESTITUTE_OK;
-    return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                      "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
-                      (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);
+    return bem_report(
+        error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
+        (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);
 }
 
 /* Elements or step given: one run with them, and one with half the cells and twice the step. */
