@@ -19,7 +19,7 @@
  *    60 and 122 give 64 x 64, 128 x 128 and 256 x 256 cells. 0: chosen by the tolerance.
  *  - options.time_step: as elsewhere; 0 with given elements: a 200th of the contact time.
  *  - options.tolerance: grids to 2048 x 2048 are tried, a time limit is given by options.max_updates, here in cells times
- *    convolutions. 1e-3 takes some hundredths of a second, 1e-4 about a second.
+ *    convolutions. 1e-3 takes some hundredths of a second, 1e-4 some seconds.
  *  - The result is extrapolated from two runs, the second with half the cells and twice the step; the estimates are what that changed, and a part for the grid (docs/bem.md).
  *  - Poisson's ratio enters by chi and psi alone, as in the other methods; the kernel is that of nu = 1/2.
  *  - A solid without instantaneous modulus (Kelvin-Voigt, or any parallel viscosity) is refused with ERROR_DOMAIN: its pressure
