@@ -58,8 +58,8 @@ restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
 
 restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
 
-# The serial HDF5 goes before whatever stands under the plain name, which may want MPI.
-if(RESTITUTE_TABLE_FILES)
+# The serial HDF5 goes before whatever stands under the plain name, which may want MPI. The command takes it too where it is there.
+if(RESTITUTE_TABLE_FILES OR RESTITUTE_COMMAND)
   set(RESTITUTE_HDF5_MODULE hdf5-serial)
   restitute_find_pkg_config_library(HDF5 hdf5-serial)
   if(NOT HDF5_FOUND)
@@ -81,6 +81,14 @@ if(RESTITUTE_CVODE)
 endif()
 restitute_decide(RESTITUTE_CVODE "the component cvode" RESTITUTE_WITH_CVODE #
                  RESTITUTE_SUNDIALS_FITS "SUNDIALS 6.4 to 7 (Debian: libsundials-dev)")
+
+if(RESTITUTE_BEM)
+  restitute_find_pkg_config_library(FFTW fftw3)
+  find_package(Threads QUIET)
+endif()
+restitute_decide(RESTITUTE_BEM "the component bem" RESTITUTE_WITH_BEM #
+                 FFTW_FOUND "FFTW (Debian: libfftw3-dev, found by pkg-config)" #
+                 Threads_FOUND "POSIX threads")
 
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)

@@ -65,6 +65,16 @@ static json_t *settings_object(const struct bench_settings *settings)
     for (int i = 0; i < plan->n_tolerances; i++)
         json_array_append_new(tolerances, json_real(plan->tolerances[i]));
     json_object_set_new(object, "version", json_string(restitute_version()));
+    if (settings->mode == MODE_BEM) {
+        const struct bench_campaign *c = &settings->campaign;
+        json_object_set_new(object, "sets", json_integer(c->sets));
+        json_object_set_new(object, "seed", json_integer(c->seed));
+        json_object_set_new(object, "grid", json_integer(c->grid));
+        json_decref(methods);
+        json_decref(sets);
+        json_decref(tolerances);
+        return object;
+    }
     json_object_set_new(object, "quick", json_boolean(settings->quick));
     json_object_set_new(object, "methods", methods);
     json_object_set_new(object, "budget_s", json_real(plan->budget));
@@ -255,6 +265,9 @@ int bench_main(int count, char **arguments)
         catch_signals();
         status = settings.mode == MODE_OMISSIONS   ? omissions_run(&settings)
                  : settings.mode == MODE_STABILITY ? bench_map_run(&settings)
+#ifdef RESTITUTE_WITH_BEM
+                 : settings.mode == MODE_BEM       ? bench_bem_campaign(&settings)
+#endif
                                                    : precision_run(&settings);
     }
     bench_options_release(&settings);

@@ -9,7 +9,15 @@
 #include "message.h"
 #include "precision.h"
 
-enum bench_mode { MODE_PRECISION, MODE_OMISSIONS, MODE_STABILITY };
+enum bench_mode { MODE_PRECISION, MODE_OMISSIONS, MODE_STABILITY, MODE_BEM };
+
+/* Boundary elements against sync on drawn impacts: those with number shard - 1, shard - 1 + shards, ... */
+struct bench_campaign {
+    long sets;
+    unsigned seed;
+    int grid, shard, shards;
+    char *join; /* files of finished shards, by commas; NULL: none */
+};
 
 /* The command line of `restitute bench`. */
 struct bench_settings {
@@ -17,6 +25,7 @@ struct bench_settings {
     bool quick, resume;
     unsigned sets;
     struct bench_plan plan;
+    struct bench_campaign campaign;
     char *output, *figure; /* NULL: not given */
     int argument_count;
     const char *const *arguments;
@@ -30,6 +39,9 @@ void bench_options_release(struct bench_settings *settings);
 
 /* The stability map: cells go into PREFIX-stability.csv.partial as they are done. Returns the exit status. */
 int bench_map_run(const struct bench_settings *settings);
+
+/* Boundary elements against sync; rows go into PREFIX-bem.csv.partial as they are done. Returns the exit status. */
+int bench_bem_campaign(const struct bench_settings *settings);
 
 /* True after a signal that asked to stop. */
 bool bench_interrupted(void);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bench.h"
 
+#include <math.h>
 #include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,9 +12,26 @@
 
 enum { OPTION_QUICK = 1, OPTION_OMISSIONS, OPTION_STABILITY, OPTION_RESUME, OPTION_HELP, OPTION_TEXT };
 
-enum { TEXT_METHODS, TEXT_SETS, TEXT_TOLERANCES, TEXT_BUDGET, TEXT_OUTPUT, TEXT_FIGURE, TEXTS };
+/* Largest campaign: its rows are kept in memory. */
+static const double most_sets = 100000;
 
-static const char *const names[TEXTS] = {"methods", "sets", "tolerances", "budget", "output", "figure"};
+enum {
+    TEXT_METHODS,
+    TEXT_SETS,
+    TEXT_TOLERANCES,
+    TEXT_BUDGET,
+    TEXT_CAMPAIGN,
+    TEXT_GRID,
+    TEXT_SEED,
+    TEXT_SHARD,
+    TEXT_JOIN,
+    TEXT_OUTPUT,
+    TEXT_FIGURE,
+    TEXTS
+};
+
+static const char *const names[TEXTS] = {"methods", "sets",  "tolerances", "budget", "bem-campaign", "grid",
+                                         "seed",    "shard", "join",       "output", "figure"};
 
 #define ENTRY(name, text, argument, help)                                                                              \
     {                                                                                                                  \
@@ -32,12 +50,18 @@ static const struct poptOption table[] = {
     ENTRY("tolerances", TEXT_TOLERANCES, "T,T,...", "from large to small, in [1e-8, 0.1]; default 1e-2,1e-3,...,1e-8"),
     ENTRY("budget", TEXT_BUDGET, "S",
           "longest time of one run, or of a cell of the map, s, in [1e-3, 3600]; default 2"),
+    ENTRY("bem-campaign", TEXT_CAMPAIGN, "N",
+          "instead: boundary elements against sync on N impacts drawn at random, 1 to 100000"),
+    ENTRY("grid", TEXT_GRID, "CELLS", "with --bem-campaign: cells along a side, even, 16 to 1024; default 128"),
+    ENTRY("seed", TEXT_SEED, "S", "with --bem-campaign: another draw, 0 to 4294967295; default 2017"),
+    ENTRY("shard", TEXT_SHARD, "I/K", "with --bem-campaign: every K-th impact alone, from the I-th on"),
+    ENTRY("join", TEXT_JOIN, "FILE,...", "with --bem-campaign: rows of finished shards, which are not solved again"),
     FLAG("quick", OPTION_QUICK, "few scenes, coarse: seconds instead of minutes"),
     ENTRY("output", TEXT_OUTPUT, "PREFIX",
           "write PREFIX-runs.csv, PREFIX-summary.csv, PREFIX-speed.csv, or PREFIX-omissions.csv, or "
-          "PREFIX-stability.csv"),
+          "PREFIX-stability.csv, or PREFIX-bem.csv"),
     ENTRY("figure", TEXT_FIGURE, "FILE", "a figure, .svg or .png; needs gnuplot"),
-    FLAG("resume", OPTION_RESUME, "with --stability and --output: go on from PREFIX-stability.csv.partial"),
+    FLAG("resume", OPTION_RESUME, "with --stability or --bem-campaign, and --output: go on from the .csv.partial"),
     FLAG("help", OPTION_HELP, "show this and stop"),
     POPT_TABLEEND};
 
@@ -51,6 +75,7 @@ static const char footer[] =
     "  restitute bench --quick\n"
     "  restitute bench --output report --figure report.svg\n"
     "  restitute bench --stability --output report --figure stability.svg\n"
+    "  restitute bench --bem-campaign 200 --output report --figure bem.svg\n"
     "\nExit status: 0 done, 2 bad usage or output that cannot be written, 130 interrupted.\n";
 
 /* The first word of a comma-separated list: its length; what comes after it, NULL at the end. */
@@ -115,6 +140,55 @@ static bool read_tolerances(const char *list, struct bench_plan *plan, struct re
     return true;
 }
 
+static bool read_whole(const char *option, const char *text, double low, double high, double *value, struct reason *why)
+{
+    if (!text) return true;
+    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high &&
+        *value == floor(*value))
+        return true;
+    return refuse(why, "--%s = \"%.64s\": must be a whole number in [%g, %g]", option, text, low, high);
+}
+
+/* "I/K" */
+static bool read_shard(const char *text, struct bench_campaign *campaign, struct reason *why)
+{
+    char first[24] = "";
+    const char *slash = text ? strchr(text, '/') : NULL;
+    double shard = 1, shards = 1;
+    campaign->shard = campaign->shards = 1;
+    if (!text) return true;
+    if (slash && slash - text < (int)sizeof first) memcpy(first, text, (size_t)(slash - text));
+    if (restitute_number_read(first, &shard) != RESTITUTE_OK ||
+        restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
+        !(shard >= 1 && shard <= shards && shards <= 10000) || shard != floor(shard) || shards != floor(shards))
+        return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
+    campaign->shard = (int)shard;
+    campaign->shards = (int)shards;
+    return true;
+}
+
+static bool take_campaign(char **text, struct bench_settings *settings, struct reason *why)
+{
+    double sets = 0, grid = 128, seed = 2017;
+    struct bench_campaign *campaign = &settings->campaign;
+#ifndef RESTITUTE_WITH_BEM
+    return refuse(why, "--bem-campaign: the component bem is not in this build (it needs FFTW)");
+#endif
+    if (!read_whole("bem-campaign", text[TEXT_CAMPAIGN], 1, most_sets, &sets, why) ||
+        !read_whole("grid", text[TEXT_GRID], 16, 1024, &grid, why) ||
+        !read_whole("seed", text[TEXT_SEED], 0, 4294967295.0, &seed, why) ||
+        !read_shard(text[TEXT_SHARD], campaign, why))
+        return false;
+    if ((int)grid % 2) return refuse(why, "--grid = %g: must be even", grid);
+    campaign->sets = (long)sets;
+    campaign->grid = (int)grid;
+    campaign->seed = (unsigned)seed;
+    campaign->join = text[TEXT_JOIN];
+    text[TEXT_JOIN] = NULL;
+    settings->mode = MODE_BEM;
+    return true;
+}
+
 static bool take_words(char *const *text, struct bench_settings *settings, struct reason *why)
 {
     char methods[200] = "", sets[64] = "";
@@ -155,8 +229,15 @@ static bool check_mode(const struct bench_settings *settings, char *const *text,
         return refuse(why, "--%s: has scenes and resolutions of its own; without --sets and --tolerances",
                       omissions ? "omissions" : "stability");
     if (omissions && text[TEXT_BUDGET]) return refuse(why, "--budget: not with --omissions");
-    if (settings->resume && !(stability && text[TEXT_OUTPUT]))
-        return refuse(why, "--resume: only with --stability and --output");
+    if (settings->resume && !((stability || text[TEXT_CAMPAIGN]) && text[TEXT_OUTPUT]))
+        return refuse(why, "--resume: only with --stability or --bem-campaign, and --output");
+    if (text[TEXT_CAMPAIGN] && (omissions || stability || settings->quick || text[TEXT_METHODS] || text[TEXT_SETS] ||
+                                text[TEXT_TOLERANCES] || text[TEXT_BUDGET]))
+        return refuse(why,
+                      "--bem-campaign: has impacts and methods of its own; it takes --grid, --seed, --shard, --join, "
+                      "--resume, --output, --figure");
+    for (int i = TEXT_GRID; i <= TEXT_JOIN; i++)
+        if (text[i] && !text[TEXT_CAMPAIGN]) return refuse(why, "--%s: only with --bem-campaign", names[i]);
     return true;
 }
 
@@ -180,7 +261,8 @@ static bool read_arguments(poptContext context, struct bench_settings *settings,
     if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
     settings->mode = omissions ? MODE_OMISSIONS : stability ? MODE_STABILITY : MODE_PRECISION;
     set_defaults(settings->quick, settings);
-    return check_mode(settings, text, omissions, stability, why) && take_words(text, settings, why);
+    if (!check_mode(settings, text, omissions, stability, why)) return false;
+    return text[TEXT_CAMPAIGN] ? take_campaign(text, settings, why) : take_words(text, settings, why);
 }
 
 enum bench_reading bench_options_read(int count, char **arguments, struct bench_settings *settings)
@@ -215,5 +297,6 @@ enum bench_reading bench_options_read(int count, char **arguments, struct bench_
 void bench_options_release(struct bench_settings *settings)
 {
     free(settings->output);
+    free(settings->campaign.join);
     free(settings->figure);
 }

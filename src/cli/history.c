@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "bem_fields.h"
 #include "events.h"
 #include "figure.h"
 #include "output.h"
@@ -77,12 +78,21 @@ static bool solve(const struct settings *settings, const struct problem *problem
     restitute_solver *solver;
     restitute_result result;
     restitute_error error;
+    restitute_options options = settings->solver;
+    struct bem_fields_keeper *fields;
     restitute_result_init(&result);
-    if (restitute_solver_create(&settings->solver, &solver, &error) < 0) return refuse(why, "%s", error.message);
-    *status = settings->text[TEXT_EVENTS] ? events_solve(solver, problem, &result, history, events, &error)
-                                          : problem_solve(solver, problem, &result, NULL, history, &error);
-    restitute_solver_destroy(solver);
-    if (*status < 0) return refuse(why, "%s", error.message);
+    if (!bem_fields_begin(settings, &options, &fields, why)) return false;
+    bool done = restitute_solver_create(&options, &solver, &error) >= 0;
+    if (done) {
+        *status = settings->text[TEXT_EVENTS] ? events_solve(solver, problem, &result, history, events, &error)
+                                              : problem_solve(solver, problem, &result, NULL, history, &error);
+        restitute_solver_destroy(solver);
+        done = *status >= 0;
+    }
+    if (!done) refuse(why, "%s", error.message);
+    if (done) done = bem_fields_write(settings, fields, why);
+    bem_fields_release(fields);
+    if (!done) return false;
     if (*status != RESTITUTE_OK) complain("remark: %s", restitute_status_text(*status));
     return true;
 }

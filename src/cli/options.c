@@ -12,6 +12,9 @@
 #include <restitute/cvode.h>
 #endif
 #include <restitute/files.h>
+#ifdef RESTITUTE_WITH_BEM
+#include <restitute/bem.h>
+#endif
 
 #include "output.h"
 
@@ -51,6 +54,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_DUNDURS_LIMIT] = "dundurs-limit",
     [TEXT_THREADS] = "threads",
     [TEXT_EVENTS] = "events",
+    [TEXT_FIELDS] = "fields",
 };
 
 static struct poptOption more_scene_options[] = {
@@ -65,7 +69,8 @@ static struct poptOption more_scene_options[] = {
 static struct poptOption solution_options[] = {
     ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME",
           "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
-          "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode)"),
+          "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode); "
+          "bem, bem-paper, bem-both: boundary elements, an independent check (component bem)"),
     ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
     ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
@@ -102,6 +107,8 @@ static struct poptOption history_output_options[] = {
     ENTRY("events", CODE_TEXT + TEXT_EVENTS, "FILE",
           "write the log of events here, as CSV, or as HDF5 if the name ends in .h5; takes the method cvode"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
+    ENTRY("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
+          "with --method bem: pressure, traction and stick map at nine times to .h5, or the middle one to .svg or .png"),
     FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND};
 
 static const char pair_footer[] =
@@ -237,13 +244,18 @@ static const restitute_method *(*const methods[])(void) = {
     restitute_method_cvode_bdf,
     restitute_method_cvode_adams,
 #endif
+#ifdef RESTITUTE_WITH_BEM
+    restitute_method_bem,
+    restitute_method_bem_paper,
+    restitute_method_bem_both,
+#endif
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static bool read_method(struct settings *settings, struct reason *why)
 {
     const char *text = settings->text[TEXT_METHOD];
-    char names[96] = "";
+    char names[128] = "";
     if (!text) return true;
     for (int i = 0; i < METHODS; i++) {
         const char *name = restitute_method_name(methods[i]());
@@ -257,6 +269,11 @@ static bool read_method(struct settings *settings, struct reason *why)
     if (strncmp(text, "cvode", strlen("cvode")) == 0)
         return refuse(why, "--method = \"%.64s\": the component cvode is not in this build (SUNDIALS; Debian: "
                            "libsundials-dev); must be among %s", text, names);
+#endif
+#ifndef RESTITUTE_WITH_BEM
+    if (strncmp(text, "bem", strlen("bem")) == 0)
+        return refuse(why, "--method = \"%.64s\": the component bem is not in this build (FFTW; Debian: libfftw3-dev); "
+                           "must be among %s", text, names);
 #endif
     return refuse(why, "--method = \"%.64s\": is not in this build; must be among %s", text, names);
 }
@@ -339,7 +356,8 @@ bool settings_spare_inputs(const struct settings *settings, struct reason *why)
     for (int i = 0; i < 3; i++)
         if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
             !output_spares(settings->text[TEXT_EVENTS], "--events", inputs[i], why) ||
-            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why))
+            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why) ||
+            !output_spares(settings->text[TEXT_FIELDS], "--fields", inputs[i], why))
             return false;
     return true;
 }

@@ -26,6 +26,7 @@ enum text_option {
     TEXT_DUNDURS_LIMIT,
     TEXT_THREADS,
     TEXT_EVENTS,
+    TEXT_FIELDS,
     TEXT_COUNT
 };
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 
-#ifdef RESTITUTE_COMMAND_HAS_TABLES
+#ifdef RESTITUTE_WITH_TABLE_FILES
 #include "table_settings.h"
 
 int table_main(int count, char **arguments)

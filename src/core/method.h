@@ -11,6 +11,7 @@ struct restitute_method {
     /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
     int takes_time_step; /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
+    int takes_all_terms; /* no merging: a fast term would become a dashpot, which this method cannot do */
     /* Solve; `outcome` is valid if the status is not negative. keep_ledger: fill outcome->ledger. */
     int (*solve)(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                  struct rst_outcome *outcome, restitute_error *error);

@@ -16,6 +16,7 @@ struct rst_solid {
 };
 
 struct rst_problem {
+    const restitute_method *method; /* that solves it: one function may serve several methods */
     double chi;
     double psi;         /* as the kernel takes it: 1 without slip, where it is only a scale */
     enum rst_mode mode; /* of the tangential side at first touch */

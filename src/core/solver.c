@@ -160,7 +160,8 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
     const restitute_material *solid = input->scene ? input->scene->material : input->impact->solid;
     if (rst_workspace_terms(&solver->workspace, solid ? solid->n_terms : 1))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", solid ? solid->n_terms : 1);
-    *problem = (struct rst_problem){.tolerance = o->tolerance, .elements = o->elements, .max_updates = o->max_updates};
+    *problem = (struct rst_problem){
+        .method = o->method, .tolerance = o->tolerance, .elements = o->elements, .max_updates = o->max_updates};
     problem->solid.g = solver->workspace.terms;
     problem->solid.tau = solver->workspace.terms + solver->workspace.terms_size / rst_term_arrays;
     int status = input->scene ? rst_problem_from_scene(input->scene, &input->numbers, problem, error)
@@ -177,7 +178,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
     for (;;) {
         int status = make_problem(solver, input, problem, error);
         if (status) return status;
-        *merged = merge(problem, window);
+        *merged = solver->options.method->takes_all_terms ? (struct merged){0} : merge(problem, window);
         status = solver->options.method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
         if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;

@@ -36,6 +36,6 @@ void rst_workspace_free(struct rst_workspace *workspace)
     free(workspace->terms);
     free(workspace->elements);
     free(workspace->levels);
-    if (workspace->own) workspace->release_own(workspace->own);
+    if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }

@@ -8,6 +8,11 @@
 
 #include "kernels.h"
 
+/* First member of what a method of another component keeps in the workspace. */
+struct rst_own_memory {
+    void (*release)(struct rst_own_memory *memory);
+};
+
 struct rst_workspace {
     double *terms; /* term_arrays times n_terms values: g, tau, decay, gain, stress */
     size_t terms_size;
@@ -15,9 +20,8 @@ struct rst_workspace {
     size_t elements_size;
     double *levels; /* the same, kept while room for elements grows */
     size_t levels_size;
+    struct rst_own_memory *own; /* of the solver's method; NULL: none */
     sync_loop *loop; /* of the method sync, the widest that this processor has */
-    void *own;       /* what a method of another component keeps from call to call; released with the solver */
-    void (*release_own)(void *own);
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */

@@ -42,7 +42,7 @@ static struct cvode_memory *memory_of(restitute_solver *solver, restitute_error 
                method->name);
         return NULL;
     }
-    return restitute_private_workspace(solver)->own;
+    return (struct cvode_memory *)restitute_private_workspace(solver)->own;
 }
 
 static int check_events(const restitute_cvode_events *events, restitute_error *error)

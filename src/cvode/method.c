@@ -6,9 +6,9 @@
 #include "report.h"
 #include "solve.h"
 
-static void release(void *own)
+static void release(struct rst_own_memory *own)
 {
-    struct cvode_memory *memory = own;
+    struct cvode_memory *memory = (struct cvode_memory *)own;
     trace_release(&memory->trace);
     log_release(&memory->log);
     free(memory);
@@ -18,9 +18,11 @@ static int reserve(double tolerance, struct rst_workspace *workspace)
 {
     (void)tolerance;
     if (workspace->own) return 0;
-    workspace->own = calloc(1, sizeof(struct cvode_memory));
-    workspace->release_own = release;
-    return !workspace->own;
+    struct cvode_memory *memory = calloc(1, sizeof *memory);
+    if (!memory) return 1;
+    memory->base.release = release;
+    workspace->own = &memory->base;
+    return 0;
 }
 
 static const enum integrator_family bdf = INTEGRATOR_BDF, adams = INTEGRATOR_ADAMS;
@@ -29,14 +31,14 @@ static int solve_with(const enum integrator_family *family, const struct rst_pro
                       struct rst_workspace *workspace, int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
     if (reserve(problem->tolerance, workspace)) return report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    return cvode_solve(problem, workspace->own, family, keep_ledger, outcome, error);
+    return cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);
 }
 
 static int record_with(const enum integrator_family *family, const struct rst_problem *problem,
                        struct rst_workspace *workspace, const struct rst_outcome *outcome, struct rst_history *history,
                        restitute_error *error)
 {
-    return cvode_record(problem, workspace->own, family, outcome, history, error);
+    return cvode_record(problem, (struct cvode_memory *)workspace->own, family, outcome, history, error);
 }
 
 /* A method object with its two functions. */

@@ -48,7 +48,7 @@ refused '--material is missing' pair --radius 1 --density 1 --friction 0.3 --vel
 refused 'no-such-file.json: cannot be read' pair --material no-such-file.json --radius 1 --density 1 --friction 0 --velocity 1
 refused 'must end in .json or .csv' pair --material /dev/null --radius 1 --density 1 --friction 0 --velocity 1
 
-for method in cvod bem Euler synch ''; do
+for method in cvod boundary Euler synch ''; do
     refused "--method = \"$method\": is not in this build; must be among euler, sync" pair --psi 1 --method "$method"
 done
 refused '--method is given twice' pair --psi 1 --method euler --method sync

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CVODE TABLE TABLE_FILES FORTRAN OPENMP
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CVODE TABLE TABLE_FILES BEM FORTRAN OPENMP
 # The working directory is used up.
 set -eu
 
@@ -34,7 +34,7 @@ else
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
         -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
-        -DRESTITUTE_CVODE="$WITH_CVODE" \
+        -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" \
         -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
@@ -50,6 +50,7 @@ components=core
 [ "$WITH_TABLE" = OFF ] || components="$components;table"
 [ "$WITH_TABLE_FILES" = OFF ] || components="$components;table_files"
 [ "$WITH_CVODE" = OFF ] || components="$components;cvode"
+[ "$WITH_BEM" = OFF ] || components="$components;bem"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
@@ -63,6 +64,7 @@ if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
     user/consumer_table_files user/table.h5
 fi
 [ "$WITH_CVODE" = OFF ] || user/consumer_cvode
+[ "$WITH_BEM" = OFF ] || user/consumer_bem
 
 echo "== find_package without components takes all that are installed"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -130,6 +132,12 @@ if [ "$WITH_CVODE" != OFF ]; then
     "$CC" -o user/cvode_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_cvode.c" \
         $(pkg-config --cflags --libs $static restitute-cvode)
     user/cvode_by_pkg_config
+fi
+if [ "$WITH_BEM" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$CC" -o user/bem_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_bem.c" \
+        $(pkg-config --cflags --libs $static restitute-bem)
+    user/bem_by_pkg_config
 fi
 if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046

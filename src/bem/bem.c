@@ -1,0 +1,407 @@
+/* The method `bem`: pairs of runs on finer grids with smaller steps until they agree.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <restitute/bem.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "box.h"
+#include "method.h"
+
+/* Runs are of second order in the step: a third of the change to twice the step is its error, and is taken off. */
+static const double taken = 1.0 / 3;
+
+/* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
+static const double grid_error_ez = 0.002, grid_error_ex = 0.03;
+
+/* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
+static const double largest_chi = 10, thin_slip = 0.1;
+
+/* Without slip the traction is singular at the rim, and the grid errors are larger by this. */
+static const double no_slip_factor = 5;
+
+/* Steps of an impact with 60 cells over the radius, when they are chosen; of one with any number, when that is given. */
+static const double usual_elements = 60, usual_steps = 200;
+
+/* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for chi up to 4. */
+static const double usual_chi = 4;
+
+enum { first_elements = 15, most_elements = 2000, most_tries = 8 };
+
+/* The grid is wider than the contact by this and some cells. */
+static const double margin = 1.03, margin_cells = 1.5;
+
+int bem_report(restitute_error *error, int status, const char *format, ...)
+{
+    va_list arguments;
+    if (!error) return status;
+    error->status = status;
+    va_start(arguments, format);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+static int out_of_memory(restitute_error *error)
+{
+    return bem_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the fields of the method bem");
+}
+
+/* All that the runs of one impact have in common. */
+struct impact {
+    const struct rst_problem *problem;
+    const struct bem_method *method;
+    struct bem_memory *memory;
+    struct bem_solid solid;
+    struct bem_box box;
+    int keep_ledger;
+    int64_t updates;
+};
+
+/* Widths whose transforms are fast: products of 2, 3 and 5. */
+static int64_t fast_size(double cells)
+{
+    for (int64_t m = 2 * (int64_t)ceil(cells / 2);; m += 2) {
+        int64_t rest = m;
+        while (rest % 2 == 0)
+            rest /= 2;
+        while (rest % 3 == 0)
+            rest /= 3;
+        while (rest % 5 == 0)
+            rest /= 5;
+        if (rest == 1) return m;
+    }
+}
+
+/* A slower rebound is none: it changes ez by far less than the tolerance, or than what iterations leave. */
+static double rest_speed(const struct rst_problem *problem)
+{
+    return fmax(1e-5, 0.01 * problem->tolerance);
+}
+
+static double duration_of(const struct impact *impact)
+{
+    return impact->box.sinks ? impact->box.sink_time : impact->box.time;
+}
+
+static struct bem_setup setup_of(struct impact *impact, double elements, double step, double spacing)
+{
+    const struct bem_box *box = &impact->box;
+    const double duration = duration_of(impact);
+    return (struct bem_setup){.problem = impact->problem,
+                              .solid = &impact->solid,
+                              .variant = impact->method->variant,
+                              .m = fast_size(margin * elements + margin_cells),
+                              .spacing = spacing > 0 ? spacing : box->radius / elements,
+                              .step = step,
+                              .rest_speed = rest_speed(impact->problem),
+                              .most_steps = (int64_t)ceil(20 * duration / step) + 100};
+}
+
+/* One run, again in a larger box if the contact outgrows it. */
+static enum bem_end run_once(struct impact *impact, double elements, double step, int keep_ledger,
+                             struct bem_setup *setup, struct bem_run *run)
+{
+    for (int i = 0; i < most_tries; i++) {
+        *setup = setup_of(impact, elements, step, 0);
+        setup->keep_ledger = keep_ledger;
+        bem_solid_step(step, impact->method->variant.explicit_euler, &impact->solid);
+        bem_run(setup, impact->memory, NULL, run);
+        impact->updates += run->updates;
+        if (run->end != BEM_OUTGREW) break;
+        impact->box.radius *= 1.1;
+    }
+    return run->end;
+}
+
+static int begin(const struct rst_problem *problem, struct rst_workspace *workspace, struct impact *impact,
+                 restitute_error *error)
+{
+    const size_t n = (size_t)problem->solid.n_terms + 1;
+    *impact = (struct impact){.problem = problem, .method = (const struct bem_method *)problem->method};
+    if (problem->solid.eta > 0)
+        return bem_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "the solid has a parallel dashpot and so no instantaneous modulus: the method bem cannot do "
+                          "it; give a Prony term with a short relaxation time instead, or take another method");
+    if (problem->elements > most_elements)
+        return bem_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: must be in [4, %d] with the method bem",
+                          (long long)problem->elements, most_elements);
+    impact->memory = bem_memory_of(workspace);
+    double *terms = impact->memory ? bem_memory_terms(impact->memory, 4 * n) : NULL;
+    if (!terms) return out_of_memory(error);
+    impact->solid =
+        (struct bem_solid){.compliance = terms, .lambda = terms + n, .decay = terms + 2 * n, .gain = terms + 3 * n};
+    bem_solid_creep(&problem->solid, &impact->solid);
+    return RESTITUTE_OK;
+}
+
+static int find_box(struct impact *impact, restitute_error *error)
+{
+    const enum bem_end end =
+        bem_find_box(impact->problem, &impact->solid, impact->method->variant, impact->memory, &impact->box);
+    if (end == BEM_REBOUND) {
+        bem_solid_prune(impact->box.sinks ? impact->box.sink_time : impact->box.time, &impact->solid);
+        return RESTITUTE_OK;
+    }
+    if (end == BEM_NO_MEMORY) return out_of_memory(error);
+    return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "the method bem finds no box and step for this solid: its impact and its relaxation are too far "
+                      "apart; take another method");
+}
+
+static void fill(const struct impact *impact, const struct bem_setup *setup, double elements, const struct bem_run *run,
+                 struct rst_outcome *outcome)
+{
+    const struct bem_motion *q = &run->last;
+    const struct bem_work *w = &run->work;
+    const struct bem_solid *solid = &impact->solid;
+    const int elastic = solid->n_terms == 0 && !(solid->flow > 0), sunk = run->end == BEM_SUNK;
+    *outcome =
+        (struct rst_outcome){.velocity = sunk ? 0 : q->velocity,
+                             .shear_velocity = sunk && impact->problem->mode == RST_NO_SLIP ? 0 : q->shear_velocity,
+                             .contact_time = sunk ? INFINITY : run->contact_time,
+                             .followed_time = q->time,
+                             .max_indentation = run->max_depth,
+                             .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
+                             .max_normal_force = 15.0 / 64 * run->max_force,
+                             .spacing = setup->spacing,
+                             .step = setup->step,
+                             .elements = (int64_t)elements,
+                             .steps = run->steps,
+                             .updates = impact->updates,
+                             .sunk = sunk};
+    outcome->ledger = (struct euler_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
+                                            .left_z = w->left_normal,
+                                            .friction_x = w->friction,
+                                            .viscous_x = elastic ? 0 : w->shear - w->friction - w->left_shear,
+                                            .left_x = w->left_shear};
+}
+
+/* The finer of two runs, extrapolated, with the error that its neighbour tells. */
+static void compare(const struct impact *impact, const struct bem_run *coarse, double elements,
+                    struct rst_outcome *outcome)
+{
+    const double psi = impact->problem->psi;
+    const double grid = pow(elements, -1.5) * (impact->problem->mode == RST_NO_SLIP ? no_slip_factor : 1);
+    const double harder = fmin(largest_chi, fmax(1, impact->problem->chi)) * (1 + thin_slip / (thin_slip + psi));
+    double part = taken;
+    if (impact->method->variant.explicit_euler) part = 1; /* of first order */
+    const double change = outcome->sunk ? 0 : part * (outcome->velocity - coarse->last.velocity);
+    const double shear_change = part * (outcome->shear_velocity - coarse->last.shear_velocity);
+    outcome->error_ez = fabs(change) + grid_error_ez * grid;
+    if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
+    outcome->velocity += change;
+    if (impact->problem->mode == RST_FRICTIONLESS) return;
+    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * grid * harder + outcome->error_ez;
+    outcome->shear_velocity += shear_change;
+}
+
+static int met(const struct impact *impact, const struct rst_outcome *outcome)
+{
+    return fmax(outcome->error_ez, outcome->error_ex) <= impact->problem->tolerance;
+}
+
+static int not_reached(const struct impact *impact, const struct rst_outcome *outcome, restitute_error *error)
+{
+    return bem_report(
+        error, RESTITUTE_TOLERANCE_NOT_REACHED,
+        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
+        impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
+        (long long)outcome->steps);
+}
+
+static int no_result(const struct impact *impact, enum bem_end end, double step, restitute_error *error)
+{
+    const struct rst_problem *p = impact->problem;
+    if (end == BEM_NO_MEMORY) return out_of_memory(error);
+    if (end == BEM_TOO_LONG)
+        return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
+                          step * p->time_unit, p->unit_name);
+    if (end == BEM_REBOUND || end == BEM_SUNK) /* a run, but none to compare it with */
+        return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_updates = %lld: spent before there was a result; raise it", (long long)p->max_updates);
+    return bem_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                      "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
+                      step * p->time_unit, p->unit_name);
+}
+
+static double steps_wanted(const struct impact *impact, double elements)
+{
+    const double faster =
+        impact->problem->mode == RST_FRICTIONLESS ? 1 : sqrt(fmax(1, impact->problem->chi / usual_chi));
+    return usual_steps * faster * elements / usual_elements;
+}
+
+/* Convolutions of a step, usually. */
+static const double convolutions_per_step = 12;
+
+static int too_many_steps(struct impact *impact, double elements, double step, restitute_error *error)
+{
+    const struct rst_problem *p = impact->problem;
+    const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
+    const double updates = duration / step * convolutions_per_step * 4 * m * m;
+    if (updates <= (double)p->max_updates) return RESTITUTE_OK;
+    return bem_report(
+        error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
+        (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);
+}
+
+/* Elements or step given: one run with them, and one with half the cells and twice the step. */
+static int solve_as_told(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
+{
+    const struct rst_problem *p = impact->problem;
+    const double duration = duration_of(impact);
+    const double elements = p->elements > 0 ? (double)p->elements : usual_elements;
+    const double step = p->time_step > 0 ? p->time_step : duration / steps_wanted(impact, usual_elements);
+    struct bem_setup setup, beside;
+    struct bem_run run, coarse;
+    const int status = too_many_steps(impact, elements, step, error);
+    if (status) return status;
+    const enum bem_end end_of_coarse = run_once(impact, elements / 2, 2 * step, 0, &beside, &coarse);
+    const enum bem_end end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
+    if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, error);
+    fill(impact, &setup, elements, &run, outcome);
+    if (end_of_coarse == end)
+        compare(impact, &coarse, elements, outcome);
+    else
+        outcome->error_ez = outcome->error_ex = 1; /* nothing is known but |e| <= 1 */
+    return met(impact, outcome) ? RESTITUTE_OK : not_reached(impact, outcome, error);
+}
+
+/* A run costs about ten times the one before. */
+static int too_much(const struct impact *impact, int64_t last)
+{
+    return (double)impact->updates + 10 * (double)last > (double)impact->problem->max_updates;
+}
+
+static int solve_refining(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
+{
+    const double duration = duration_of(impact);
+    struct bem_setup setup;
+    struct bem_run run, coarse = {.end = BEM_UNSETTLED};
+    int found = 0;
+    enum bem_end end = BEM_UNSETTLED;
+    double step = 0;
+    for (double elements = first_elements; elements <= most_elements; elements *= 2) {
+        step = duration / steps_wanted(impact, elements);
+        const int64_t before = impact->updates;
+        end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
+        if (end == BEM_NO_MEMORY) break;
+        if ((end == BEM_REBOUND || end == BEM_SUNK) && coarse.end == end) {
+            fill(impact, &setup, elements, &run, outcome);
+            compare(impact, &coarse, elements, outcome);
+            found = 1;
+            if (met(impact, outcome)) return RESTITUTE_OK;
+        }
+        coarse = run;
+        if (too_much(impact, impact->updates - before)) break;
+    }
+    return found ? not_reached(impact, outcome, error) : no_result(impact, end, step, error);
+}
+
+static int bem_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                     struct rst_outcome *outcome, restitute_error *error)
+{
+    struct impact impact;
+    int status = begin(problem, workspace, &impact, error);
+    if (!status) status = find_box(&impact, error);
+    if (status) return status;
+    impact.keep_ledger = keep_ledger;
+    status = problem->elements > 0 || problem->time_step > 0 ? solve_as_told(&impact, outcome, error)
+                                                             : solve_refining(&impact, outcome, error);
+    if (status == RESTITUTE_OK && error) *error = (restitute_error){.status = RESTITUTE_OK};
+    return status;
+}
+
+/* Takes samples of a run, evenly spaced over its steps, and snapshots for a recorder. */
+struct sampler {
+    struct bem_observer observer;
+    const struct rst_outcome *outcome;
+    struct rst_history *history;
+    struct restitute_bem_recorder *recorder;
+    int failed;
+};
+
+static double radius_of(double area)
+{
+    return sqrt(area / 3.14159265358979323846);
+}
+
+static void add_sample(struct sampler *sampler, double psi, const struct bem_motion *q)
+{
+    sampler->history->samples[sampler->history->count++] =
+        (struct rst_sample){.time = q->time,
+                            .indentation = q->depth,
+                            .contact_radius = radius_of(q->contact),
+                            .stick_radius = radius_of(q->stick),
+                            .normal_force = 15.0 / 64 * q->force,
+                            .shear_force = 15.0 / 64 * q->shear_force,
+                            .velocity = q->velocity,
+                            .shear_velocity = q->shear_velocity / psi};
+}
+
+static void see(struct bem_observer *observer, const struct bem_setup *setup, const struct bem_run *run,
+                const struct bem_motion *motion, const struct bem_fields *fields)
+{
+    struct sampler *s = (struct sampler *)observer;
+    struct bem_motion q = *motion;
+    const int64_t intervals = (int64_t)s->history->capacity - 1, steps = s->outcome->steps;
+    const int64_t wanted = (int64_t)s->history->count * steps / intervals; /* the step of the next sample */
+    if (s->recorder && bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
+    if (s->history->count == s->history->capacity || run->steps < wanted) return;
+    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step */
+        q.time = s->outcome->contact_time;
+        q.contact = q.stick = q.force = q.shear_force = 0;
+    }
+    add_sample(s, setup->problem->psi, &q);
+}
+
+static int bem_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+                      const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    struct impact impact;
+    struct bem_run run;
+    const int status = begin(problem, workspace, &impact, error);
+    if (status) return status;
+    struct sampler sampler = {
+        .observer = {.see = see}, .outcome = outcome, .history = history, .recorder = impact.method->recorder};
+    impact.box.time = outcome->followed_time;
+    bem_solid_prune(outcome->followed_time, &impact.solid);
+    bem_solid_step(outcome->step, impact.method->variant.explicit_euler, &impact.solid);
+    const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
+    history->count = 0;
+    if (sampler.recorder) bem_recorder_begin(sampler.recorder);
+    add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi});
+    bem_run(&setup, impact.memory, &sampler.observer, &run);
+    return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
+}
+
+const struct restitute_method bem_base_method = {
+    .name = "bem", .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record};
+
+#define BASE(its_name)                                                                                                 \
+    {                                                                                                                  \
+        .name = its_name, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record         \
+    }
+static const struct bem_method standard = {.base = BASE("bem")};
+static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),
+                                               .variant = {.explicit_euler = 1, .stick_sets = 1}};
+
+static const struct bem_method in_both_directions = {.base = BASE("bem-both"), .variant = {.both_directions = 1}};
+
+const restitute_method *restitute_method_bem_both(void)
+{
+    return &in_both_directions.base;
+}
+
+const restitute_method *restitute_method_bem(void)
+{
+    return &standard.base;
+}
+
+const restitute_method *restitute_method_bem_paper(void)
+{
+    return &of_the_paper.base;
+}

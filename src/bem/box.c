@@ -1,0 +1,67 @@
+/* Box and duration. The first guess: an elastic sphere meets the solid with the modulus that it has at the time of the impact,
+ * D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at the time 1.47).
+ * Runs on a coarse grid correct it until they fit into their box.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "box.h"
+
+#include <math.h>
+
+static const int64_t coarse = 16, coarse_steps = 40;
+
+/* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again. */
+static const double generous = 1.15, least_part = 0.6;
+enum { most_tries = 60, most_iterations = 60 };
+
+static double guess_depth(const struct rst_solid *solid)
+{
+    double depth = pow(bem_solid_modulus(solid, 0), -0.4);
+    const double most = 100 * depth; /* a solid that flows would have no end */
+    for (int i = 0; i < most_iterations && depth < most; i++)
+        depth = fmin(most, pow(bem_solid_modulus(solid, depth), -0.4));
+    return depth;
+}
+
+static void settle_time(const struct bem_run *run, struct bem_box *box)
+{
+    box->sinks = run->end == BEM_SUNK;
+    box->sink_time = run->last.time;
+    box->time = box->sinks ? INFINITY : run->contact_time;
+}
+
+int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_variant variant,
+                 struct bem_memory *memory, struct bem_box *box)
+{
+    const double depth = guess_depth(&problem->solid);
+    double side = generous * sqrt(depth), step = 2.94 * depth / (double)coarse_steps;
+    for (int i = 0; i < most_tries; i++) {
+        struct bem_run run;
+        const struct bem_setup setup = {.problem = problem,
+                                        .solid = solid,
+                                        .variant = variant,
+                                        .normal_only = 1,
+                                        .m = coarse,
+                                        .spacing = side / (double)coarse,
+                                        .step = step,
+                                        .rest_speed = 1e-4,
+                                        .most_steps = 30 * coarse_steps};
+        bem_solid_step(step, variant.explicit_euler, solid);
+        bem_run(&setup, memory, NULL, &run);
+        if (run.end == BEM_NO_MEMORY) return run.end;
+        box->radius = sqrt(run.max_area / 3.14159265358979);
+        if (run.end == BEM_UNSETTLED) {
+            step /= 4; /* unstable */
+        } else if (run.end == BEM_OUTGREW) {
+            side *= 1.5;
+        } else if (run.end == BEM_TOO_LONG) {
+            step *= 4;
+        } else if (box->radius < least_part * side) {
+            side = fmax(side / 4, generous * box->radius);
+        } else if (run.steps < coarse_steps / 2) {
+            step /= 2;
+        } else {
+            settle_time(&run, box);
+            return BEM_REBOUND;
+        }
+    }
+    return BEM_TOO_LONG;
+}

@@ -1,0 +1,18 @@
+/* How large the contact gets and how long it lasts, found by this method alone: a rough run of the normal problem.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_BOX_H
+#define BEM_BOX_H
+
+#include "run.h"
+
+struct bem_box {
+    double radius, time; /* of contact; time is infinite if it sinks */
+    int sinks;
+    double sink_time; /* until it rests */
+};
+
+/* BEM_REBOUND, or why there is no answer; negative: out of memory. */
+int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_variant variant,
+                 struct bem_memory *memory, struct bem_box *box);
+
+#endif

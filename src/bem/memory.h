@@ -1,0 +1,51 @@
+/* What a solver keeps for the method: transforms of the sizes used so far, and the fields of the largest grid.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_MEMORY_H
+#define BEM_MEMORY_H
+
+#include <stddef.h>
+
+#include "../core/workspace.h"
+#include "transform.h"
+
+enum { BEM_SIZES = 64 };
+
+/* Fields of m x m cells, all of one block. */
+struct bem_fields {
+    int64_t m, n_terms;
+    double *p, *p_before, *p_new;          /* pressure at the last step, the one before, the one sought */
+    double *tau, *tau_before, *tau_new;    /* traction along x */
+    double *f_z, *f_x, *f_new;             /* K p, K tau */
+    double *b_z, *b_x, *drift_z, *drift_x; /* memory of the solid; b: n_terms fields */
+    double *h, *target, *low, *high;
+    double *gap, *gap_before, *s, *s_before, *anchor;
+    double *tau_y, *f_y, *b_y, *drift_y; /* the same along y, odd in x and in y; with both directions only */
+    double *h_y, *s_y, *s_y_before, *anchor_y;
+    double *full_x, *full_y, *cross, *total_x, *total_y, *slips, *resistance;
+    double *touched; /* > 0: has been in contact; kept for the ledger only */
+    double *free, *r, *z, *d, *kd;
+};
+
+struct bem_memory {
+    struct rst_own_memory base;
+    struct bem_transform *transforms[BEM_SIZES];
+    double *block;
+    size_t block_size;
+    double *terms;
+    size_t terms_size;
+};
+
+/* That of the workspace, made at first use; NULL: out of memory. */
+struct bem_memory *bem_memory_of(struct rst_workspace *workspace);
+
+/* Fields set to zero; nonzero: out of memory. */
+int bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
+                      struct bem_fields *fields);
+
+/* Transform of a size, made at first use; NULL: out of memory. */
+struct bem_transform *bem_memory_transform(struct bem_memory *memory, int64_t m);
+
+/* Room for `count` doubles, for terms; NULL: out of memory. */
+double *bem_memory_terms(struct bem_memory *memory, size_t count);
+
+#endif

@@ -1,0 +1,27 @@
+/* A method of this component: what the core sees, and what it does not.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_METHOD_H
+#define BEM_METHOD_H
+
+#include "../core/method.h"
+#include "run.h"
+
+struct bem_method {
+    struct restitute_method base; /* first: the core's pointer is one to the whole */
+    struct bem_variant variant;
+    struct restitute_bem_recorder *recorder; /* NULL: keeps no fields */
+};
+
+extern const struct restitute_method bem_base_method;
+
+/* Fill `error` (if wanted) and return `status`. */
+int bem_report(restitute_error *error, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* A new impact: forget the last one. */
+void bem_recorder_begin(struct restitute_bem_recorder *recorder);
+
+/* Its snapshot of a step, if it is time for one; nonzero: out of memory. */
+int bem_recorder_see(struct restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step,
+                     int64_t steps, const struct bem_motion *motion, const struct bem_fields *fields);
+
+#endif

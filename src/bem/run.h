@@ -1,0 +1,66 @@
+/* One impact on one grid with one step.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_RUN_H
+#define BEM_RUN_H
+
+#include "memory.h"
+#include "solid.h"
+
+/* How the steps are made; all 0: the method of the component. */
+struct bem_variant {
+    int explicit_euler;  /* positions, forces, velocities; entering cells stick from the step's beginning */
+    int both_directions; /* tractions along y too */
+    int stick_sets;      /* the sticking set shrinks until none of it passes the friction limit */
+};
+
+struct bem_setup {
+    const struct rst_problem *problem;
+    struct bem_solid *solid;
+    struct bem_variant variant;
+    int normal_only, keep_ledger;
+    int64_t m; /* the grid has 2m x 2m cells, a quarter of it is computed */
+    double spacing, step;
+    double rest_speed; /* a sphere that sinks is at rest below it */
+    int64_t most_steps;
+};
+
+enum bem_end {
+    BEM_REBOUND,
+    BEM_OUTGREW, /* the contact reached the side of the grid */
+    BEM_SUNK,
+    BEM_TOO_LONG,  /* most_steps */
+    BEM_UNSETTLED, /* a contact problem did not settle, or the step is unstable */
+    BEM_NO_MEMORY
+};
+
+/* Where the sphere is after a step, and sums over its contact. */
+struct bem_motion {
+    double time, depth, velocity, shift, shear_velocity;
+    double force, shear_force; /* integrals of p and tau */
+    double contact, stick;     /* areas */
+};
+
+/* Work on the surface, in units of the kinetic energy that came in; of the tangential side, of U'^2. */
+struct bem_work {
+    double normal, shear, friction, left_normal, left_shear;
+};
+
+struct bem_run {
+    enum bem_end end;
+    struct bem_motion last;
+    double contact_time;
+    double max_depth, max_force, max_area;
+    struct bem_work work;
+    int64_t steps, iterations, convolutions, updates; /* updates: convolutions times cells */
+};
+
+/* Sees every step; NULL: not wanted. Fields outside of the part of the grid that a step used (fields->m cells wide) are stale. */
+struct bem_observer {
+    void (*see)(struct bem_observer *observer, const struct bem_setup *setup, const struct bem_run *run,
+                const struct bem_motion *motion, const struct bem_fields *fields);
+};
+
+void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct bem_observer *observer,
+             struct bem_run *run);
+
+#endif

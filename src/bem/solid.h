@@ -1,0 +1,31 @@
+/* A solid in creep form, and what one time step makes of it (19),(20).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_SOLID_H
+#define BEM_SOLID_H
+
+#include <stdint.h>
+
+#include "../core/problem.h"
+
+/* J(t) = instantaneous + sum_k compliance_k (1 - exp(-t/lambda_k)) + flow t, over 1/G_r. */
+struct bem_solid {
+    double instantaneous, flow;
+    int64_t n_terms;
+    double *compliance, *lambda;
+    double *decay, *gain;      /* of a step: b_k = decay_k b_k + gain_k df */
+    double c, held, half_flow; /* u = c f - sum decay_k b_k + held f_before + drift */
+};
+
+/* The arrays of `creep` hold at least the terms of the solid, and at least 1. */
+void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep);
+
+/* Leave out terms that an impact of this duration cannot tell from a spring or from nothing. */
+void bem_solid_prune(double duration, struct bem_solid *creep);
+
+/* For steps of h in which f changes linearly, or (jumps) at their beginning, as in the paper. */
+void bem_solid_step(double h, int jumps, struct bem_solid *creep);
+
+/* Relaxation modulus of the solid at time t, its dashpot left out. */
+double bem_solid_modulus(const struct rst_solid *relaxation, double t);
+
+#endif

@@ -1,0 +1,35 @@
+/* A step of an impact in its parts.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BEM_STEPPER_H
+#define BEM_STEPPER_H
+
+#include "bounded.h"
+#include "run.h"
+
+struct bem_stepper {
+    const struct bem_setup *setup;
+    const struct bem_solid *solid;
+    struct bem_memory *memory;
+    struct bem_fields f;
+    struct bem_transform *near, *all; /* where contact is sought; where displacements are wanted */
+    struct bem_motion motion, before;
+    struct bem_run *run;
+    double cell; /* weight of a value of a field in an integral: four quarters, one spacing being in the tractions */
+};
+
+/* The pressure at a depth, and what follows from it; `shift` is only for the anchors of cells that enter. */
+enum bem_end bem_solve_normal(struct bem_stepper *s, double depth, double shift);
+
+/* The traction at a shift, under the pressure just found. */
+enum bem_end bem_solve_shear(struct bem_stepper *s, double shift);
+
+/* The same with tractions along y, which friction turns towards the slip of each cell. */
+enum bem_end bem_solve_both(struct bem_stepper *s, double shift);
+
+/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. diagonal: added to K's, or NULL. Nonzero: not settled. */
+int bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double closeness, double *x);
+
+/* Energy that the springs of the solid hold when the contact has ended. */
+void bem_find_left(struct bem_stepper *s);
+
+#endif

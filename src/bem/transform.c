@@ -1,0 +1,160 @@
+/* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the images of the periodic convolution.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
+#include "transform.h"
+#include "plane.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing needs no lock. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+void bem_lock_planner(void)
+{
+    pthread_mutex_lock(&planner);
+}
+
+void bem_unlock_planner(void)
+{
+    pthread_mutex_unlock(&planner);
+}
+
+/* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
+enum { line_gap = 4 };
+
+static fftw_plan plan_lines(int64_t n, int64_t count, int64_t line, fftw_complex *data, int sign)
+{
+    const int length = (int)n;
+    return fftw_plan_many_dft(1, &length, (int)count, data, NULL, 1, (int)line, data, NULL, 1, (int)line, sign,
+                              FFTW_ESTIMATE); /* the same plan, and so the same bits, each time */
+}
+
+static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
+{
+    c->m = m;
+    c->n = n;
+    c->line = n + line_gap;
+    c->twiddles = fftw_alloc_complex((size_t)n);
+    c->scratch = fftw_alloc_complex((size_t)n);
+    c->rows = fftw_alloc_complex((size_t)(c->line * m / 2));
+    c->columns = fftw_alloc_complex((size_t)(c->line * n / 2));
+    if (!c->twiddles || !c->scratch || !c->rows || !c->columns) return 1;
+    rst_bem_set_twiddles(n, c->twiddles);
+    bem_lock_planner();
+    c->row_forward = plan_lines(n, m / 2, c->line, c->rows, FFTW_FORWARD);
+    c->row_backward = plan_lines(n, m / 2, c->line, c->rows, FFTW_BACKWARD);
+    c->column_forward = plan_lines(n, n / 2, c->line, c->columns, FFTW_FORWARD);
+    c->column_backward = plan_lines(n, n / 2, c->line, c->columns, FFTW_BACKWARD);
+    bem_unlock_planner();
+    return !c->row_forward || !c->row_backward || !c->column_forward || !c->column_backward;
+}
+
+static void cosine_release(struct bem_cosine *c)
+{
+    fftw_plan plans[] = {c->row_forward, c->row_backward, c->column_forward, c->column_backward};
+    bem_lock_planner();
+    for (int i = 0; i < 4; i++)
+        if (plans[i]) fftw_destroy_plan(plans[i]);
+    bem_unlock_planner();
+    fftw_free(c->twiddles);
+    fftw_free(c->scratch);
+    fftw_free(c->rows);
+    fftw_free(c->columns);
+}
+
+static void apply(const struct bem_cosine *c, const double *factor, int64_t ld, const double *x, double *u)
+{
+    rst_bem_lay_rows(ld, c->m, c->n, x, c->line, c->rows);
+    fftw_execute(c->row_forward);
+    rst_bem_turn(c->m, c->n, c->twiddles, c->line, c->rows, c->columns, c->scratch);
+    fftw_execute(c->column_forward);
+    rst_bem_filter(c->n, c->twiddles, factor, c->line, c->columns);
+    fftw_execute(c->column_backward);
+    rst_bem_turn_back(c->m, c->n, c->twiddles, c->line, c->columns, c->rows, c->scratch);
+    fftw_execute(c->row_backward);
+    rst_bem_take_rows(ld, c->m, c->n, c->line, c->rows, u);
+}
+
+/* The even transform (DCT-I) of the coefficients is the spectrum of the periodic kernel. */
+static int transform_table(enum bem_kind kind, int64_t n, double *table)
+{
+    rst_bem_influence_table(kind, n, table);
+    bem_lock_planner();
+    fftw_plan plan = fftw_plan_r2r_2d((int)n + 1, (int)n + 1, table, table, FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE);
+    bem_unlock_planner();
+    if (!plan) return 1;
+    fftw_execute(plan);
+    bem_lock_planner();
+    fftw_destroy_plan(plan);
+    bem_unlock_planner();
+    return 0;
+}
+
+/* In the order that the filter takes: pairs of wave numbers along x. */
+static double *make_factor(enum bem_kind kind, int64_t n, int invert)
+{
+    double *table = fftw_alloc_real((size_t)((n + 1) * (n + 1))), *factor = fftw_alloc_real((size_t)(n * n));
+    if (!table || !factor || transform_table(kind, n, table)) {
+        fftw_free(table);
+        fftw_free(factor);
+        return NULL;
+    }
+    const double scale = 1 / (double)(n * n);
+    for (int64_t k = 0; k < n; k++)
+        for (int64_t l = 0; l < n; l++) {
+            const double value = table[l * (n + 1) + k];
+            factor[(k / 2 * n + l) * 2 + k % 2] = scale * (invert ? 1 / value : value);
+        }
+    fftw_free(table);
+    return factor;
+}
+
+struct bem_transform *bem_transform_create(int64_t m)
+{
+    struct bem_transform *t = calloc(1, sizeof *t);
+    if (!t) return NULL;
+    t->m = m;
+    int failed = cosine_create(m, 2 * m, &t->padded) || cosine_create(m, m, &t->plain);
+    for (int kind = BEM_NORMAL; kind <= BEM_SHEAR && !failed; kind++) {
+        t->spectrum[kind] = make_factor(kind, 2 * m, 0);
+        t->inverse[kind] = make_factor(kind, m, 1);
+        failed = !t->spectrum[kind] || !t->inverse[kind];
+    }
+    if (!failed) return t;
+    bem_transform_destroy(t);
+    return NULL;
+}
+
+void bem_transform_destroy(struct bem_transform *t)
+{
+    if (!t) return;
+    cosine_release(&t->padded);
+    cosine_release(&t->plain);
+    bem_plane_destroy(t->plane);
+    for (int kind = 0; kind < 2; kind++) {
+        fftw_free(t->spectrum[kind]);
+        fftw_free(t->inverse[kind]);
+    }
+    free(t);
+}
+
+void bem_convolve(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *x, double *u)
+{
+    if ((int)kind == BEM_SHEAR_Y)
+        bem_plane_convolve(t->plane, BEM_Y_FROM_Y, ld, x, u);
+    else
+        apply(&t->padded, t->spectrum[kind], ld, x, u);
+}
+
+void bem_precondition(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *r, double *z)
+{
+    if ((int)kind == BEM_SHEAR_Y) /* seldom needed: none */
+        for (int64_t j = 0; j < t->m; j++)
+            memcpy(z + j * ld, r + j * ld, (size_t)t->m * sizeof *z);
+    else
+        apply(&t->plain, t->inverse[kind], ld, r, z);
+}

@@ -1,0 +1,188 @@
+/* What bem.h promises.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <restitute/bem.h>
+#include <string.h>
+
+#include "../support/solve.h"
+
+static restitute_options options_of(int64_t elements, double tolerance)
+{
+    restitute_options options = to_tolerance(tolerance);
+    options.method = restitute_method_bem();
+    options.elements = elements;
+    return options;
+}
+
+static void names(void **state)
+{
+    (void)state;
+    assert_string_equal(restitute_method_name(restitute_method_bem()), "bem");
+    assert_string_equal(restitute_method_name(restitute_method_bem_paper()), "bem-paper");
+    assert_string_equal(restitute_method_name(restitute_method_bem_both()), "bem-both");
+}
+
+/* Solve a case that must fail; returns the message. */
+static restitute_error refused(restitute_options options, restitute_impact impact, int status)
+{
+    restitute_solver *solver;
+    restitute_error error;
+    restitute_result result;
+    restitute_result_init(&result);
+    result.ez = 77;
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, &error) == status, "%s", error.message);
+    assert_true(result.ez == 77);
+    assert_int_equal(error.status, status);
+    restitute_solver_destroy(solver);
+    return error;
+}
+
+static void refusals(void **state)
+{
+    restitute_error error = refused(options_of(0, 1e-3), impact_of(1, 0.5, 1, 0), RESTITUTE_ERROR_DOMAIN);
+    (void)state;
+    assert_non_null(strstr(error.message, "no instantaneous modulus"));
+    error = refused(options_of(2001, 1e-3), impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_DOMAIN);
+    assert_non_null(strstr(error.message, "elements = 2001: must be in [4, 2000]"));
+    restitute_options options = options_of(0, 1e-3);
+    options.time_step = 3;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
+    assert_non_null(strstr(error.message, "steps of 3 T"));
+    options.time_step = 1e-12;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    assert_non_null(strstr(error.message, "max_updates = 10000000000"));
+    options = options_of(0, 1e-3);
+    options.max_updates = 1;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    assert_non_null(strstr(error.message, "spent before there was a result"));
+    options = options_of(0, 1e-3);
+    error = refused(options, impact_of(1, 0.5, 1, 1e-300), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    assert_non_null(strstr(error.message, "no box"));
+}
+
+static void tolerance_is_met_or_told(void **state)
+{
+    const struct solution rough = solve_impact(options_of(0, 1e-2), impact_of(1, 0.5, 1, 1));
+    const struct solution fine = solve_impact(options_of(0, 1e-3), impact_of(1, 0.5, 1, 1));
+    const struct solution told = solve_impact(options_of(16, 1e-8), impact_of(1, 0.5, 1, 1));
+    (void)state;
+    assert_int_equal(rough.status, RESTITUTE_OK);
+    assert_int_equal(fine.status, RESTITUTE_OK);
+    assert_true(fine.result.error_ex <= 1e-3 && fine.result.elements >= rough.result.elements);
+    assert_int_equal(told.status, RESTITUTE_TOLERANCE_NOT_REACHED);
+    assert_int_equal(told.result.elements, 16);
+    assert_true(isnan(fine.result.speed_ratio) && fine.result.updates > 0 && fine.result.terms_merged == 0);
+}
+
+/* Nothing is left over from a solver's other impacts, and a fresh solver gives the same bits. */
+static void repeats_its_bits(void **state)
+{
+    const restitute_options options = options_of(16, 0.1);
+    restitute_solver *solver;
+    restitute_result first, again;
+    const restitute_impact impact = impact_of(1, 0.5, 1, 1), other = impact_of(2, 2, 0, INFINITY);
+    (void)state;
+    assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
+    restitute_result_init(&first);
+    restitute_result_init(&again);
+    assert_int_equal(restitute_solve(solver, &impact, &first, NULL, NULL, NULL), RESTITUTE_OK);
+    assert_int_equal(restitute_solve(solver, &other, &again, NULL, NULL, NULL), RESTITUTE_OK);
+    assert_int_equal(restitute_solve(solver, &impact, &again, NULL, NULL, NULL), RESTITUTE_OK);
+    assert_memory_equal(&first, &again, sizeof first);
+    restitute_solver_destroy(solver);
+    restitute_impact impacts[4] = {impact, other, impact, other};
+    restitute_result results[4];
+    for (int i = 0; i < 4; i++)
+        restitute_result_init(&results[i]);
+    assert_int_equal(restitute_solve_many(&options, 4, impacts, results, NULL, 2, NULL), RESTITUTE_OK);
+    assert_memory_equal(&first, &results[2], sizeof first);
+}
+
+/* A scene in SI units is the same impact as its numbers. */
+static void scene(void **state)
+{
+    restitute_material *rubber;
+    restitute_scene s;
+    restitute_numbers numbers;
+    (void)state;
+    assert_int_equal(restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL), RESTITUTE_OK);
+    restitute_scene_init(&s);
+    restitute_numbers_init(&numbers);
+    s.material = rubber, s.radius1 = 0.005, s.mass1 = 0.004, s.friction = 0.3, s.normal_speed = 1.0,
+    s.tangential_speed = 0.8;
+    assert_int_equal(restitute_scene_numbers(&s, &numbers, NULL), RESTITUTE_OK);
+    const struct solution si = solve_scene(options_of(16, 0.1), &s);
+    const struct solution own =
+        solve_impact(options_of(16, 0.1), impact_of(numbers.chi, numbers.psi, numbers.delta1, numbers.gamma));
+    CHECK_NEAR(si.result.ex, own.result.ex, 1e-8, "ex"); /* the inputs differ by rounding, the sets of cells do not */
+    CHECK_NEAR(si.result.contact_time / numbers.time, own.result.contact_time, 1e-8, "contact time");
+    restitute_material_destroy(rubber);
+}
+
+enum { samples = 11 };
+
+static void history_and_snapshots(void **state)
+{
+    restitute_bem_recorder *recorder = NULL;
+    restitute_bem_snapshot shot;
+    restitute_error error;
+    restitute_solver *solver;
+    restitute_result result;
+    restitute_history history;
+    double time[samples], force[samples], velocity[samples], stick[samples], radius[samples];
+    const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
+    (void)state;
+    assert_int_equal(restitute_bem_recorder_create(3, &recorder, &error), RESTITUTE_OK);
+    assert_true(restitute_bem_recorder_count(recorder) == 0);
+    restitute_options options = options_of(20, 0.1);
+    options.method = restitute_bem_recorder_method(recorder);
+    assert_string_equal(restitute_method_name(options.method), "bem");
+    assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
+    restitute_result_init(&result);
+    restitute_history_init(&history);
+    history.capacity = samples;
+    history.time = time, history.normal_force = force, history.normal_velocity = velocity;
+    history.stick_radius = stick, history.contact_radius = radius;
+    assert_int_equal(restitute_solve(solver, &impact, &result, NULL, &history, &error), RESTITUTE_OK);
+    assert_true(history.count == samples && time[0] == 0 && force[samples - 1] == 0 && force[4] > 0);
+    CHECK_NEAR(time[samples - 1], result.contact_time, 0, "last sample");
+    CHECK_NEAR(velocity[samples - 1], -result.ez, 1e-3, "rebound; the result is extrapolated, the history is not");
+    for (int i = 0; i < samples; i++)
+        CHECK(stick[i] <= radius[i] && (i == 0 || time[i] > time[i - 1]), "sample %d", i);
+    assert_int_equal(restitute_bem_recorder_count(recorder), 3);
+    restitute_bem_snapshot_init(&shot);
+    assert_int_equal(restitute_bem_recorder_get(recorder, 1, &shot, &error), RESTITUTE_OK);
+    CHECK_NEAR(shot.time, result.contact_time / 2, 2 * result.time_step, "the middle one");
+    double sum = 0;
+    size_t sticking = 0, broken = 0;
+    for (size_t i = 0; i < shot.cells * shot.cells; i++) {
+        sum += shot.pressure[i];
+        sticking += shot.stick[i] > 0;
+        broken += fabs(shot.traction[i]) > shot.pressure[i] * (1 + 1e-12);
+    }
+    assert_true(sticking > 0 && broken == 0);
+    assert_true(shot.pressure[0] == 0 && shot.pressure[shot.cells / 2 * (shot.cells + 1)] > 0);
+    CHECK_NEAR(15.0 / 64 * sum * shot.spacing * shot.spacing, force[5], 0.02,
+               "its sum is the force"); /* samples differ by half a step */
+    assert_int_equal(restitute_bem_recorder_get(recorder, 3, &shot, &error), RESTITUTE_ERROR_DOMAIN);
+    assert_int_equal(restitute_bem_recorder_get(NULL, 0, &shot, &error), RESTITUTE_ERROR_NULL);
+    shot.struct_size = 1;
+    assert_int_equal(restitute_bem_recorder_get(recorder, 0, &shot, &error), RESTITUTE_ERROR_STRUCT_SIZE);
+    assert_int_equal(restitute_bem_recorder_create(0, &recorder, &error), RESTITUTE_ERROR_DOMAIN);
+    assert_int_equal(restitute_bem_recorder_create(1, NULL, &error), RESTITUTE_ERROR_NULL);
+    restitute_solver_destroy(solver);
+    restitute_bem_recorder_destroy(recorder);
+    restitute_bem_recorder_destroy(NULL);
+    assert_null(restitute_bem_recorder_method(NULL));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(names),
+                                       cmocka_unit_test(refusals),
+                                       cmocka_unit_test(tolerance_is_met_or_told),
+                                       cmocka_unit_test(repeats_its_bits),
+                                       cmocka_unit_test(scene),
+                                       cmocka_unit_test(history_and_snapshots)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,123 @@
+/* Boundary elements and the foundation on the same impacts: what the component is for. 64 x 64 cells.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <restitute/bem.h>
+
+#include "../support/sync.h"
+
+/* The difference that was aimed at; the largest of 200 impacts on this grid was 1.1e-3 (docs/bem.md). */
+static const double limit = 0.002;
+
+static restitute_options bem_options(int64_t elements)
+{
+    restitute_options options = default_options();
+    options.method = restitute_method_bem();
+    options.elements = elements;
+    options.tolerance = 0.1; /* the grid is told: no complaint about its estimate */
+    return options;
+}
+
+static void compare(restitute_impact impact, const char *name)
+{
+    const struct solution bem = solve_impact(bem_options(29), impact), sync = solve_impact(sync_to(1e-5), impact);
+    CHECK_NEAR(bem.result.ez, sync.result.ez, limit, "ez of %s", name);
+    CHECK_NEAR(bem.result.ex, sync.result.ex, limit, "ex of %s", name);
+    /* three times the estimates, which are for the typical impact */
+    CHECK_NEAR(bem.result.ez, sync.result.ez, 3 * bem.result.error_ez, "estimate of ez of %s", name);
+    CHECK_NEAR(bem.result.ex, sync.result.ex, 3 * bem.result.error_ex, "estimate of ex of %s", name);
+    CHECK_NEAR(bem.result.max_indentation, sync.result.max_indentation, 1e-3, "depth of %s", name);
+    if (isfinite(sync.result.contact_time)) /* strong damping: the force fades away long before the contact ends */
+        CHECK_NEAR(bem.result.contact_time, sync.result.contact_time, 0.02 * sync.result.contact_time, "time of %s",
+                   name);
+    CHECK_NEAR(bem.result.max_normal_force, sync.result.max_normal_force, 2e-3 * sync.result.max_normal_force,
+               "force of %s", name);
+    /* sync counts what elements hold when they leave, bem what is still there at the end, some of it relaxed */
+    CHECK(bem.ledger.left_z >= 0 && bem.ledger.left_z <= sync.ledger.left_z + 2e-3, "energy left of %s: %g, %g", name,
+          bem.ledger.left_z, sync.ledger.left_z);
+    /* of first order in the step, and of the fast end of the contact where psi is small (docs/bem.md) */
+    CHECK_NEAR(bem.ledger.friction_x, sync.ledger.friction_x, 0.1, "friction work of %s", name);
+}
+
+static void elastic_and_standard(void **state)
+{
+    (void)state;
+    compare(impact_of(7.0 / 6, 0.7, 0, INFINITY), "elastic, partial slip");
+    compare(impact_of(7.0 / 6, 2, 0, INFINITY), "elastic, gross slip first");
+    compare(impact_of(7.0 / 6, 0.1, 0, INFINITY), "elastic, strong friction");
+    compare(impact_of(1.0 / 3, 0.5, 0, INFINITY), "rotation blocked");
+    compare(impact_of(4, 3, 1, 1), "thin shell");
+    compare(impact_of(7.0 / 6, 0.7, 1, 1), "standard solid");
+    compare(impact_of(2, 0.3, 3, 0.3), "damped");
+    compare(impact_of(1, 0.5, 10, 0.001), "nearly Kelvin-Voigt");
+}
+
+static void prony_and_flow(void **state)
+{
+    const double tau[] = {0.02, 0.5, 8}, g[] = {1.5, 0.8, 0.6};
+    restitute_material *prony = solid_of(1, 0, 3, tau, g), *maxwell = solid_of(0, 0, 1, tau + 1, g + 2);
+    const double slow = 3;
+    restitute_material *rebounds = solid_of(0, 0, 1, &slow, g);
+    (void)state;
+    compare(impact_on(prony, 7.0 / 6, 0.6), "three terms");
+    compare(impact_on(rebounds, 7.0 / 6, 0.6), "Maxwell body that rebounds");
+    const struct solution s = solve_impact(bem_options(29), impact_on(maxwell, 7.0 / 6, 0.6));
+    assert_int_equal(s.status, RESTITUTE_NO_REBOUND);
+    assert_true(s.result.ez == 0 && isinf(s.result.contact_time));
+    restitute_material_destroy(prony);
+    restitute_material_destroy(maxwell);
+    restitute_material_destroy(rebounds);
+}
+
+/* Without slip the traction is singular at the rim. */
+static void no_slip(void **state)
+{
+    (void)state;
+    compare(impact_of(7.0 / 6, 0, 1, 1), "no slip");
+}
+
+/* Tractions across the sliding direction: small, but there, without slip as with it (docs/bem.md). */
+static void both_directions(void **state)
+{
+    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 0, INFINITY), impact_of(7.0 / 6, 2, 1, 1),
+                                        impact_of(4, 3, 0, INFINITY)};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        restitute_options options = bem_options(20);
+        const struct solution one = solve_impact(options, impacts[i]);
+        options.method = restitute_method_bem_both();
+        const struct solution both = solve_impact(options, impacts[i]);
+        CHECK_NEAR(both.result.ex, one.result.ex, 0.003, "ex of %d", i); /* up to 0.0018 with 30 cells */
+        assert_true(fabs(both.result.ex - one.result.ex) > 1e-5);
+        CHECK_NEAR(both.result.ez, one.result.ez, 1e-6, "ez of %d",
+                   i); /* iterations stop at 1e-6; the parts of the grid differ */
+    }
+}
+
+/* Slip to the end: (27) holds in any model in which q = mu p all the time. */
+static void slip_to_the_end(void **state)
+{
+    const struct solution s = solve_impact(bem_options(29), impact_of(7.0 / 6, 5, 1, 1));
+    (void)state;
+    CHECK_NEAR(s.result.ex, 2 * 7.0 / 6 * (1 + s.result.ez) / 5 - 1, 1e-12, "2 chi (1 + ez)/psi - 1");
+    const struct solution frictionless = solve_impact(bem_options(29), impact_of(7.0 / 6, 1e12, 1, 1));
+    CHECK_NEAR(frictionless.result.ex, -1, 1e-11, "no friction to speak of");
+    CHECK_NEAR(frictionless.result.ez, s.result.ez, 1e-15, "the normal impact does not know");
+}
+
+/* The accounts close to what the steps lose. */
+static void ledger(void **state)
+{
+    const struct solution elastic = solve_impact(bem_options(60), impact_of(7.0 / 6, 0.7, 0, INFINITY));
+    (void)state;
+    CHECK_NEAR(elastic.ledger.residual_z, 0, 1e-5, "normal");
+    CHECK_NEAR(elastic.ledger.residual_x, 0, 0.01, "tangential: 0.006 at 200 steps, 0.0004 at 800");
+    const struct solution damped = solve_impact(bem_options(29), impact_of(7.0 / 6, 0.7, 1, 1));
+    assert_true(damped.ledger.viscous_z > 0.2 && damped.ledger.viscous_x > 0 && damped.ledger.left_x > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic_and_standard), cmocka_unit_test(prony_and_flow),  cmocka_unit_test(no_slip),
+        cmocka_unit_test(both_directions),      cmocka_unit_test(slip_to_the_end), cmocka_unit_test(ledger)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
