@@ -81,18 +81,31 @@ contains
     complex(dp), intent(in) :: w(0:n - 1)
     real(dp), intent(in) :: factor(2, 0:n - 1, 0:n/2 - 1)
     complex(dp), intent(inout) :: t(0:ldv - 1, 0:n/2 - 1)
-    complex(dp) :: a, b, x, y
+    real(dp) :: c, s, p, q, ar, ai, br, bi, xr, xi, yr, yi
     integer(ip) :: k, l
     do k = 0, n/2 - 1
       t(0, k) = cmplx(factor(1, 0, k)*real(t(0, k)), factor(2, 0, k)*aimag(t(0, k)), dp)
       do l = 1, n/2
-        a = w(l)*t(l, k)
-        b = conjg(w(l))*t(n - l, k)
-        x = cmplx(factor(1, l, k)*(real(a) + real(b)), factor(2, l, k)*(aimag(a) + aimag(b)), dp)
-        y = a - b ! -i X_(n-l)
-        y = cmplx(factor(2, n - l, k)*real(y), factor(1, n - l, k)*aimag(y), dp)
-        t(l, k) = conjg(w(l))*(x + y)*0.5_dp
-        t(n - l, k) = w(l)*(x - y)*0.5_dp
+        c = real(w(l))
+        s = aimag(w(l))
+        p = real(t(l, k))
+        q = aimag(t(l, k))
+        ar = c*p - s*q ! A = w t(l)
+        ai = c*q + s*p
+        p = real(t(n - l, k))
+        q = aimag(t(n - l, k))
+        br = c*p + s*q ! B = conjg(w) t(n - l)
+        bi = c*q - s*p
+        xr = 0.5_dp*factor(1, l, k)*(ar + br)
+        xi = 0.5_dp*factor(2, l, k)*(ai + bi)
+        yr = 0.5_dp*factor(2, n - l, k)*(ar - br) ! -i X_(n-l)
+        yi = 0.5_dp*factor(1, n - l, k)*(ai - bi)
+        p = xr + yr
+        q = xi + yi
+        t(l, k) = cmplx(c*p + s*q, c*q - s*p, dp)
+        p = xr - yr
+        q = xi - yi
+        t(n - l, k) = cmplx(c*p - s*q, c*q + s*p, dp)
       end do
     end do
   end subroutine filter

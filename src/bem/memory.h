@@ -8,7 +8,7 @@
 #include "../core/workspace.h"
 #include "transform.h"
 
-enum { BEM_SIZES = 64 };
+enum { BEM_SIZES = 256 }; /* more than a solver comes to use */
 
 /* Fields of m x m cells, all of one block. */
 struct bem_fields {

@@ -26,11 +26,12 @@ void bem_unlock_planner(void)
 /* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
 enum { line_gap = 4 };
 
-static fftw_plan plan_lines(int64_t n, int64_t count, int64_t line, fftw_complex *data, int sign)
+static fftw_plan plan_lines(int64_t n, int64_t count, int64_t line, fftw_complex *from, fftw_complex *to, int sign)
 {
     const int length = (int)n;
-    return fftw_plan_many_dft(1, &length, (int)count, data, NULL, 1, (int)line, data, NULL, 1, (int)line, sign,
-                              FFTW_ESTIMATE); /* the same plan, and so the same bits, each time */
+    /* ESTIMATE: the same plan, and so the same bits, each time */
+    return fftw_plan_many_dft(1, &length, (int)count, from, NULL, 1, (int)line, to, NULL, 1, (int)line, sign,
+                              FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
 }
 
 static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
@@ -42,13 +43,15 @@ static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
     c->scratch = fftw_alloc_complex((size_t)n);
     c->rows = fftw_alloc_complex((size_t)(c->line * m / 2));
     c->columns = fftw_alloc_complex((size_t)(c->line * n / 2));
-    if (!c->twiddles || !c->scratch || !c->rows || !c->columns) return 1;
+    c->rows_after = fftw_alloc_complex((size_t)(c->line * m / 2));
+    c->columns_after = fftw_alloc_complex((size_t)(c->line * n / 2));
+    if (!c->twiddles || !c->scratch || !c->rows || !c->columns || !c->rows_after || !c->columns_after) return 1;
     rst_bem_set_twiddles(n, c->twiddles);
     bem_lock_planner();
-    c->row_forward = plan_lines(n, m / 2, c->line, c->rows, FFTW_FORWARD);
-    c->row_backward = plan_lines(n, m / 2, c->line, c->rows, FFTW_BACKWARD);
-    c->column_forward = plan_lines(n, n / 2, c->line, c->columns, FFTW_FORWARD);
-    c->column_backward = plan_lines(n, n / 2, c->line, c->columns, FFTW_BACKWARD);
+    c->row_forward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_FORWARD);
+    c->row_backward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_BACKWARD);
+    c->column_forward = plan_lines(n, n / 2, c->line, c->columns, c->columns_after, FFTW_FORWARD);
+    c->column_backward = plan_lines(n, n / 2, c->line, c->columns_after, c->columns, FFTW_BACKWARD);
     bem_unlock_planner();
     return !c->row_forward || !c->row_backward || !c->column_forward || !c->column_backward;
 }
@@ -64,19 +67,21 @@ static void cosine_release(struct bem_cosine *c)
     fftw_free(c->scratch);
     fftw_free(c->rows);
     fftw_free(c->columns);
+    fftw_free(c->rows_after);
+    fftw_free(c->columns_after);
 }
 
 static void apply(const struct bem_cosine *c, const double *factor, int64_t ld, const double *x, double *u)
 {
     rst_bem_lay_rows(ld, c->m, c->n, x, c->line, c->rows);
     fftw_execute(c->row_forward);
-    rst_bem_turn(c->m, c->n, c->twiddles, c->line, c->rows, c->columns, c->scratch);
+    rst_bem_turn(c->m, c->n, c->twiddles, c->line, c->rows_after, c->columns, c->scratch);
     fftw_execute(c->column_forward);
-    rst_bem_filter(c->n, c->twiddles, factor, c->line, c->columns);
+    rst_bem_filter(c->n, c->twiddles, factor, c->line, c->columns_after);
     fftw_execute(c->column_backward);
     rst_bem_turn_back(c->m, c->n, c->twiddles, c->line, c->columns, c->rows, c->scratch);
     fftw_execute(c->row_backward);
-    rst_bem_take_rows(ld, c->m, c->n, c->line, c->rows, u);
+    rst_bem_take_rows(ld, c->m, c->n, c->line, c->rows_after, u);
 }
 
 /* The even transform (DCT-I) of the coefficients is the spectrum of the periodic kernel. */

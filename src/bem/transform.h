@@ -8,7 +8,8 @@
 /* A two-dimensional cosine transform of length n of m x m values: plans and room. */
 struct bem_cosine {
     int64_t m, n, line; /* line: distance of lines in the room, in complex numbers */
-    fftw_complex *twiddles, *rows, *columns, *scratch;
+    fftw_complex *twiddles, *scratch;
+    fftw_complex *rows, *rows_after, *columns, *columns_after; /* out of place is faster */
     fftw_plan row_forward, row_backward, column_forward, column_backward;
 };
 
