@@ -52,21 +52,6 @@ static inline double rebound(const restitute_table *t, const struct place *p)
     return clamp(plane_sum(t, p, t->ez + p->corner, 1), 0, 1);
 }
 
-static void chi_weights(const restitute_table *t, double chi, double *w)
-{
-    const int64_t n = t->n_chi;
-    chi = clamp(chi, t->chi[0], t->chi[n - 1]);
-    double left = 1, right = 1;
-    for (int64_t j = 0; j < n; j++) {
-        w[j] = left * t->chi_weight[j];
-        left *= chi - t->chi[j];
-    }
-    for (int64_t j = n - 1; j >= 0; j--) {
-        w[j] *= right;
-        right *= chi - t->chi[j];
-    }
-}
-
 /* Two axes: four rows of four values. */
 static inline double sum_two_axes(const restitute_table *t, const double w[4], int64_t row, int64_t node, double s)
 {
@@ -79,38 +64,48 @@ static inline double sum_two_axes(const restitute_table *t, const double w[4], i
     return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
 }
 
-static double sum_all_axes(const restitute_table *t, const struct place *p, int64_t node, int n_psi,
-                           const double *psi_weight, const double *chi_weight)
+/* sum over psi and chi of one block, [psi][chi] */
+static inline double block_sum(const double *v, int64_t n_chi, const double w[4], const double x[4])
 {
-    const int64_t n_chi = t->n_chi, stride = t->n_psi * n_chi;
-    const double *v = t->ex + p->corner * stride + node * n_chi;
+    double sum[4];
+    for (int k = 0; k < 4; k++)
+        sum[k] = (x[0] * v[k * n_chi] + x[1] * v[k * n_chi + 1]) + (x[2] * v[k * n_chi + 2] + x[3] * v[k * n_chi + 3]);
+    return (w[0] * sum[0] + w[1] * sum[1]) + (w[2] * sum[2] + w[3] * sum[3]);
+}
+
+/* The same without all axes. */
+static double short_sum(const double *v, int64_t n_chi, const double *w, int n, const double *x, int m)
+{
     double sum = 0;
-    for (int i = 0; i < p->n_speed; i++)
-        for (int j = 0; j < p->n_gamma; j++) {
-            const double *row = v + (i * t->n_gamma + j) * stride;
-            double inner = 0;
-            for (int k = 0; k < n_psi; k++) {
-                double chi_sum = 0;
-                for (int64_t l = 0; l < n_chi; l++)
-                    chi_sum += chi_weight[l] * row[k * n_chi + l];
-                inner += psi_weight[k] * chi_sum;
-            }
-            sum += p->speed[i] * p->gamma[j] * inner;
-        }
+    for (int k = 0; k < n; k++)
+        for (int l = 0; l < m; l++)
+            sum += w[k] * x[l] * v[k * n_chi + l];
     return sum;
 }
 
 static double sum_general(const restitute_table *t, const struct place *p, double chi, int64_t node, double s)
 {
-    double psi_weight[4] = {1}, chi_weight[rst_most_chi] = {1};
-    if (t->n_psi > 1) rst_cubic_weights(s, psi_weight);
-    if (t->n_chi > 1) chi_weights(t, chi, chi_weight);
-    return sum_all_axes(t, p, node, t->n_psi > 1 ? 4 : 1, psi_weight, chi_weight);
+    double w[4] = {1}, x[4] = {1}, chi_s, sum = 0;
+    const int64_t n_chi = t->n_chi, stride = t->n_psi * n_chi;
+    const double *v = t->ex + p->corner * stride + node * n_chi;
+    const int n = t->n_psi > 1 ? 4 : 1, m = n_chi > 1 ? 4 : 1;
+    if (n > 1) rst_cubic_weights(s, w);
+    if (m > 1) {
+        v += rst_chi_find(t, chi, &chi_s);
+        rst_cubic_weights(chi_s, x);
+    }
+    for (int i = 0; i < p->n_speed; i++)
+        for (int j = 0; j < p->n_gamma; j++) {
+            const double *block = v + (i * t->n_gamma + j) * stride;
+            sum += p->speed[i] * p->gamma[j] *
+                   (n == 4 && m == 4 ? block_sum(block, n_chi, w, x) : short_sum(block, n_chi, w, n, x, m));
+        }
+    return sum;
 }
 
 static inline double chi_in_table(const restitute_table *t, double chi)
 {
-    return clamp(chi, t->chi[0], t->chi[t->n_chi - 1]);
+    return clamp(chi, t->chi_low, t->chi_high);
 }
 
 /* What there is of ex in closed form: that of full slip for psi > 1 (27). */
@@ -152,7 +147,7 @@ static inline void evaluate_two_axes(const restitute_table *t, double speed, dou
     rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
     const double *v = t->ez + cell * rst_cubic;
     const double ez = clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
-    const double full = t->chi[0] * 2 * (1 + ez), critical = 2 * t->chi[0] > 1 ? full - ez : 1;
+    const double full = t->chi_low * 2 * (1 + ez), critical = 2 * t->chi_low > 1 ? full - ez : 1;
     pair->ez = ez;
     if (sliding > critical * v_n) {
         pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */

@@ -2,9 +2,9 @@
  *
  * Values are kept at nodes. Along the speed (or delta1) and along gamma an octave of the number is divided into 2^k equal cells,
  * each with a cubic through four nodes that are evenly spaced. So cell and place in the cell are the leading and the other bits of
- * the number itself, and no logarithm is taken. Along chi there is one polynomial. Along psi: even cells from 0 to 1, then for
+ * the number itself, and no logarithm is taken. Along psi: even cells from 0 to 1, then for
  * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
- * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well. Cells share the nodes at their seams.
+ * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
  *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -49,7 +49,8 @@ struct restitute_table {
 
     struct rst_octaves speed, gamma;
     int64_t n_chi;
-    double chi[rst_most_chi], chi_weight[rst_most_chi]; /* nodes, barycentric weights */
+    double chi_low, chi_high;
+    int64_t chi_cells; /* 0: one node, no axis */
     int64_t stick_cells; /* 0: one node, psi = 0 or no friction */
     int64_t slip_cells;  /* in each half of the slip side; 0: none */
     int64_t n_speed, n_gamma, n_psi;
@@ -75,8 +76,8 @@ double rst_octaves_node(const struct rst_octaves *axis, int64_t i);
 double rst_slip_node(int64_t cells, int64_t i);
 double rst_slip_y(double r);
 
-/* Barycentric weights 1/prod(chi_j - chi_i) of the nodes in `form`. */
-void rst_table_chi_weights(restitute_table *form);
+/* Node of chi; 0 <= i < n_chi. */
+double rst_chi_node(const restitute_table *form, int64_t i);
 
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
@@ -111,6 +112,16 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[1] = s * bc * 0.5;
     w[2] = ab * c * -0.5;
     w[3] = ab * b * (1.0 / 6);
+}
+
+/* First node of the cell of chi, which is in the table's range, and place s in [0, 3] in it. */
+static inline int64_t rst_chi_find(const restitute_table *t, double chi, double *s)
+{
+    const double u = (chi - t->chi_low) / (t->chi_high - t->chi_low) * (double)t->chi_cells;
+    int64_t cell = (int64_t)u;
+    cell = cell < t->chi_cells ? cell : t->chi_cells - 1;
+    *s = (u - (double)cell) * rst_cubic;
+    return cell * rst_cubic;
 }
 
 /* c in r(y) */
