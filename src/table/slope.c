@@ -90,6 +90,7 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma_in, do
     const struct directions x = find_direction(&t->speed, speed), gamma = find_direction(&t->gamma, gamma_in);
     const double ez = sum_ez(t, x.w, x.n, x.node, &gamma);
     double chi_w[4] = {1}, s;
+    double quotient;
     int64_t chi_node = 0;
     *slope = (struct rst_slope){.ez_speed = ez > 0 && ez < 1 ? sum_ez(t, x.dw, x.n, x.node, &gamma) : 0};
     chi = fmin(fmax(chi, t->chi_low), t->chi_high);
@@ -108,7 +109,7 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma_in, do
     double stretch = 0, y = 0;
     if (t->stick_cells > 0) {
         y = (psi - 1) / (critical - 1);
-        p.node = rst_psi_find(t, psi, 1, critical - 1, &s);
+        p.node = rst_psi_find(t, psi, 1, critical - 1, &s, &quotient);
         p.n = 4;
         cubic_slopes(s, p.w, p.dw);
         stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);

@@ -131,17 +131,19 @@ static const double rst_soft = 1.0 / 64;
 static const double rst_least = 0x1p-1000;
 
 /* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width. Both sides go the same way
- * without a branch, since which one it is cannot be foreseen. */
-static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s)
+ * without a branch, since which one it is cannot be foreseen. `quotient`: psi, or 1/psi for psi > 1. */
+static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
+                                   double *quotient)
 {
     const int slips = sliding > v_n;
     const double beyond = sliding - v_n, most = width * v_n;
     const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
-    const double psi = sliding / (v_n > rst_least ? v_n : rst_least);
+    const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
+    *quotient = smaller / (larger > rst_least ? larger : rst_least);
     /* below the number of cells even at their end */
-    const double u = root * (slips * t->psi_cells[1]) + psi * ((1 - slips) * t->psi_cells[0]);
+    const double u = root * (slips * t->psi_cells[1]) + *quotient * ((1 - slips) * t->psi_cells[0]);
     const int64_t cell = (int64_t)u;
     *s = (u - (double)cell) * rst_cubic;
     return t->start[slips + (slips & (other < y))] + cell * rst_cubic;
