@@ -10,8 +10,9 @@ module rst_c_interfaces
   use rst_compression, only: scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
   use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
-  use rst_sync_elements, only: element_loop, term_type, columns
-  use rst_sync_shear, only: sync_scene_type => scene_type, shear_type, follow_shear
+  use rst_sync_dense, only: trace_type, dense_levels, thin_levels
+  use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
+  use rst_sync_shear, only: follow_shear
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
   use rst_sync_ledger, only: keep_ledger
   use rst_ledger, only: ledger_type
@@ -162,7 +163,7 @@ contains
     integer(c_int64_t), intent(in), value :: n_terms, n
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
     type(level_type), intent(out) :: level(0:2*n)
-    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     integer(c_int64_t), intent(out) :: failed
     logical :: fails
@@ -170,12 +171,38 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_normal_levels
 
-  subroutine rst_follow_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, state) &
+  pure subroutine rst_dense_levels(grid, g_inf, eta, n_terms, g, tau, n, r, coarse, level, trace, node, failed) &
+    bind(c, name="rst_dense_levels")
+    type(grid_type), intent(in) :: grid
+    real(c_double), intent(in), value :: g_inf, eta
+    integer(c_int64_t), intent(in), value :: n_terms, n, r
+    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
+    type(level_type), intent(in) :: coarse(0:2*n)
+    type(level_type), intent(out) :: level(0:2*n*r)
+    type(trace_type), intent(out) :: trace(n_terms, 0:2*n*r)
+    type(node_type), intent(out) :: node(0:n*r)
+    integer(c_int64_t), intent(out) :: failed
+    logical :: fails
+    call dense_levels(grid, g_inf, eta, n_terms, g, tau, n, r, coarse, level, trace, node, fails)
+    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
+  end subroutine rst_dense_levels
+
+  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node) bind(c, name="rst_thin_levels")
+    integer(c_int64_t), intent(in), value :: n_terms, n
+    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
+    type(level_type), intent(inout) :: level(0:4*n)
+    type(trace_type), intent(inout) :: trace(n_terms, 0:4*n)
+    type(node_type), intent(inout) :: node(0:2*n)
+    call thin_levels(n_terms, g, tau, n, level, trace, node)
+  end subroutine rst_thin_levels
+
+  subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &
     bind(c, name="rst_follow_shear")
     type(sync_scene_type), intent(in) :: scene
     type(c_funptr), intent(in), value :: elements
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -183,15 +210,16 @@ contains
     type(shear_type), intent(out) :: state
     procedure(element_loop), pointer :: loop
     call c_f_procpointer(elements, loop)
-    call follow_shear(scene, loop, g, tau, level, memory, node, body, beta, faded, term, state)
+    call follow_shear(scene, loop, g, tau, level, trace, node, body, beta, faded, term, state)
   end subroutine rst_follow_shear
 
-  subroutine rst_trace_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, n_knots, knot) &
+  subroutine rst_trace_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot) &
     bind(c, name="rst_trace_shear")
     type(sync_scene_type), intent(in) :: scene
     type(c_funptr), intent(in), value :: elements
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -200,15 +228,16 @@ contains
     type(knot_type), intent(out) :: knot(0:2*scene%n)
     procedure(element_loop), pointer :: loop
     call c_f_procpointer(elements, loop)
-    call trace_shear(scene, loop, g, tau, level, memory, node, body, beta, faded, term, n_knots, knot)
+    call trace_shear(scene, loop, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
   end subroutine rst_trace_shear
 
-  pure subroutine rst_edge_rates(scene, g, tau, level, memory, rate) bind(c, name="rst_edge_rates")
+  pure subroutine rst_edge_rates(scene, g, tau, level, trace, rate) bind(c, name="rst_edge_rates")
     type(sync_scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     real(c_double), intent(out) :: rate(scene%n:2*scene%n)
-    call edge_rates(scene, g, tau, level, memory, rate)
+    call edge_rates(scene, g, tau, level, trace, rate)
   end subroutine rst_edge_rates
 
   pure subroutine rst_sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample) &
@@ -224,13 +253,14 @@ contains
     call sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample)
   end subroutine rst_sample_impact
 
-  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, memory, node, body, beta, faded, term, before, ledger) &
+  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, ledger) &
     bind(c, name="rst_keep_ledger")
     type(sync_scene_type), intent(in) :: scene
     integer(c_int64_t), intent(in), value :: kind
     type(c_funptr), intent(in), value :: elements
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -239,6 +269,6 @@ contains
     type(ledger_type), intent(out) :: ledger
     procedure(element_loop), pointer :: loop
     call c_f_procpointer(elements, loop)
-    call keep_ledger(scene, kind, loop, g, tau, level, memory, node, body, beta, faded, term, before, ledger)
+    call keep_ledger(scene, kind, loop, g, tau, level, trace, node, body, beta, faded, term, before, ledger)
   end subroutine rst_keep_ledger
 end module rst_c_interfaces

@@ -30,8 +30,10 @@ contains
     real(dp), intent(in) :: z
     type(memory_type) :: m
     real(dp), parameter :: series_below = 0.5_dp  !! beyond, the closed form loses less than two digits
+    integer(ip) :: i
+    real(dp), parameter :: c(0:9) = [(1/gamma(i + 4.0_dp), i=0, 9)]  !! phi_3(z) = sum_i (-z)^i/(i+3)!
     if (z < series_below) then
-      m%phi3 = (1 - z/4*(1 - z/5*(1 - z/6*(1 - z/7*(1 - z/8*(1 - z/9*(1 - z/10*(1 - z/11*(1 - z/12))))))))) /6
+      m%phi3 = c(0) - z*(c(1) - z*(c(2) - z*(c(3) - z*(c(4) - z*(c(5) - z*(c(6) - z*(c(7) - z*(c(8) - z*c(9)))))))))
       m%phi2 = 0.5_dp - z*m%phi3
       m%phi1 = 1 - z*m%phi2
       m%decay = 1 - z*m%phi1

@@ -3,5 +3,7 @@
 #include "memory.f90"
 #include "cubic.f90"
 #include "sync_levels.f90"
+#include "sync_dense.f90"
 #include "sync_elements.f90"
+#include "sync_edge.f90"
 #include "sync_shear.f90"

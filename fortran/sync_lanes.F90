@@ -27,6 +27,12 @@ subroutine RST_LANES(step, trial, term, body, beta, faded, sums) bind(c, name=RS
   admittance = 1/(step%end_response + step%drop*step%start_response)
   sum_q = 0
   sums%stuck = 0
+  if (trial == 0 .and. step%n_terms == 1) then
+    call move_with_one_term(term(1)%decay, term(1)%from_start, term(1)%from_end, body(:, column_x2), body(:, column_weight), &
+                            body(:, column_alpha), body(:, column_kappa), beta, faded)
+    call add_lanes()
+    return
+  end if
   do first = step%first, step%last, block
     inside = min(block, step%last + 1 - first)
     count = (inside + lanes - 1)/lanes*lanes
@@ -81,5 +87,48 @@ subroutine RST_LANES(step, trial, term, body, beta, faded, sums) bind(c, name=RS
       end do
     end do
   end do
-  sums%q = ((sum_q(1) + sum_q(5)) + (sum_q(3) + sum_q(7))) + ((sum_q(2) + sum_q(6)) + (sum_q(4) + sum_q(8)))
+  call add_lanes()
+contains
+
+  !> The usual solid, in one go.
+  subroutine move_with_one_term(decay, from_start, from_end, x2, weight, alpha, kappa, beta, faded)
+    real(dp), intent(in) :: decay, from_start, from_end
+    real(dp), intent(in), dimension(0:step%capacity - 1) :: x2, weight
+    real(dp), intent(inout), dimension(0:step%capacity - 1) :: alpha, kappa, beta, faded
+    real(dp) :: fresh, q, drop, spring, f, stick, force, slip, kept, share(lanes), total(lanes)
+    integer(ip) :: first, i, l
+    fresh = step%f
+    q = step%q
+    drop = step%drop
+    spring = step%spring
+    total = 0
+    do first = step%first, step%last, lanes
+      do l = 1, lanes
+        share(l) = weight(first + l - 1)
+      end do
+      do l = step%last - first + 2, lanes
+        share(l) = 0
+      end do
+      !$omp simd private(i, f, stick, force, slip, kept)
+      do l = 1, lanes
+        i = first + l - 1
+        f = max(fresh - x2(i) - decay*faded(i), 0.0_dp)
+        stick = q - alpha(i) - carried*kappa(i) - decay*beta(i)
+        force = min(max(stick, -f), f)
+        slip = (stick - force)*admittance
+        kept = keep*kappa(i) + drop*slip
+        alpha(i) = alpha(i) + spring*(kept + slip)
+        kappa(i) = slip
+        faded(i) = decay*faded(i)
+        beta(i) = decay*beta(i) + from_start*kept + from_end*slip
+        total(l) = total(l) + share(l)*force
+      end do
+    end do
+    sum_q = total
+  end subroutine move_with_one_term
+
+  !> In an order that does not depend on the width of vectors.
+  subroutine add_lanes()
+    sums%q = ((sum_q(1) + sum_q(5)) + (sum_q(3) + sum_q(7))) + ((sum_q(2) + sum_q(6)) + (sum_q(4) + sum_q(8)))
+  end subroutine add_lanes
 end subroutine RST_LANES

@@ -11,8 +11,10 @@ module rst_sync_ledger
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
   use rst_sync_levels, only: level_type, node_type
-  use rst_sync_elements, only: step_type, term_type, element_loop, columns, column_x2, column_weight, column_alpha, column_kappa
-  use rst_sync_shear, only: scene_type, shear_type, start_shear, advance_shear, place_nodes, measure_step
+  use rst_sync_dense, only: trace_type
+  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, element_loop, columns, column_weight, column_alpha, &
+                               column_kappa
+  use rst_sync_shear, only: start_shear, advance_shear, place_nodes, measure_step
   implicit none (type, external)
   private
   public :: keep_ledger, slips_to_the_end, has_no_friction
@@ -32,12 +34,13 @@ module rst_sync_ledger
 contains
 
   !> All accounts. kind: a parameter above; body, beta, faded, term, before: room.
-  subroutine keep_ledger(scene, kind, elements, g, tau, level, memory, node, body, beta, faded, term, before, ledger)
+  subroutine keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, ledger)
     type(scene_type), intent(in) :: scene
     integer(ip), intent(in) :: kind
     procedure(element_loop) :: elements
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -49,29 +52,30 @@ contains
     ledger = ledger_type(0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     gross = 2*scene%chi
     call place_nodes(scene, node, body, beta, faded)
-    call post_normal(scene, g, tau, level, memory, node, body(:, column_weight), 2*scene%n, 0.0_dp, 0.0_dp, before, &
+    call post_normal(scene, g, tau, level, trace, node, body(:, column_weight), 2*scene%n, 0.0_dp, 0.0_dp, before, &
                      ledger%viscous_z, ledger%left_z)
     if (kind == slips_to_the_end) then
       ledger%viscous_x = gross*ledger%viscous_z
       ledger%left_x = gross*ledger%left_z
       ledger%friction_x = slide(scene, level, 2*scene%n, 0.0_dp, 0.0_dp, 0.0_dp)
     else if (kind /= has_no_friction) then
-      call start_shear(scene, g, tau, level, memory, node, body, beta, faded, term, state)
+      call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
       if (state%time > 0) then
-        call post_normal(scene, g, tau, level, memory, node, body(:, column_weight), state%level, &
+        call post_normal(scene, g, tau, level, trace, node, body(:, column_weight), state%level, &
                          state%time - level(state%level)%time, state%velocity, before, ledger%viscous_x, ledger%left_x)
         ledger%viscous_x = gross*ledger%viscous_x
         ledger%left_x = gross*ledger%left_x
         ledger%friction_x = slide(scene, level, state%level, state%time - level(state%level)%time, state%velocity, state%force)
       end if
-      call post_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, before, state, ledger)
+      call post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, state, ledger)
     end if
   end subroutine keep_ledger
 
   !> In z, from first touch to `rest` after the level `last`, where the velocity is `velocity`.
-  pure subroutine post_normal(scene, g, tau, level, memory, node, weight, last, rest, velocity, fade, viscous, left)
+  pure subroutine post_normal(scene, g, tau, level, trace, node, weight, last, rest, velocity, fade, viscous, left)
     type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(in) :: weight(0:scene%capacity - 1), rest, velocity
@@ -84,24 +88,25 @@ contains
     do l = 0, last
       if (l == last .and. .not. rest > 0) exit
       edge = min(l, 2*scene%n - l - 1)  ! outermost node in contact in the step
-      h = merge(rest, level(min(l + 1, 2*scene%n))%time - level(l)%time, l == last)
+      h = merge(rest, level(min(l + 1, 2*scene%n))%step, l == last)
       v = [level(l)%velocity, merge(velocity, level(min(l + 1, 2*scene%n))%velocity, l == last)]
-      if (l < scene%n) fade(l, :) = memory(:, l)
-      call normal_loss(scene, g, tau, h, v, edge, memory(:, l), weight, fade, dissipated)
+      if (l < scene%n) fade(l, :) = trace(:, l)%memory
+      call normal_loss(scene, g, tau, h, v, edge, trace(:, l), weight, fade, dissipated)
       viscous = viscous + 2*mass_factor*dissipated
       if (l < scene%n .or. l == last) cycle
       energy = scene%g_inf*(level(l + 1)%depth - node(edge)%radius**2)**2/2
       do k = 1, scene%n_terms
-        energy = energy + (memory(k, l + 1) - fade(edge, k))**2/(2*g(k))
+        energy = energy + (trace(k, l + 1)%memory - fade(edge, k))**2/(2*g(k))
       end do
       left = left + 2*mass_factor*weight(edge)*energy
     end do
   end subroutine post_normal
 
   !> What the nodes 0 to edge dissipate in one step; `fade` is brought to its end.
-  pure subroutine normal_loss(scene, g, tau, h, v, edge, memory, weight, fade, total)
+  pure subroutine normal_loss(scene, g, tau, h, v, edge, trace, weight, fade, total)
     type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), h, v(0:1), memory(scene%n_terms)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), h, v(0:1)
+    type(trace_type), intent(in) :: trace(scene%n_terms)
     integer(ip), intent(in) :: edge
     real(dp), intent(in) :: weight(0:scene%capacity - 1)
     real(dp), intent(inout) :: fade(0:scene%capacity - 1, scene%n_terms)
@@ -112,7 +117,7 @@ contains
     do k = 1, scene%n_terms
       loss = loss_of(h, g(k), tau(k))
       do i = 0, edge
-        total = total + weight(i)*lost(loss, memory(k) - fade(i, k), v(0), v(1))
+        total = total + weight(i)*lost(loss, trace(k)%memory - fade(i, k), v(0), v(1))
         fade(i, k) = fade(i, k)*loss%once%decay
       end do
     end do
@@ -132,7 +137,7 @@ contains
     do l = 0, last
       if (l == last .and. .not. rest > 0) exit
       if (l < last) then
-        h = level(l + 1)%time - level(l)%time
+        h = level(l + 1)%step
         power(2) = level(l + 1)%force*slip_velocity(level(l + 1)%velocity)
       else
         h = rest
@@ -155,11 +160,12 @@ contains
   end function slide
 
   !> In x, from the instant at which the contact sticks for the first time.
-  subroutine post_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, before, state, ledger)
+  subroutine post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, state, ledger)
     type(scene_type), intent(in) :: scene
     procedure(element_loop) :: elements
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(inout), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -177,12 +183,12 @@ contains
       now = term
       velocity = state%velocity
       shift = state%shift
-      call measure_step(scene, g, tau, level(state%level + 1)%time - state%time, now, step)
+      call measure_step(scene, g, tau, level(state%level + 1)%time - state%time, .false., trace(:, state%level + 1), now, step)
       do k = 1, scene%n_terms
         loss(k) = loss_of(step%h, g(k), tau(k))
       end do
       call remember_nodes(scene, tau, level, edge, body, beta, state, before)
-      call advance_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, state)
+      call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
       call post_nodes(scene, g, edge, step, loss, now, term, velocity, shift, body, before, state, ledger)
     end do
   end subroutine post_shear

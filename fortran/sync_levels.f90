@@ -17,7 +17,8 @@ module rst_sync_levels
                         integrated_twice, own_share, own_memory
   implicit none (type, external)
   private
-  public :: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
+  public :: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels, spread_nodes, first_return
+  public :: panel_type, panel_of, by_parts, loaded_by_parts, longest_panel, first_levels, mass_factor
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   integer(ip), parameter :: most_sweeps = 100
@@ -32,15 +33,22 @@ module rst_sync_levels
     real(dp) :: radius, start, turn
   end type grid_type
 
-  !> Where the sphere is at a level; force: int_0^A f dX. Twin of `struct sync_level` in C.
+  !> Where the sphere is at a level; step: time since the level before, with all its digits; force: int_0^A f dX. For the
+  !> tangential problem: `fresh` is f + G_inf X^2 of an element that forgets nothing, `missing` what the sum over nodes lacks of the
+  !> force. Twin of `struct sync_level` in C.
   type, bind(c) :: level_type
-    real(dp) :: time, depth, velocity, force
+    real(dp) :: time, step, depth, velocity, force, fresh, missing
   end type level_type
 
   !> X_j and dX/dj. Twin of `struct sync_node` in C.
   type, bind(c) :: node_type
     real(dp) :: radius, width
   end type node_type
+
+  !> D', A^3 and A D' in a panel.
+  type :: panel_type
+    type(parabola_type) :: speeds, cubes, sweeps
+  end type panel_type
 
 contains
 
@@ -98,12 +106,15 @@ contains
     real(dp), intent(in) :: closeness  !! iterations stop when velocities, and times relatively, change by less
     type(level_type), intent(out) :: level(0:2*n)
     real(dp), intent(out) :: memory(n_terms, 0:2*n)   !! g_k M_k
-    real(dp), intent(out) :: loading(n_terms, 0:n)    !! g_k P_k of the compression
-    type(node_type), intent(out) :: node(0:n)
+    real(dp), intent(out) :: loading(n_terms, 0:2*n)  !! g_k P_k of the compression
+    type(node_type), intent(out) :: node(0:n)         !! radii; widths are not made
     logical, intent(out) :: failed
     integer(ip) :: l
 
-    call start_at_touch(grid, n_terms, n, level, memory, loading, node)
+    call spread_nodes(grid, n, node)
+    level(0) = at_level(0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp)
+    memory(:, 0) = 0
+    loading(:, 0) = 0
     do l = 0, n - 2, 2
       call compression_panel(grid, g_inf, eta, n_terms, g, tau, n, l, closeness, level, memory, loading, node, failed)
       if (failed) return
@@ -114,35 +125,38 @@ contains
     end do
   end subroutine normal_levels
 
-  !> First touch. Until the compression has passed them, radius and width hold u and du/dj.
-  pure subroutine start_at_touch(grid, n_terms, n, level, memory, loading, node)
+  !> Where the levels of the compression are: radius and width hold u and du/dj, until the compression has passed them.
+  pure subroutine spread_nodes(grid, n, node)
     type(grid_type), intent(in) :: grid
-    integer(ip), intent(in) :: n_terms, n
-    type(level_type), intent(inout) :: level(0:2*n)
-    real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    integer(ip), intent(in) :: n
     type(node_type), intent(out) :: node(0:n)
-    real(dp) :: v, slope
-    integer(ip) :: j, k
-    level(0) = level_type(0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp)
-    do k = 1, n_terms
-      memory(k, 0) = 0
-      loading(k, 0) = 0
-    end do
+    real(dp) :: v, slope, turn_scale, start_scale
+    integer(ip) :: j
+    turn_scale = 0
+    start_scale = 0
+    if (grid%turn > 0) turn_scale = 1/sinh(grid%turn)
+    if (grid%start > 0) start_scale = 1/sinh(grid%start)
     do j = 0, n
       v = real(j, dp)/real(n, dp)
       slope = 1/real(n, dp)
       if (grid%turn > 0) then
-        slope = slope*grid%turn*cosh(grid%turn*(1 - v))/sinh(grid%turn)
-        v = 1 - sinh(grid%turn*(1 - v))/sinh(grid%turn)
+        slope = slope*grid%turn*cosh(grid%turn*(1 - v))*turn_scale
+        v = 1 - sinh(grid%turn*(1 - v))*turn_scale
       end if
       if (grid%start > 0) then
-        slope = slope*grid%start*cosh(grid%start*v)/sinh(grid%start)
-        v = sinh(grid%start*v)/sinh(grid%start)
+        slope = slope*grid%start*cosh(grid%start*v)*start_scale
+        v = sinh(grid%start*v)*start_scale
       end if
       node(j) = node_type(v, slope)
     end do
     node(0) = node_type(0.0_dp, 2*grid%radius*node(0)%width)
-  end subroutine start_at_touch
+  end subroutine spread_nodes
+
+  pure function at_level(time, step, depth, velocity, force) result(level)
+    real(dp), intent(in) :: time, step, depth, velocity, force
+    type(level_type) :: level
+    level = level_type(time, step, depth, velocity, force, 0.0_dp, 0.0_dp)
+  end function at_level
 
   !> Levels l+1 and l+2 of the compression, by sweeps over: times at which the edge is on the grid, depth and velocity from the
   !> acceleration, memory, acceleration. The dashpot's part of it, -(15/8) eta A D', is a total derivative and taken
@@ -153,7 +167,7 @@ contains
     integer(ip), intent(in) :: n_terms, n, l
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness
     type(level_type), intent(inout) :: level(0:2*n)
-    real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:n)
+    real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
     logical, intent(out) :: failed
     real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), echo(2), change, previous, drag, resolved, next
@@ -192,10 +206,10 @@ contains
         a3(q) = d(q)*a(q)
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
-      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory(:, l:l + 2), loading(:, l:l + 2), echo)
+      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading(:, l:l + 2), echo)
       do q = 1, 2
         next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + sum(loading(:, l + q)))
-        next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
+        if (echo(q) > 0) next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
         change = max(change, abs(next - rest(q))*x(2))
         rest(q) = next
       end do
@@ -203,10 +217,10 @@ contains
       if (done) exit
     end do
     failed = .not. done
+    call remember_terms(n_terms, g, tau, x, v, memory(:, l:l + 2))
     do q = 1, 2
-      level(l + q) = level_type(level(l)%time + x(q), d(q), v(q), eta*a(q)*v(q) - rest(q)/mass_factor)
+      level(l + q) = at_level(level(l)%time + x(q), x(q) - (q - 1)*x(1), d(q), v(q), eta*a(q)*v(q) - rest(q)/mass_factor)
       node(l + q)%radius = a(q)
-      node(l + q)%width = node(l + q)%width*edge_advance(grid, u(q), a(q), v(q), rest(q) - drag*a(q)*v(q))
     end do
   end subroutine compression_panel
 
@@ -230,7 +244,7 @@ contains
       end do
       return
     end if
-    x = steps_ahead(level(l)%time - level(l - 1)%time, level(l - 1)%time - level(l - 2)%time)
+    x = steps_ahead(level(l)%step, level(l - 1)%step)
     do q = 0, 2
       before(q) = -mass_factor*(level(l - 2 + q)%force - eta*node(l - 2 + q)%radius*level(l - 2 + q)%velocity)
     end do
@@ -261,59 +275,83 @@ contains
     x = x + dx
   end subroutine meet_edge
 
-  !> dA/du along the grid, with rho^2 = (A/radius)^2 + D'^2 (see grid_type).
-  pure function edge_advance(grid, u, a, velocity, acceleration) result(slope)
-    type(grid_type), intent(in) :: grid
-    real(dp), intent(in) :: u, a, velocity, acceleration
-    real(dp) :: slope, cosine, sine, rho
-    cosine = (1 - u)*(1 + u)/(1 + u*u)
-    sine = 2*u/(1 + u*u)
-    rho = sqrt((a/grid%radius)**2 + velocity**2)
-    slope = rho*cosine/(2*grid%radius)/(cosine**2/(2*grid%radius**2) - sine**2*acceleration)*2/(1 + u*u)
-  end function edge_advance
-
-  !> M_k and P_k at both points. A D' ~ sqrt(s) is no parabola at first touch; int A D' exp is taken by parts, with (2/3) A^3 in its
-  !> place, by the first panels, and by all of them where they resolve tau_k: a change between both within the run would show.
-  !> With longer panels by parts would cancel. `echo`: derivative of sum g_k P_k by the velocity.
-  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, memory, loading, echo)
+  !> P_k at both points. `echo`: derivative of sum g_k P_k by the velocity.
+  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading, echo)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: resolved  !! the panels of a run resolve longer relaxation times
     real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2)
-    real(dp), intent(inout) :: memory(n_terms, 0:2), loading(n_terms, 0:2)
+    real(dp), intent(inout) :: loading(n_terms, 0:2)
     real(dp), intent(out) :: echo(2)
-    type(spacing_type) :: spacing
-    type(parabola_type) :: speeds, cubes, sweeps
+    type(panel_type) :: panel
     type(memory_type) :: m
     integer(ip) :: k, q
     echo = 0
     if (n_terms == 0) return
-    spacing = spacing_of(x)
-    speeds = parabola_through(spacing, v)
-    cubes = parabola_through(spacing, a3)
-    sweeps = parabola_through(spacing, a*v)
+    panel = panel_of(x, v, a, a3)
     do k = 1, n_terms
       do q = 1, 2
         m = memory_of(x(q)/tau(k))
-        memory(k, q) = m%decay*memory(k, 0) + g(k)*remembered(m, x(q), speeds)
-        if (x(2) < tau(k) .and. tau(k) > resolved) then
-          loading(k, q) = m%decay*loading(k, 0) &
-                          + (2.0_dp/3.0_dp)*g(k)*(a3(q) - m%decay*a3(0) - remembered(m, x(q), cubes)/tau(k))
+        if (by_parts(x, tau(k), resolved)) then
+          loading(k, q) = m%decay*loading(k, 0) + g(k)*loaded_by_parts(panel, m, tau(k), x(q), a3(0), a3(q))
         else
-          loading(k, q) = m%decay*loading(k, 0) + g(k)*remembered(m, x(q), sweeps)
+          loading(k, q) = m%decay*loading(k, 0) + g(k)*remembered(m, x(q), panel%sweeps)
           echo(q) = echo(q) + g(k)*a(q)*own_memory(m, q, x)
         end if
       end do
     end do
   end subroutine load_terms
 
+  !> M_k at both points.
+  pure subroutine remember_terms(n_terms, g, tau, x, v, memory)
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2)
+    real(dp), intent(inout) :: memory(n_terms, 0:2)
+    type(parabola_type) :: speeds
+    type(memory_type) :: m
+    integer(ip) :: k, q
+    speeds = parabola_through(spacing_of(x), v)
+    do k = 1, n_terms
+      do q = 1, 2
+        m = memory_of(x(q)/tau(k))
+        memory(k, q) = m%decay*memory(k, 0) + g(k)*remembered(m, x(q), speeds)
+      end do
+    end do
+  end subroutine remember_terms
+
+  pure function panel_of(x, v, a, a3) result(panel)
+    real(dp), intent(in) :: x(2), v(0:2), a(0:2), a3(0:2)
+    type(panel_type) :: panel
+    type(spacing_type) :: spacing
+    spacing = spacing_of(x)
+    panel = panel_type(parabola_through(spacing, v), parabola_through(spacing, a3), parabola_through(spacing, a*v))
+  end function panel_of
+
+  !> A D' ~ sqrt(s) is no parabola at first touch; int A D' exp is taken by parts, with (2/3) A^3 in its place, by the first
+  !> panels, and by all of them where they resolve tau: a change between both within the run would show. With longer
+  !> panels by parts would cancel.
+  pure function by_parts(x, tau, resolved) result(yes)
+    real(dp), intent(in) :: x(2), tau, resolved
+    logical :: yes
+    yes = x(2) < tau .and. tau > resolved
+  end function by_parts
+
+  pure function loaded_by_parts(panel, m, tau, x, a3_start, a3) result(y)
+    type(panel_type), intent(in) :: panel
+    type(memory_type), intent(in) :: m
+    real(dp), intent(in) :: tau, x, a3_start, a3
+    real(dp) :: y
+    y = (2.0_dp/3.0_dp)*(a3 - m%decay*a3_start - remembered(m, x, panel%cubes)/tau)
+  end function loaded_by_parts
+
   !> Levels l+1 and l+2 of the restitution: times at which the edge is free, from the acceleration, which depends on
   !> the time only through the fading of what the compression left.
   pure subroutine restitution_panel(g_inf, eta, n_terms, g, tau, n, l, closeness, level, memory, loading, node, &
                                     failed)
     integer(ip), intent(in) :: n_terms, n, l
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, loading(n_terms, 0:n)
+    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness
     type(level_type), intent(inout) :: level(0:2*n)
     real(dp), intent(inout) :: memory(n_terms, 0:2*n)
+    real(dp), intent(inout) :: loading(n_terms, 0:2*n)  !! at the new levels room for what the nodes have left at the start
     type(node_type), intent(in) :: node(0:n)
     logical, intent(out) :: failed
     real(dp) :: x(2), d(0:2), v(0:2), push(0:2), before(0:2), change, previous, next, excess, noise, slope, dx, faded
@@ -332,12 +370,17 @@ contains
         push(q) = -mass_factor*level(n - q)%force
       end do
     else
-      x = steps_ahead(level(l)%time - level(l - 1)%time, level(l - 1)%time - level(l - 2)%time)
+      x = steps_ahead(level(l)%step, level(l - 1)%step)
       do q = 0, 2
         before(q) = -mass_factor*level(l - 2 + q)%force
       end do
       push(1:2) = ahead(before)
     end if
+    do q = 1, 2
+      do k = 1, n_terms
+        loading(k, l + q) = exp(-(level(l)%time - level(2*n - l - q)%time)/tau(k))
+      end do
+    end do
     previous = huge(1.0_dp)
     do sweep = 1, most_sweeps
       spacing = spacing_of(x)
@@ -357,7 +400,7 @@ contains
         do k = 1, n_terms
           m = memory_of(x(q)/tau(k))
           memory(k, l + q) = m%decay*memory(k, l) + g(k)*remembered(m, x(q), speeds)
-          faded = exp(-(level(l)%time + x(q) - level(j)%time)/tau(k))
+          faded = loading(k, l + q)*m%decay
           excess = excess + memory(k, l + q) - faded*memory(k, j)
           noise = noise + rounding*(g(k)*d(q) + faded*abs(memory(k, j)))
           slope = slope + g(k)*v(q) - (memory(k, l + q) - faded*memory(k, j))/tau(k)
@@ -376,7 +419,7 @@ contains
     end do
     failed = .not. done
     do q = 1, 2
-      level(l + q) = level_type(level(l)%time + x(q), d(q), v(q), -push(q)/mass_factor)
+      level(l + q) = at_level(level(l)%time + x(q), x(q) - (q - 1)*x(1), d(q), v(q), -push(q)/mass_factor)
     end do
   end subroutine restitution_panel
 

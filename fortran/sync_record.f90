@@ -7,8 +7,10 @@
 module rst_sync_record
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type
-  use rst_sync_elements, only: step_type, term_type, element_loop, columns
-  use rst_sync_shear, only: scene_type, shear_type, start_shear, advance_shear, stick_radius
+  use rst_sync_dense, only: trace_type
+  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, element_loop, columns
+  use rst_sync_edge, only: stick_radius
+  use rst_sync_shear, only: start_shear, advance_shear
   use rst_cubic, only: cubic_type, cubic_between, cubic_value, cubic_slope
   implicit none (type, external)
   private
@@ -30,11 +32,12 @@ module rst_sync_record
 contains
 
   !> Follow the contact point from where it first sticks to the end.
-  subroutine trace_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, n_knots, knot)
+  subroutine trace_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
     type(scene_type), intent(in) :: scene
     procedure(element_loop) :: elements
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -43,14 +46,14 @@ contains
     type(knot_type), intent(out) :: knot(0:2*scene%n)
     type(shear_type) :: state
     integer(ip) :: i
-    call start_shear(scene, g, tau, level, memory, node, body, beta, faded, term, state)
+    call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     knot(0) = knot_type(state%time, state%velocity, state%force, 1.0_dp)
     i = 0
     do while (state%level < 2*scene%n)
-      call advance_shear(scene, elements, g, tau, level, memory, node, body, beta, faded, term, state)
+      call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
       i = i + 1
-      knot(i) = knot_type(state%time, state%velocity, state%force, stick_share(scene, tau, level, memory, node, body, beta, faded, &
-                                                                               term, state))
+      knot(i) = knot_type(state%time, state%velocity, state%force, stick_share(scene, level, trace, node, body, beta, faded, term, &
+                                                                               state))
     end do
     knot(i)%stick = knot(i - 1)%stick  ! of nothing
     n_knots = i + 1
@@ -58,9 +61,9 @@ contains
 
   !> Stick radius over contact radius at the level reached. While the edge sticks as it moves out, all does unless slip begins
   !> further in.
-  pure function stick_share(scene, tau, level, memory, node, body, beta, faded, term, state) result(share)
+  pure function stick_share(scene, level, trace, node, body, beta, faded, term, state) result(share)
     type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(in) :: body(0:scene%capacity - 1, columns)
@@ -75,31 +78,30 @@ contains
     share = 1
     if (edge == 0 .or. scene%no_slip /= 0) return
     if (l <= scene%n .and. state%front >= edge - 1 .and. abs(state%velocity) <= level(l)%velocity) return
-    step%h = 0
-    step%f = scene%g_inf*level(l)%depth + scene%eta*level(l)%velocity + sum(memory(:, l))
+    step%f = level(l)%fresh
     step%q = scene%g_inf*state%shift + scene%eta*state%velocity + sum(term%stress)
     step%n_terms = scene%n_terms
     step%last = edge - 1
-    share = stick_radius(scene, tau, level, edge, node, memory, step, body, beta, faded, state)/node(edge)%radius
+    share = stick_radius(scene, edge, node, trace, term, step, body, beta, faded, state)/node(edge)%radius
     share = max(0.0_dp, min(1.0_dp, share))
   end function stick_share
 
   !> d(A^2)/ds at the levels n to 2n (THEORY 4.11).
-  pure subroutine edge_rates(scene, g, tau, level, memory, rate)
+  pure subroutine edge_rates(scene, g, tau, level, trace, rate)
     type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), memory(scene%n_terms, 0:2*scene%n)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     real(dp), intent(out) :: rate(scene%n:2*scene%n)
-    real(dp) :: slope, modulus, decay
+    real(dp) :: slope, modulus
     integer(ip) :: l, j, k
     do l = scene%n, 2*scene%n
       j = 2*scene%n - l
       slope = scene%g_inf*level(l)%velocity - scene%eta*mass_factor*level(l)%force
       modulus = scene%g_inf
       do k = 1, scene%n_terms
-        decay = exp(-(level(l)%time - level(j)%time)/tau(k))
-        slope = slope + g(k)*level(l)%velocity - (memory(k, l) - decay*memory(k, j))/tau(k)
-        modulus = modulus + g(k)*decay
+        slope = slope + g(k)*level(l)%velocity - (trace(k, l)%memory - trace(k, l)%fade*trace(k, j)%memory)/tau(k)
+        modulus = modulus + g(k)*trace(k, l)%fade
       end do
       rate(l) = slope/max(modulus, 1.0e-100_dp)
     end do
@@ -118,7 +120,7 @@ contains
     type(sample_type), intent(out) :: sample
     type(cubic_type) :: depth, velocity
     real(dp) :: h, t, pull0, pull1
-    h = level(l + 1)%time - level(l)%time
+    h = level(l + 1)%step
     t = time - level(l)%time
     if (l == 2*scene%n - 1 .and. time >= level(l + 1)%time) t = h
     pull0 = -mass_factor*level(l)%force

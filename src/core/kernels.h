@@ -52,13 +52,18 @@ struct sync_grid {
     double radius, start, turn;
 };
 struct sync_level {
-    double time, depth, velocity, force;
+    double time, step, depth, velocity, force, fresh, missing;
 };
 struct sync_node {
     double radius, width;
 };
 
-/* Twins of scene_type and shear_type of fortran/sync_shear.f90. */
+/* Twin of trace_type of fortran/sync_dense.f90. */
+struct sync_trace {
+    double memory, loading, fade, decay, from_start, from_end, from_bend;
+};
+
+/* Twins of scene_type and shear_type of fortran/sync_elements.f90. */
 struct sync_scene {
     double chi, psi, g_inf, eta;
     int64_t n_terms, n, capacity;
@@ -66,14 +71,14 @@ struct sync_scene {
 };
 struct sync_shear {
     double time, shift, velocity, force, step_before, force_before;
-    double weight, x2, passive_weight, passive_alpha;
+    double passive_weight, passive_alpha;
     int64_t level, first, front, updates;
 };
 
 /* Twin of term_type of fortran/sync_elements.f90. */
 struct sync_term {
     double decay, from_start, from_end, from_bend, stress, next_stress;
-    double faded_sum, beta_sum, faded_guard, beta_guard;
+    double beta_sum, faded_sum, age_before, age;
 };
 
 /* Twin of knot_type of fortran/sync_record.f90. */
@@ -125,21 +130,27 @@ void rst_choose_grid(double g_inf, double eta, int64_t n_terms, const double *g,
 void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
                        const double *tau, int64_t n, double closeness, struct sync_level *level, double *memory,
                        double *loading, struct sync_node *node, int64_t *failed);
+void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
+                      const double *tau, int64_t n, int64_t r, const struct sync_level *coarse, struct sync_level *level,
+                      struct sync_trace *trace, struct sync_node *node, int64_t *failed);
+void rst_thin_levels(int64_t n_terms, const double *g, const double *tau, int64_t n, struct sync_level *level,
+                     struct sync_trace *trace, struct sync_node *node);
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
-                      const struct sync_level *level, const double *memory, const struct sync_node *node, double *body,
-                      double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
+                      struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
+                      double *body, double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
 
 struct rst_sample;
 void rst_trace_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
-                     const struct sync_level *level, const double *memory, const struct sync_node *node, double *body,
-                     double *beta, double *faded, struct sync_term *term, int64_t *n_knots, struct sync_knot *knot);
+                     struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
+                     double *body, double *beta, double *faded, struct sync_term *term, int64_t *n_knots,
+                     struct sync_knot *knot);
 void rst_edge_rates(const struct sync_scene *scene, const double *g, const double *tau, const struct sync_level *level,
-                    const double *memory, double *rate);
+                    const struct sync_trace *trace, double *rate);
 void rst_sample_impact(const struct sync_scene *scene, int64_t slides, const struct sync_level *level,
                        const struct sync_node *node, const double *rate, int64_t n_knots, const struct sync_knot *knot,
                        int64_t l, int64_t i, double time, struct rst_sample *sample);
 void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, sync_loop *elements, const double *g,
-                     const double *tau, const struct sync_level *level, const double *memory,
+                     const double *tau, struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, double *body, double *beta, double *faded, struct sync_term *term,
                      double *before, struct euler_ledger *ledger);
 

@@ -17,20 +17,20 @@ static int follow(const struct rst_problem *problem, struct rst_workspace *works
                   struct trace *trace, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
-    const size_t n = (size_t)outcome->elements;
     struct store *store = &trace->store;
     double *room;
-    int status = rst_sync_repeat(problem, workspace, outcome->elements,
-                                 n + 1 + (2 * n + 1) * (sizeof *trace->knot / sizeof(double)), store, &room, error);
+    int64_t levels;
+    int status = rst_sync_repeat(problem, workspace, outcome, outcome->elements,
+                                 1 + sizeof *trace->knot / sizeof(double), 0, store, &levels, &room, error);
     if (status) return status;
-    trace->scene = rst_sync_scene(problem, outcome->elements, store);
+    trace->scene = rst_sync_scene(problem, levels, store);
     trace->slides = problem->mode == RST_GROSS_SLIP;
     trace->rate = room;
-    trace->knot = (struct sync_knot *)(room + n + 1);
+    trace->knot = (struct sync_knot *)(room + levels + 1);
     trace->n_knots = 0;
-    rst_edge_rates(&trace->scene, s->g, s->tau, store->level, store->memory, trace->rate);
+    rst_edge_rates(&trace->scene, s->g, s->tau, store->level, store->trace, trace->rate);
     if (rst_sync_sticks(problem, -outcome->velocity))
-        rst_trace_shear(&trace->scene, workspace->loop, s->g, s->tau, store->level, store->memory, store->node,
+        rst_trace_shear(&trace->scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node,
                         store->body, store->beta, store->faded, store->term, &trace->n_knots, trace->knot);
     return RESTITUTE_OK;
 }
@@ -47,11 +47,12 @@ int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *wor
     }
     int status = follow(problem, workspace, outcome, &trace, error);
     if (status) return status;
-    const int64_t last_level = 2 * outcome->elements - 1;
+    const int64_t last_level = 2 * trace.scene.n - 1;
+    const double end = trace.store.level[last_level + 1].time; /* the contact time but for what was extrapolated */
     for (size_t k = 0; k < history->capacity; k++) {
         struct rst_sample *sample = &history->samples[k];
         const double share = (double)k / (double)(history->capacity - 1);
-        const double time = k + 1 < history->capacity ? share * outcome->contact_time : outcome->contact_time;
+        const double time = k + 1 < history->capacity ? share * end : end;
         while (l < last_level && trace.store.level[l + 1].time <= time)
             l++;
         while (i + 2 < trace.n_knots && trace.knot[i + 1].time <= time)
@@ -59,6 +60,7 @@ int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *wor
         rst_sample_impact(&trace.scene, trace.slides, trace.store.level, trace.store.node, trace.rate, trace.n_knots,
                           trace.knot, l, i, time, sample);
         sample->shear_velocity /= problem->psi;
+        sample->time = k + 1 < history->capacity ? share * outcome->contact_time : outcome->contact_time;
     }
     history->count = history->capacity;
     return RESTITUTE_OK;

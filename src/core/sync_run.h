@@ -1,4 +1,4 @@
-/* What the files of the method `sync` share: a run, its memory, its repetition.
+/* What the files of the method `sync` share: the normal problem, a run, its memory, its repetition.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_RUN_H
 #define RST_SYNC_RUN_H
@@ -8,13 +8,46 @@
 #include "problem.h"
 #include "workspace.h"
 
-/* What a run works on, laid out in the workspace. */
+/* Most levels that a run may have: with more, rounding adds up to more than they gain. */
+enum { rst_sync_most_levels = 1 << 15 };
+
+/* The solution of the normal problem; level: in workspace->levels. */
+struct normal {
+    struct sync_grid grid;
+    int64_t levels;             /* of one phase */
+    struct sync_level *level;   /* 2 levels + 1 */
+    double velocity, error;     /* at its end, extrapolated, with its estimated error */
+    double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
+    double contact_time, depth; /* at its end and at the turning point */
+    int reached;                /* whether both are as wanted */
+    int64_t updates, ahead;     /* spent, and with the last run that was thought of */
+};
+
+/* Levels from `first` on doubled, up to `last`, until three on end have settled and the error is as wanted. Two on end at least
+ * are a result; without, as for problem->max_updates too small, normal->levels is 0. */
+int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
+                    double wanted, struct normal *normal, restitute_error *error);
+
+/* Solve again, at that number of levels alone; normal->levels is 0 if it does not settle. */
+int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
+                          struct normal *normal, restitute_error *error);
+
+/* Room that rst_sync_normal takes in workspace->levels. */
+size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
+
+/* The count that the median impact needs for its estimate of e_x to meet the tolerance. */
+double rst_sync_levels_to_start(const struct rst_problem *problem);
+
+/* By how much iterations are left unfinished, at most. */
+double rst_sync_closeness(const struct rst_problem *problem);
+
+/* What a run works on, laid out in workspace->elements. */
 struct store {
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
+    struct sync_trace *trace; /* n_terms times 2n + 1 */
     struct sync_node *node;   /* n + 1 */
     struct sync_term *term;   /* n_terms */
-    double *memory, *loading; /* n_terms times 2n + 1 and n + 1 */
     double *body;             /* columns times capacity */
     double *beta, *faded;     /* n_terms times capacity */
 };
@@ -24,13 +57,15 @@ int rst_sync_sticks(const struct rst_problem *problem, double rebound);
 
 struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store);
 
-/* Solve the normal problem again as it was solved at that number of levels, with room for `more` doubles behind it. */
-int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels, size_t more,
-                    struct store *store, double **room, restitute_error *error);
-
 /* Fill outcome->ledger; the rest of the outcome is known. */
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
                     restitute_error *error);
+
+/* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of both phases and
+ * `more` besides. */
+int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
+                    const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
+                    int64_t *levels, double **room, restitute_error *error);
 
 /* See struct restitute_method. */
 int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,

@@ -26,9 +26,15 @@ int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
     return grow(&workspace->elements, &workspace->elements_size, count);
 }
 
+int rst_workspace_levels(struct rst_workspace *workspace, size_t count)
+{
+    return grow(&workspace->levels, &workspace->levels_size, count);
+}
+
 void rst_workspace_free(struct rst_workspace *workspace)
 {
     free(workspace->terms);
     free(workspace->elements);
+    free(workspace->levels);
     *workspace = (struct rst_workspace){0};
 }

@@ -13,14 +13,17 @@ struct rst_workspace {
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;
+    double *levels; /* the same, kept while room for elements grows */
+    size_t levels_size;
     sync_loop *loop; /* of the method sync, the widest that this processor has */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 
-/* Room for `count` doubles of element data. Nonzero: out of memory. */
+/* Room for `count` doubles of element data, and of levels. Nonzero: out of memory. */
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count);
+int rst_workspace_levels(struct rst_workspace *workspace, size_t count);
 
 void rst_workspace_free(struct rst_workspace *workspace);
 

@@ -1,0 +1,197 @@
+!> The sum over elements of the method `sync`, int_0^A q dX, from the nodes.
+!>
+!> int q dX = r int f dX - int (r f - q) dX with int f dX known exactly and r = q/f at the edge: the integrand is flat there,
+!> whatever relaxes on the way in, and zero where all slips. So the trapezoidal rule is fourth order but for the
+!> kink where stick begins; hinge() knows its error. What the rule lacks of int f dX is level_type%missing.
+module rst_sync_edge
+  use rst_precision, only: dp, ip
+  use rst_sync_levels, only: level_type, node_type
+  use rst_sync_dense, only: trace_type
+  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, columns, column_x2, column_weight, &
+                               column_alpha
+  implicit none (type, external)
+  private
+  public :: balance_levels, shear_force, find_front, stick_radius
+
+contains
+
+  !> What the trapezoidal rule lacks of the normal force at all levels. Nodes in contact are 0 to j-1 at the levels j and 2n-j, and
+  !> at the latter all have forgotten alike since the former.
+  pure subroutine balance_levels(scene, body, trace, term, level)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    type(level_type), intent(inout) :: level(0:2*scene%n)
+    real(dp) :: weight, x2, faded, left
+    integer(ip) :: j, k, back
+    weight = 0
+    x2 = 0
+    do j = 1, scene%n
+      back = 2*scene%n - j
+      weight = weight + body(j - 1, column_weight)
+      x2 = x2 + body(j - 1, column_weight)*body(j - 1, column_x2)
+      faded = 0
+      left = 0
+      do k = 1, scene%n_terms
+        if (j == 1) term(k)%faded_sum = 0
+        term(k)%faded_sum = trace(k, j)%decay*(term(k)%faded_sum + body(j - 1, column_weight)*trace(k, j - 1)%memory)
+        faded = faded + term(k)%faded_sum
+        left = left + trace(k, back)%fade*term(k)%faded_sum
+      end do
+      level(j)%missing = level(j)%force - (level(j)%fresh*weight - x2 - faded)
+      if (back > j) level(back)%missing = level(back)%force - (level(back)%fresh*weight - x2 - left)
+    end do
+  end subroutine balance_levels
+
+  !> int q dX at the end of a step; before the nodes are moved (trial) without the kink.
+  pure function shear_force(scene, trial, restitution, normal, velocity, trace, step, term, body, beta, faded, sums, state) &
+    result(total)
+    type(scene_type), intent(in) :: scene
+    logical, intent(in) :: trial, restitution
+    type(level_type), intent(in) :: normal
+    real(dp), intent(in) :: velocity, body(0:scene%capacity - 1, columns)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    real(dp), intent(in), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(step_type), intent(in) :: step
+    type(term_type), intent(in) :: term(scene%n_terms)
+    type(sums_type), intent(in) :: sums
+    type(shear_type), intent(in) :: state
+    real(dp) :: total, ratio, slack(0:1), q(0:2)
+    integer(ip) :: k
+    total = 0
+    if (step%last < 0) return
+    if (restitution) then ! an edge that slips
+      ratio = step%q - body(step%last, column_alpha)
+      do k = 1, scene%n_terms
+        ratio = ratio - beta(step%last, k)
+      end do
+      ratio = sign(1.0_dp, ratio)
+    else ! the edge has just been touched and answers with the same modulus both ways
+      ratio = max(-1.0_dp, min(1.0_dp, velocity/max(normal%velocity, tiny(1.0_dp))))
+    end if
+    if (abs(ratio) >= 1 .and. state%front == step%last .and. (restitution .or. scene%no_slip == 0) .and. .not. trial) then
+      q = 0
+      do k = min(2_ip, step%last), 0, -1
+        call node_forces(scene, trace, term, step, body, beta, faded, state, step%last - k, slack(0), q(k))
+      end do
+      total = sums%q + stuck_edge(scene, body, step%last, slack(0), q)
+      return
+    end if
+    total = ratio*normal%missing + sums%q
+    if (scene%no_slip /= 0 .and. .not. restitution) then
+      total = total + body(step%last + 1, column_weight)/2*scene%eta*(velocity - ratio*normal%velocity)
+    else if (abs(ratio) >= 1 .and. state%front >= 1 .and. .not. trial) then
+      do k = 0, 1
+        call node_forces(scene, trace, term, step, body, beta, faded, state, state%front - k, slack(k), q(k))
+      end do
+      total = total + ratio*body(state%front, column_weight)*hinge(slack(0), slack(1))
+    end if
+  end function shear_force
+
+  !> f - |q| and q of a node that sticks, at the end of the step.
+  pure subroutine node_forces(scene, trace, term, step, body, beta, faded, state, i, slack, q)
+    type(scene_type), intent(in) :: scene
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(term_type), intent(in) :: term(scene%n_terms)
+    type(step_type), intent(in) :: step
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns)
+    real(dp), intent(in), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(shear_type), intent(in) :: state
+    integer(ip), intent(in) :: i
+    real(dp), intent(out) :: slack, q
+    real(dp) :: age
+    integer(ip) :: k, j
+    slack = step%f - body(i, column_x2)
+    q = step%q - body(i, column_alpha)
+    do k = 1, scene%n_terms
+      if (i < state%first) then
+        age = term(k)%age
+        do j = state%first - 1, i + 1, -1
+          age = age*trace(k, j)%decay
+        end do
+        slack = slack - age*trace(k, i)%memory
+        q = q - age*beta(i, k)
+      else
+        slack = slack - faded(i, k)
+        q = q - beta(i, k)
+      end if
+    end do
+    slack = max(0.0_dp, slack - abs(q))
+  end subroutine node_forces
+
+  !> Error of the trapezoidal rule, per cell, for int (f - |q|) dX, which falls to zero at the kink between the outermost node
+  !> that sticks and the next one: its slope there times (x(1-x)/2 - 1/12), x where the kink is between them.
+  pure function hinge(slack, slack_inside) result(error)
+    real(dp), intent(in) :: slack, slack_inside
+    real(dp) :: error, slope, x
+    error = 0
+    slope = slack_inside - slack
+    if (slope <= 0) return
+    x = min(1.0_dp, slack/slope)
+    error = slope*(x*(1 - x)/2 - 1.0_dp/12)
+  end function hinge
+
+  !> What the trapezoidal rule lacks when all nodes stick: the last cell, where q goes on to the edge, by Gregory's rule, less
+  !> the triangle next to the edge where q would be above f and slips. q: of the three outermost nodes.
+  pure function stuck_edge(scene, body, last, slack, q) result(missing)
+    type(scene_type), intent(in) :: scene
+    integer(ip), intent(in) :: last
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns), slack, q(0:2)
+    real(dp) :: missing, edge, y(0:2), reach
+    if (last < 3) then ! the contact is all but over: to its end with the force of the outermost node
+      missing = q(0)*body(last, column_weight)/2
+      return
+    end if
+    edge = 3*q(0) - 3*q(1) + q(2)
+    y(0) = edge*body(last + 1, column_weight)
+    y(1) = q(0)*body(last, column_weight)
+    y(2) = q(1)*body(last - 1, column_weight)
+    missing = y(0)/2 - (y(0) - y(1))/12 - (y(0) - 2*y(1) + y(2))/24
+    if (scene%no_slip /= 0) return
+    reach = abs(edge)/max(slack + abs(edge), tiny(1.0_dp)) ! of the triangle, in cells
+    missing = missing - edge*reach/2*(body(last, column_weight) + body(last + 1, column_weight))/2
+  end function stuck_edge
+
+  !> The outermost node that sticks, from where it was; -1: none.
+  pure subroutine find_front(scene, kappa, last, state)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: kappa(0:scene%capacity - 1)
+    integer(ip), intent(in) :: last
+    type(shear_type), intent(inout) :: state
+    state%front = max(0_ip, min(state%front, last))
+    do while (state%front < last)
+      if (state%front + 1 >= state%first .and. abs(kappa(state%front + 1)) > 0) exit
+      state%front = state%front + 1
+    end do
+    do while (state%front >= state%first)
+      if (.not. abs(kappa(state%front)) > 0) exit
+      state%front = state%front - 1
+    end do
+  end subroutine find_front
+
+  !> Where stick ends, between nodes.
+  pure function stick_radius(scene, edge, node, trace, term, step, body, beta, faded, state) result(stick)
+    type(scene_type), intent(in) :: scene
+    integer(ip), intent(in) :: edge
+    type(node_type), intent(in) :: node(0:scene%n)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(term_type), intent(in) :: term(scene%n_terms)
+    type(step_type), intent(in) :: step
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns)
+    real(dp), intent(in), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
+    type(shear_type), intent(in) :: state
+    real(dp) :: stick, slack(0:1), q
+    integer(ip) :: k
+    stick = node(edge)%radius
+    if (scene%no_slip /= 0 .or. edge == 0) return
+    stick = 0
+    if (state%front < 0) return
+    stick = node(state%front)%radius
+    if (state%front < 1) return
+    do k = 0, 1
+      call node_forces(scene, trace, term, step, body, beta, faded, state, state%front - k, slack(k), q)
+    end do
+    stick = stick + min(1.0_dp, slack(0)/max(slack(1) - slack(0), tiny(1.0_dp)))*(node(state%front + 1)%radius - stick)
+  end function stick_radius
+end module rst_sync_edge

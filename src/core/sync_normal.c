@@ -1,0 +1,144 @@
+/* The normal problem of the method `sync`, refined until its error estimate meets what is wanted.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "kernels.h"
+#include "status.h"
+#include "sync_run.h"
+
+/* Solutions at n and n/2 levels are compared. The method is of fourth order: the change is 15 times the error of the finer one,
+ * which is taken off. */
+static const double part_taken = 1.0 / 15;
+
+/* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that may be small
+ * by chance, a part of n^-4. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
+ * small (docs/accuracy.md). */
+static const double share_of_difference = 0.5, usual_error = 0.6, share_of_change = 0.6, usual_error_of_two = 5;
+
+/* The levels have what extrapolation takes off; it is to be this part of the error that is wanted. */
+static const double left_in_levels = 0.1;
+
+/* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
+static const double closeness = 0.002, rounding = 1e-12;
+
+/* The levels of the tangential problem are denser, and n of them move the edge by n^-2 at the turning point: what is left
+ * unfinished is to be less than this part of it. */
+static const double unevenness = 1e-3;
+
+/* asinh of the impact speed over that of the creep at the turning point (sync_grid.turn): 1e8. */
+static const double strongest_damping = 19.1;
+
+double rst_sync_closeness(const struct rst_problem *problem)
+{
+    const double n = rst_sync_levels_to_start(problem);
+    return problem->elements > 0 ? rounding : fmax(rounding, fmin(closeness * problem->tolerance, unevenness / (n * n)));
+}
+
+static size_t doubles(size_t size, size_t count)
+{
+    return count * (size / sizeof(double));
+}
+
+size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
+{
+    const size_t n = (size_t)levels, m = (size_t)n_terms;
+    return doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
+}
+
+/* One run, in workspace->levels, which has room. Nonzero if iterations do not settle. */
+static int run(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t levels,
+               struct normal *normal)
+{
+    const struct rst_solid *s = &problem->solid;
+    const size_t n = (size_t)levels, m = (size_t)s->n_terms;
+    struct sync_level *level = (struct sync_level *)workspace->levels;
+    struct sync_node *node = (struct sync_node *)(level + 2 * n + 1);
+    double *memory = (double *)(node + n + 1), *loading = memory + m * (2 * n + 1);
+    int64_t failed;
+    rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels, rst_sync_closeness(problem),
+                      level, memory, loading, node, &failed);
+    normal->level = level;
+    normal->levels = levels;
+    normal->updates += 2 * levels;
+    return failed || !isfinite(level[2 * n].velocity);
+}
+
+static int choose_grid(const struct rst_problem *problem, struct normal *normal, restitute_error *error)
+{
+    const struct rst_solid *s = &problem->solid;
+    *normal = (struct normal){0};
+    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &normal->grid);
+    if (normal->grid.turn > strongest_damping)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "rebound slower than 1e-8 of the impact: lost in rounding; the damping is too strong for this "
+                          "method, take euler");
+    return RESTITUTE_OK;
+}
+
+static int make_room(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
+                     restitute_error *error)
+{
+    if (rst_workspace_levels(workspace, rst_sync_normal_room(levels, problem->solid.n_terms)))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
+    return RESTITUTE_OK;
+}
+
+int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
+                          struct normal *normal, restitute_error *error)
+{
+    int status = choose_grid(problem, normal, error);
+    if (!status) status = make_room(problem, workspace, levels, error);
+    if (!status && run(problem, workspace, levels, normal)) normal->levels = 0;
+    return status;
+}
+
+/* The runs on end so far. */
+struct series {
+    int count;
+    int64_t levels; /* of the last, if count > 0 */
+    double time, velocity, extrapolated; /* the latter if count > 1 */
+};
+
+/* One more run: from the second on there is a result. */
+static void compare(const struct rst_problem *problem, double wanted, struct series *series, struct normal *normal)
+{
+    const struct sync_level *end = &normal->level[2 * normal->levels];
+    const double change = end->velocity - series->velocity, n = (double)normal->levels;
+    const double extrapolated = fmax(-1, end->velocity + part_taken * change);
+    if (series->count > 0) {
+        normal->velocity = extrapolated;
+        normal->contact_time = end->time + part_taken * (end->time - series->time);
+        normal->depth = normal->level[normal->levels].depth;
+        normal->error = series->count > 1 ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4)
+                                          : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
+        normal->error += 1.5 * rst_sync_closeness(problem);
+        normal->taken_off = part_taken * fabs(change);
+        normal->reached = normal->error <= wanted && normal->taken_off <= left_in_levels * wanted;
+    }
+    *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
+}
+
+int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
+                    double wanted, struct normal *normal, restitute_error *error)
+{
+    int64_t found = 0;
+    struct series series = {0};
+    int status = choose_grid(problem, normal, error);
+    if (status) return status;
+    for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
+        normal->ahead = normal->updates + 2 * n;
+        if (normal->ahead > problem->max_updates) break;
+        status = make_room(problem, workspace, n, error);
+        if (status) return status;
+        if (run(problem, workspace, n, normal)) {
+            series.count = 0;
+            continue;
+        }
+        compare(problem, wanted, &series, normal);
+        if (series.count > 1) found = n;
+        if (series.count > 2 && normal->reached) return RESTITUTE_OK;
+    }
+    if (found > 0 && normal->levels != found) run(problem, workspace, found, normal); /* the last one has spoilt the levels */
+    normal->levels = found;
+    return RESTITUTE_OK;
+}
