@@ -279,8 +279,8 @@ typedef struct restitute_table_data {
 
     double low[2], high[2];          /**< ends of the axes of speed (or delta1) and gamma; both alike: one node */
     int64_t parts[2];                /**< cells an octave; 0: one node */
-    int64_t n_chi;                   /**< nodes of chi: one polynomial through all */
-    const double *chi;               /**< n_chi values, rising */
+    double chi_low, chi_high;        /**< ends of chi */
+    int64_t chi_cells;               /**< even cells of chi, with a cubic each; 0: one node */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
     int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
     const double *ez;                /**< [speed][gamma] */

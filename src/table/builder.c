@@ -374,7 +374,8 @@ static int after_probing(struct restitute_table_builder *b, restitute_error *err
             rst_panels_one(b->n[axis], &b->panels[axis]);
         return begin_filling(b, error);
     }
-    if (rst_plan_probes(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (remember(b) || rst_plan_probes(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    recall(b); /* the points of a line are among those of one with twice as many */
     return RESTITUTE_OK;
 }
 

@@ -59,8 +59,9 @@ int restitute_table_to_data(const restitute_table *table, restitute_table_data *
                                    .terms = table->terms,
                                    .relaxation_time = table->term,
                                    .modulus = table->term + table->terms,
-                                   .n_chi = table->n_chi,
-                                   .chi = table->chi,
+                                   .chi_low = table->chi_low,
+                                   .chi_high = table->chi_high,
+                                   .chi_cells = table->chi_cells,
                                    .stick_cells = table->stick_cells,
                                    .slip_cells = table->slip_cells,
                                    .nodes = {table->n_speed, table->n_gamma, table->n_chi, table->n_psi},
@@ -80,7 +81,7 @@ int restitute_table_nodes(const restitute_table *table, int axis, double *places
     for (int64_t i = 0; axis < 2 && i < (axis ? table->n_gamma : table->n_speed); i++)
         places[i] = rst_octaves_node(axis ? &table->gamma : &table->speed, i);
     for (int64_t i = 0; axis == 2 && i < table->n_chi; i++)
-        places[i] = table->chi[i];
+        places[i] = rst_chi_node(table, i);
     for (int64_t i = 0; axis == 3 && i < table->n_psi; i++) {
         const double root = i >= table->start[2]   ? rst_slip_node(table->slip_cells, i - table->start[2])
                             : i >= table->start[1] ? rst_slip_node(table->slip_cells, i - table->start[1])
@@ -138,26 +139,25 @@ static int check_values(const double *value, size_t n, double low, double high, 
 static int set_form(const restitute_table_data *d, restitute_table *form, restitute_error *error)
 {
     memset(form, 0, sizeof *form);
-    if (d->n_chi < 1 || d->n_chi > rst_most_chi || !d->chi) return refuse(error, "chi");
+    if (d->chi_cells < 0 || d->chi_cells > most_cells_of_psi || !(d->chi_low >= 1e-3 && d->chi_high <= 1e6) ||
+        (d->chi_cells > 0 ? !(d->chi_low < d->chi_high) : !(d->chi_low <= d->chi_high)))
+        return refuse(error, "chi");
     if (d->terms < 0 || d->terms > most_terms) return refuse(error, "terms");
     if (d->stick_cells < 0 || d->stick_cells > most_cells_of_psi || d->slip_cells < 0 ||
         d->slip_cells > most_cells_of_psi || (d->stick_cells == 0 && d->slip_cells > 0))
         return refuse(error, "cells of psi");
     int status = set_axis(d, 0, "axis of speed or delta1", &form->speed, error);
     if (!status) status = set_axis(d, 1, "axis of gamma", &form->gamma, error);
-    if (!status) status = check_values(d->chi, (size_t)d->n_chi, 1e-3, 1e6, "chi", error);
-    for (int64_t i = 1; !status && i < d->n_chi; i++)
-        if (!(d->chi[i] > d->chi[i - 1])) status = refuse(error, "chi");
     if (status) return status;
-    form->n_chi = d->n_chi;
-    memcpy(form->chi, d->chi, (size_t)d->n_chi * sizeof *d->chi);
-    rst_table_chi_weights(form);
+    form->chi_low = d->chi_low;
+    form->chi_high = d->chi_high;
+    form->chi_cells = d->chi_cells;
     form->stick_cells = d->stick_cells;
     form->slip_cells = d->slip_cells;
     form->terms = d->terms;
     rst_table_count(form);
     /* without a slip side psi_c must be 1 for all chi */
-    if (form->stick_cells > 0 && form->slip_cells == 0 && 2 * form->chi[form->n_chi - 1] > 1)
+    if (form->stick_cells > 0 && form->slip_cells == 0 && 2 * form->chi_high > 1)
         return refuse(error, "cells of psi");
     if ((double)form->n_speed * (double)form->n_gamma * (double)form->n_psi * (double)form->n_chi > most_values)
         return refuse(error, "number of nodes");

@@ -210,18 +210,20 @@ static int choose_octaves(const struct restitute_table_builder *b, const struct 
     return 0;
 }
 
-static int choose_stick(const struct restitute_table_builder *b, const struct coarse *c, int64_t *cells)
+/* Even cells of psi in [0, 1], or of chi. */
+static int choose_even(const struct restitute_table_builder *b, const struct coarse *c, enum rst_axis axis,
+                       int64_t *cells)
 {
     double place[most_cells * rst_cubic + 1], middle[most_cells * rst_cubic];
     *cells = 0;
-    if (!b->active[RST_STICK]) return 0;
+    if (!b->active[axis]) return 0;
     for (*cells = 1; *cells < most_cells; *cells += 1) {
         const int64_t n = *cells * rst_cubic;
         for (int64_t i = 0; i <= n; i++) {
             place[i] = (double)i / (double)n;
             if (i < n) middle[i] = ((double)i + 0.5) / (double)n;
         }
-        const double error = cell_error(b, c, RST_STICK, n + 1, place, middle);
+        const double error = cell_error(b, c, axis, n + 1, place, middle);
         if (error < 0) return 1;
         if (error <= part_for_cells * b->options.tolerance) return 0;
     }
@@ -262,16 +264,6 @@ static int choose_slip(const struct restitute_table_builder *b, const struct coa
 
 /* ---- the table */
 
-static void set_chi(const struct restitute_table_builder *b, restitute_table *form)
-{
-    double u[rst_most_chi];
-    form->n_chi = b->n[RST_CHI];
-    rst_table_nodes(form->n_chi, u);
-    for (int64_t i = 0; i < form->n_chi; i++)
-        form->chi[i] = rst_builder_number(b, RST_CHI, form->n_chi > 1 ? u[i] : 0.5);
-    rst_table_chi_weights(form);
-}
-
 /* Rows from Chebyshev points to nodes; NULL: out of memory. */
 static double *octave_rows(const struct restitute_table_builder *b, enum rst_axis axis, const struct rst_octaves *o,
                            int64_t nodes)
@@ -307,21 +299,33 @@ static double *psi_rows(const struct restitute_table_builder *b, const restitute
     return row;
 }
 
-/* ex at the nodes of psi and chi, still at the points of speed and gamma: [speed][gamma][psi][chi]. */
+/* Rows from points to nodes of chi. */
+static double *chi_rows(const struct restitute_table_builder *b, const restitute_table *t)
+{
+    double *row = malloc((size_t)(t->n_chi * (b->n[RST_CHI] + 1)) * sizeof *row);
+    if (!row) return NULL;
+    double *place = row + t->n_chi * b->n[RST_CHI];
+    for (int64_t i = 0; i < t->n_chi; i++)
+        place[i] = t->n_chi > 1 ? (double)i / (double)(t->n_chi - 1) : 0;
+    rst_panels_rows(&b->panels[RST_CHI], t->n_chi, place, row);
+    return row;
+}
+
+/* ex at the nodes of psi, still at the points of speed, gamma and chi: [speed][gamma][psi][chi]. */
 static double *over_psi(const struct coarse *c, const restitute_table *t, const double *row)
 {
     const int64_t n = c->n_stick + c->n_slip, columns = c->n_speed * c->n_gamma;
-    double *ex = malloc((size_t)(columns * t->n_psi * t->n_chi) * sizeof *ex);
+    double *ex = malloc((size_t)(columns * t->n_psi * c->n_chi) * sizeof *ex);
     if (!ex) return NULL;
     for (int64_t i = 0; i < columns; i++)
         for (int64_t j = 0; j < t->n_psi; j++)
-            for (int64_t k = 0; k < t->n_chi; k++) {
+            for (int64_t k = 0; k < c->n_chi; k++) {
                 const double *stick = c->stick + (i * c->n_chi + k) * c->n_stick;
                 const double *slip = c->slip + (i * c->n_chi + k) * c->n_slip;
                 double sum = 0;
                 for (int64_t l = 0; l < n; l++)
                     sum += row[j * n + l] * (l < c->n_stick ? stick[l] : slip[l - c->n_stick]);
-                ex[(i * t->n_psi + j) * t->n_chi + k] = sum;
+                ex[(i * t->n_psi + j) * c->n_chi + k] = sum;
             }
     return ex;
 }
@@ -331,12 +335,14 @@ static int fill(const struct restitute_table_builder *b, const struct coarse *c,
     const int64_t inner = t->n_psi * t->n_chi;
     double *by_psi = psi_rows(b, t), *by_gamma = octave_rows(b, RST_GAMMA, &t->gamma, t->n_gamma);
     double *by_speed = octave_rows(b, RST_SPEED, &t->speed, t->n_speed);
-    double *ex = by_psi ? over_psi(c, t, by_psi) : NULL;
+    double *ex = by_psi ? over_psi(c, t, by_psi) : NULL, *by_chi = chi_rows(b, t);
+    double *over_chi = malloc((size_t)(c->n_speed * c->n_gamma * inner) * sizeof *over_chi);
     double *wide = malloc((size_t)(c->n_speed * t->n_gamma * inner) * sizeof *wide);
     double *wide_ez = malloc((size_t)(c->n_speed * t->n_gamma) * sizeof *wide_ez);
-    const int failed = !by_gamma || !by_speed || !ex || !wide || !wide_ez;
+    const int failed = !by_gamma || !by_speed || !ex || !by_chi || !over_chi || !wide || !wide_ez;
     if (!failed) {
-        rst_table_along(inner, c->n_gamma, t->n_gamma, c->n_speed, by_gamma, ex, wide);
+        rst_table_along(1, c->n_chi, t->n_chi, c->n_speed * c->n_gamma * t->n_psi, by_chi, ex, over_chi);
+        rst_table_along(inner, c->n_gamma, t->n_gamma, c->n_speed, by_gamma, over_chi, wide);
         rst_table_along(t->n_gamma * inner, c->n_speed, t->n_speed, 1, by_speed, wide, t->ex);
         rst_table_along(1, c->n_gamma, t->n_gamma, c->n_speed, by_gamma, c->ez, wide_ez);
         rst_table_along(t->n_gamma, c->n_speed, t->n_speed, 1, by_speed, wide_ez, t->ez);
@@ -344,6 +350,8 @@ static int fill(const struct restitute_table_builder *b, const struct coarse *c,
     free(by_psi);
     free(by_gamma);
     free(by_speed);
+    free(by_chi);
+    free(over_chi);
     free(ex);
     free(wide);
     free(wide_ez);
@@ -355,9 +363,10 @@ static int make(struct restitute_table_builder *b, struct coarse *c, restitute_t
     restitute_table form;
     if (measure_tails(b, c)) return 1;
     rst_family_describe(&b->family, &form);
-    set_chi(b, &form);
+    form.chi_low = rst_builder_number(b, RST_CHI, b->active[RST_CHI] ? 0 : 0.5);
+    form.chi_high = rst_builder_number(b, RST_CHI, b->active[RST_CHI] ? 1 : 0.5);
     if (choose_octaves(b, c, RST_SPEED, &form.speed) || choose_octaves(b, c, RST_GAMMA, &form.gamma) ||
-        choose_stick(b, c, &form.stick_cells) || choose_slip(b, c, &form.slip_cells))
+        choose_even(b, c, RST_CHI, &form.chi_cells) || choose_even(b, c, RST_STICK, &form.stick_cells) || choose_slip(b, c, &form.slip_cells))
         return 1;
     rst_table_count(&form);
     *table = rst_table_allocate(&form);

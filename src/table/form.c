@@ -54,6 +54,7 @@ void rst_table_count(restitute_table *form)
 {
     form->n_speed = form->speed.cells * rst_cubic + 1;
     form->n_gamma = form->gamma.cells * rst_cubic + 1;
+    form->n_chi = form->chi_cells * rst_cubic + 1;
     form->start[0] = 0;
     form->start[1] = form->stick_cells * rst_cubic + 1;
     const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
@@ -64,14 +65,11 @@ void rst_table_count(restitute_table *form)
     form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / largest_r(), 0);
 }
 
-void rst_table_chi_weights(restitute_table *form)
+double rst_chi_node(const restitute_table *form, int64_t i)
 {
-    for (int64_t j = 0; j < form->n_chi; j++) {
-        double product = 1;
-        for (int64_t i = 0; i < form->n_chi; i++)
-            if (i != j) product *= form->chi[j] - form->chi[i];
-        form->chi_weight[j] = 1 / product;
-    }
+    const int64_t last = form->chi_cells * rst_cubic;
+    if (i == last) return form->chi_high;
+    return form->chi_low + (form->chi_high - form->chi_low) * ((double)i / (double)last);
 }
 
 restitute_table *rst_table_allocate(const restitute_table *form)

@@ -37,34 +37,19 @@ static inline double clamp(double value, double low, double high)
     return value > high ? high : value;
 }
 
-/* sum over speed and gamma of values `stride` apart */
-static inline double plane_sum(const restitute_table *t, const struct place *p, const double *value, int64_t stride)
-{
-    double sum = 0;
-    for (int i = 0; i < p->n_speed; i++)
-        for (int j = 0; j < p->n_gamma; j++)
-            sum += p->speed[i] * p->gamma[j] * value[(i * t->n_gamma + j) * stride];
-    return sum;
-}
-
 static inline double rebound(const restitute_table *t, const struct place *p)
 {
-    return clamp(plane_sum(t, p, t->ez + p->corner, 1), 0, 1);
-}
-
-static void chi_weights(const restitute_table *t, double chi, double *w)
-{
-    const int64_t n = t->n_chi;
-    chi = clamp(chi, t->chi[0], t->chi[n - 1]);
-    double left = 1, right = 1;
-    for (int64_t j = 0; j < n; j++) {
-        w[j] = left * t->chi_weight[j];
-        left *= chi - t->chi[j];
+    const double *v = t->ez + p->corner, *g = p->gamma;
+    double sum = 0;
+    if (p->n_speed == 4 && p->n_gamma == 4) {
+        for (int i = 0; i < 4; i++, v += t->n_gamma)
+            sum += p->speed[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
+        return clamp(sum, 0, 1);
     }
-    for (int64_t j = n - 1; j >= 0; j--) {
-        w[j] *= right;
-        right *= chi - t->chi[j];
-    }
+    for (int i = 0; i < p->n_speed; i++)
+        for (int j = 0; j < p->n_gamma; j++)
+            sum += p->speed[i] * g[j] * v[i * t->n_gamma + j];
+    return clamp(sum, 0, 1);
 }
 
 /* Two axes: four rows of four values. */
@@ -79,59 +64,73 @@ static inline double sum_two_axes(const restitute_table *t, const double w[4], i
     return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
 }
 
-static double sum_all_axes(const restitute_table *t, const struct place *p, int64_t node, int n_psi,
-                           const double *psi_weight, const double *chi_weight)
+/* All four axes: first over speed and gamma, whose sums go side by side. */
+static double sum_four_axes(const restitute_table *t, const struct place *p, const double *v, const double w[4],
+                            const double x[4])
 {
-    const int64_t n_chi = t->n_chi, stride = t->n_psi * n_chi;
-    const double *v = t->ex + p->corner * stride + node * n_chi;
+    const int64_t n_chi = t->n_chi, row = t->n_psi * n_chi, stride = t->n_gamma * row;
+    double sum[16] = {0};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            const double weight = p->speed[i] * p->gamma[j], *block = v + i * stride + j * row;
+            for (int k = 0; k < 4; k++)
+                for (int l = 0; l < 4; l++)
+                    sum[4 * k + l] += weight * block[k * n_chi + l];
+        }
+    double total = 0;
+    for (int k = 0; k < 4; k++)
+        total += w[k] * ((x[0] * sum[4 * k] + x[1] * sum[4 * k + 1]) + (x[2] * sum[4 * k + 2] + x[3] * sum[4 * k + 3]));
+    return total;
+}
+
+/* Some of them. */
+static double sum_some_axes(const restitute_table *t, const struct place *p, const double *v, const double *w, int n,
+                            const double *x, int m)
+{
+    const int64_t n_chi = t->n_chi, row = t->n_psi * n_chi;
     double sum = 0;
     for (int i = 0; i < p->n_speed; i++)
-        for (int j = 0; j < p->n_gamma; j++) {
-            const double *row = v + (i * t->n_gamma + j) * stride;
-            double inner = 0;
-            for (int k = 0; k < n_psi; k++) {
-                double chi_sum = 0;
-                for (int64_t l = 0; l < n_chi; l++)
-                    chi_sum += chi_weight[l] * row[k * n_chi + l];
-                inner += psi_weight[k] * chi_sum;
-            }
-            sum += p->speed[i] * p->gamma[j] * inner;
-        }
+        for (int j = 0; j < p->n_gamma; j++)
+            for (int k = 0; k < n; k++)
+                for (int l = 0; l < m; l++)
+                    sum += p->speed[i] * p->gamma[j] * w[k] * x[l] * v[(i * t->n_gamma + j) * row + k * n_chi + l];
     return sum;
 }
 
 static double sum_general(const restitute_table *t, const struct place *p, double chi, int64_t node, double s)
 {
-    double psi_weight[4] = {1}, chi_weight[rst_most_chi] = {1};
-    if (t->n_psi > 1) rst_cubic_weights(s, psi_weight);
-    if (t->n_chi > 1) chi_weights(t, chi, chi_weight);
-    return sum_all_axes(t, p, node, t->n_psi > 1 ? 4 : 1, psi_weight, chi_weight);
+    double w[4] = {1}, x[4] = {1}, chi_s;
+    const double *v = t->ex + (p->corner * t->n_psi + node) * t->n_chi;
+    const int n = t->n_psi > 1 ? 4 : 1, m = t->n_chi > 1 ? 4 : 1;
+    if (n > 1) rst_cubic_weights(s, w);
+    if (m > 1) {
+        v += rst_chi_find(t, chi, &chi_s);
+        rst_cubic_weights(chi_s, x);
+    }
+    if (n == 4 && m == 4 && p->n_speed == 4 && p->n_gamma == 4) return sum_four_axes(t, p, v, w, x);
+    return sum_some_axes(t, p, v, w, n, x, m);
 }
 
 static inline double chi_in_table(const restitute_table *t, double chi)
 {
-    return clamp(chi, t->chi[0], t->chi[t->n_chi - 1]);
-}
-
-/* What there is of ex in closed form: that of full slip for psi > 1 (27). */
-static inline double closed_part(double sliding, double v_n, double full)
-{
-    const double larger = sliding > v_n ? sliding : v_n;
-    return (sliding > v_n) * (full * (v_n / (larger > rst_least ? larger : rst_least)) - 1);
+    return clamp(chi, t->chi_low, t->chi_high);
 }
 
 /* ex below psi_c, by all axes. */
 static double tangential(const restitute_table *t, const struct place *p, double chi, double sliding, double v_n,
                          double full, double width)
 {
-    double s;
+    double s, quotient;
     if (t->stick_cells == 0) return sum_general(t, p, chi, 0, 0);
-    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s);
-    return sum_general(t, p, chi, node, s) + closed_part(sliding, v_n, full);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient);
+    return sum_general(t, p, chi, node, s) + (sliding > v_n) * (full * quotient - 1);
 }
 
-/* psi = sliding/v_n; v_n may be 0 and sliding infinite. */
-static inline void evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding,
+/* psi = sliding/v_n; v_n may be 0 and sliding infinite. Apart from the case of two axes, which needs fewer registers to be saved. */
+#if defined(__GNUC__)
+__attribute__((__noinline__))
+#endif
+static void evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding,
                                     double v_n, restitute_table_value *pair)
 {
     struct place p;
@@ -147,19 +146,20 @@ static inline void evaluate_general(const restitute_table *t, double speed, doub
 static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
                                      restitute_table_value *pair)
 {
-    double w[4], s;
+    double w[4], s, quotient;
     int64_t cell;
     rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
     const double *v = t->ez + cell * rst_cubic;
     const double ez = clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
-    const double full = t->chi[0] * 2 * (1 + ez), critical = 2 * t->chi[0] > 1 ? full - ez : 1;
+    const double full = t->chi_low * 2 * (1 + ez), critical = 2 * t->chi_low > 1 ? full - ez : 1;
     pair->ez = ez;
     if (sliding > critical * v_n) {
         pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
         return;
     }
-    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s);
-    pair->ex = clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed_part(sliding, v_n, full), -1, 1);
+    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient);
+    const double closed = (sliding > v_n) * (full * quotient - 1); /* (27), from psi = 1 on */
+    pair->ex = clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed, -1, 1);
 }
 
 static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double sliding,

@@ -62,17 +62,17 @@ struct slip_place {
 };
 
 static double sum_ex(const restitute_table *t, const double *by_speed, int n_speed, int64_t row,
-                     const struct directions *gamma, const double *chi, const struct slip_place *psi,
+                     const struct directions *gamma, const double *chi, int64_t chi_node, const struct slip_place *psi,
                      const double *by_psi)
 {
     double sum = 0;
     for (int i = 0; i < n_speed; i++)
         for (int j = 0; j < gamma->n; j++)
             for (int k = 0; k < psi->n; k++)
-                for (int64_t l = 0; l < t->n_chi; l++) {
+                for (int64_t l = 0; l < (t->n_chi > 1 ? 4 : 1); l++) {
                     const int64_t corner = (row + i) * t->n_gamma + gamma->node + j;
                     sum += by_speed[i] * gamma->w[j] * by_psi[k] * chi[l] *
-                           t->ex[(corner * t->n_psi + psi->node + k) * t->n_chi + l];
+                           t->ex[(corner * t->n_psi + psi->node + k) * t->n_chi + chi_node + l];
                 }
     return sum;
 }
@@ -84,24 +84,20 @@ static double slip_stretch(const restitute_table *t, double y)
     return (y > 0.5 ? -1 : 1) * rst_cubic * t->psi_cells[1] / (2 * sqrt(u));
 }
 
-static void chi_row(const restitute_table *t, double chi, double *w)
-{
-    for (int64_t j = 0; j < t->n_chi; j++) {
-        w[j] = t->chi_weight[j];
-        for (int64_t i = 0; i < t->n_chi; i++)
-            if (i != j) w[j] *= chi - t->chi[i];
-    }
-}
-
 void rst_table_slope(const restitute_table *t, double speed, double gamma_in, double chi, double psi,
                      struct rst_slope *slope)
 {
     const struct directions x = find_direction(&t->speed, speed), gamma = find_direction(&t->gamma, gamma_in);
     const double ez = sum_ez(t, x.w, x.n, x.node, &gamma);
-    double chi_w[rst_most_chi] = {1}, s;
+    double chi_w[4] = {1}, s;
+    double quotient;
+    int64_t chi_node = 0;
     *slope = (struct rst_slope){.ez_speed = ez > 0 && ez < 1 ? sum_ez(t, x.dw, x.n, x.node, &gamma) : 0};
-    chi = fmin(fmax(chi, t->chi[0]), t->chi[t->n_chi - 1]);
-    if (t->n_chi > 1) chi_row(t, chi, chi_w);
+    chi = fmin(fmax(chi, t->chi_low), t->chi_high);
+    if (t->n_chi > 1) {
+        chi_node = rst_chi_find(t, chi, &s);
+        rst_cubic_weights(s, chi_w);
+    }
     const double full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     const double full_speed = 2 * chi * slope->ez_speed / psi, full_psi = -full / (psi * psi);
     if (psi >= critical) {
@@ -113,13 +109,13 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma_in, do
     double stretch = 0, y = 0;
     if (t->stick_cells > 0) {
         y = (psi - 1) / (critical - 1);
-        p.node = rst_psi_find(t, psi, 1, critical - 1, &s);
+        p.node = rst_psi_find(t, psi, 1, critical - 1, &s, &quotient);
         p.n = 4;
         cubic_slopes(s, p.w, p.dw);
         stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);
     }
-    slope->ex_speed = sum_ex(t, x.dw, x.n, x.node, &gamma, chi_w, &p, p.w);
-    slope->ex_psi = sum_ex(t, x.w, x.n, x.node, &gamma, chi_w, &p, p.dw) * stretch;
+    slope->ex_speed = sum_ex(t, x.dw, x.n, x.node, &gamma, chi_w, chi_node, &p, p.w);
+    slope->ex_psi = sum_ex(t, x.w, x.n, x.node, &gamma, chi_w, chi_node, &p, p.dw) * stretch;
     if (t->stick_cells == 0 || psi <= 1) return;
     /* y moves with psi_c, which moves with ez */
     slope->ex_speed += full_speed - slope->ex_psi * y * (2 * chi - 1) * slope->ez_speed;
@@ -140,7 +136,7 @@ static void by_speeds(const restitute_table *t, const restitute_table_contact *c
     if (psi > DBL_MAX) {
         restitute_table_value pair;
         rst_table_evaluate(t, speed, c->gamma, c->chi, psi, &pair);
-        const double chi = fmin(fmax(c->chi, t->chi[0]), t->chi[t->n_chi - 1]);
+        const double chi = fmin(fmax(c->chi, t->chi_low), t->chi_high);
         slope->ex_normal = sliding > 0 ? 2 * chi * (1 + pair.ez) / sliding : 0;
         return;
     }

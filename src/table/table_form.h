@@ -2,9 +2,9 @@
  *
  * Values are kept at nodes. Along the speed (or delta1) and along gamma an octave of the number is divided into 2^k equal cells,
  * each with a cubic through four nodes that are evenly spaced. So cell and place in the cell are the leading and the other bits of
- * the number itself, and no logarithm is taken. Along chi there is one polynomial. Along psi: even cells from 0 to 1, then for
+ * the number itself, and no logarithm is taken. Along psi: even cells from 0 to 1, then for
  * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
- * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well. Cells share the nodes at their seams.
+ * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
  *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -49,7 +49,8 @@ struct restitute_table {
 
     struct rst_octaves speed, gamma;
     int64_t n_chi;
-    double chi[rst_most_chi], chi_weight[rst_most_chi]; /* nodes, barycentric weights */
+    double chi_low, chi_high;
+    int64_t chi_cells; /* 0: one node, no axis */
     int64_t stick_cells; /* 0: one node, psi = 0 or no friction */
     int64_t slip_cells;  /* in each half of the slip side; 0: none */
     int64_t n_speed, n_gamma, n_psi;
@@ -75,8 +76,8 @@ double rst_octaves_node(const struct rst_octaves *axis, int64_t i);
 double rst_slip_node(int64_t cells, int64_t i);
 double rst_slip_y(double r);
 
-/* Barycentric weights 1/prod(chi_j - chi_i) of the nodes in `form`. */
-void rst_table_chi_weights(restitute_table *form);
+/* Node of chi; 0 <= i < n_chi. */
+double rst_chi_node(const restitute_table *form, int64_t i);
 
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
@@ -113,6 +114,16 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
+/* First node of the cell of chi, which is in the table's range, and place s in [0, 3] in it. */
+static inline int64_t rst_chi_find(const restitute_table *t, double chi, double *s)
+{
+    const double u = (chi - t->chi_low) / (t->chi_high - t->chi_low) * (double)t->chi_cells;
+    int64_t cell = (int64_t)u;
+    cell = cell < t->chi_cells ? cell : t->chi_cells - 1;
+    *s = (u - (double)cell) * rst_cubic;
+    return cell * rst_cubic;
+}
+
 /* c in r(y) */
 static const double rst_soft = 1.0 / 64;
 
@@ -120,17 +131,19 @@ static const double rst_soft = 1.0 / 64;
 static const double rst_least = 0x1p-1000;
 
 /* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width. Both sides go the same way
- * without a branch, since which one it is cannot be foreseen. */
-static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s)
+ * without a branch, since which one it is cannot be foreseen. `quotient`: psi, or 1/psi for psi > 1. */
+static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
+                                   double *quotient)
 {
     const int slips = sliding > v_n;
     const double beyond = sliding - v_n, most = width * v_n;
     const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
-    const double psi = sliding / (v_n > rst_least ? v_n : rst_least);
+    const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
+    *quotient = smaller / (larger > rst_least ? larger : rst_least);
     /* below the number of cells even at their end */
-    const double u = root * (slips * t->psi_cells[1]) + psi * ((1 - slips) * t->psi_cells[0]);
+    const double u = root * (slips * t->psi_cells[1]) + *quotient * ((1 - slips) * t->psi_cells[0]);
     const int64_t cell = (int64_t)u;
     *s = (u - (double)cell) * rst_cubic;
     return t->start[slips + (slips & (other < y))] + cell * rst_cubic;

@@ -11,8 +11,8 @@ static const char title[] = "table";
 /* Members that are attributes of the root. */
 #define NUMBERS(X)                                                                                                     \
     X(tolerance) X(error_ez) X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction)   \
-    X(radius) X(mass) X(modulus_factor) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
-#define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(n_chi) X(stick_cells) X(slip_cells)
+    X(radius) X(mass) X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+#define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells)
 
 static const char units_of_attributes[] =
     "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; equilibrium_modulus Pa; parallel_viscosity Pa s; "
@@ -122,25 +122,25 @@ static int get_attributes(hid_t f, restitute_table_data *d)
 
 /* All datasets in one block; their sizes are those that the file says. */
 struct arrays {
-    int64_t count[5];
-    double *start[5];
+    int64_t count[4];
+    double *start[4];
 };
 
-static const char *const set_names[5] = {"chi", "ez", "ex", "relaxation_time", "modulus"};
+static const char *const set_names[4] = {"ez", "ex", "relaxation_time", "modulus"};
 
 static int get_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
 {
     int64_t total = 0;
-    for (int i = 0; i < 5; i++) {
-        a->count[i] = i >= 3 && d->terms == 0 ? 0 : rst_count_numbers(f, set_names[i]);
+    for (int i = 0; i < 4; i++) {
+        a->count[i] = i >= 2 && d->terms == 0 ? 0 : rst_count_numbers(f, set_names[i]);
         if (a->count[i] < 0) return 1;
         total += a->count[i];
     }
-    if (a->count[0] != d->n_chi || (d->terms > 0 && (a->count[3] != d->terms || a->count[4] != d->terms))) return 1;
+    if (d->terms > 0 && (a->count[2] != d->terms || a->count[3] != d->terms)) return 1;
     a->start[0] = malloc((size_t)(total + 1) * sizeof(double));
     if (!a->start[0]) return 1;
     int failed = 0;
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 4; i++) {
         if (i > 0) a->start[i] = a->start[i - 1] + a->count[i - 1];
         if (a->count[i] > 0) failed |= rst_get_numbers(f, set_names[i], a->count[i], a->start[i]);
     }
@@ -151,11 +151,8 @@ static int get_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
 static int sizes_agree(const restitute_table_data *d, const struct arrays *a)
 {
     int64_t nodes[4];
-    restitute_table_data probe = *d;
-    probe.ez = a->start[1];
-    probe.ex = a->start[2];
-    if (restitute_table_data_nodes(&probe, nodes, NULL)) return 0;
-    return a->count[1] == nodes[0] * nodes[1] && a->count[2] == a->count[1] * nodes[2] * nodes[3];
+    if (restitute_table_data_nodes(d, nodes, NULL)) return 0;
+    return a->count[0] == nodes[0] * nodes[1] && a->count[1] == a->count[0] * nodes[2] * nodes[3];
 }
 
 static int read_table(const char *path, hid_t f, restitute_table **table, restitute_error *error)
@@ -166,11 +163,10 @@ static int read_table(const char *path, hid_t f, restitute_table **table, restit
     restitute_error why = {.message = "parts are missing"};
     restitute_table_data_init(&d);
     if (!get_attributes(f, &d) && d.terms >= 0 && !get_arrays(f, &d, &a)) {
-        d.chi = a.start[0];
-        d.ez = a.start[1];
-        d.ex = a.start[2];
-        d.relaxation_time = a.start[3];
-        d.modulus = a.start[4];
+        d.ez = a.start[0];
+        d.ex = a.start[1];
+        d.relaxation_time = a.start[2];
+        d.modulus = a.start[3];
         if (sizes_agree(&d, &a)) status = restitute_table_from_data(&d, table, &why);
     }
     free(a.start[0]);

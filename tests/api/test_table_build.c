@@ -128,7 +128,7 @@ static void data_makes_the_same_table(void **state)
     restitute_table_destroy(copy);
     copy = NULL;
     restitute_table_data bad[6] = {data, data, data, data, data, data};
-    bad[0].n_chi = 1000;
+    bad[0].chi_cells = -1;
     bad[1].stick_cells = -1;
     bad[2].parts[0] = 3;
     bad[3].high[0] = NAN;
