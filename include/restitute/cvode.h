@@ -43,13 +43,13 @@ RESTITUTE_API const char *restitute_cvode_sundials_version(void);
 
 /** Kinds of events. X(name, value, word) */
 #define RESTITUTE_CVODE_EVENT_LIST(X)                                                                                  \
-    X(ENTRY, 1, "entry")                     /* the edge passes an element on its way out */                          \
-    X(EXIT, 2, "exit")                       /* and on its way back */                                                \
-    X(GROSS_SLIP_END, 3, "gross-slip-end")   /* all elements stick at once */                                         \
-    X(STICK_TO_SLIP, 4, "stick-to-slip")     /* one element, or several at the same instant */                        \
-    X(SLIP_TO_STICK, 5, "slip-to-stick")     /* likewise */                                                           \
-    X(TURN, 6, "turn")                       /* largest indentation */                                                \
-    X(CONTACT_END, 7, "contact-end")         /* the last element leaves */
+    X(ENTRY, 1, "entry")                   /* the edge passes an element on its way out */                             \
+    X(EXIT, 2, "exit")                     /* and on its way back */                                                   \
+    X(GROSS_SLIP_END, 3, "gross-slip-end") /* all elements stick at once */                                            \
+    X(STICK_TO_SLIP, 4, "stick-to-slip")   /* one element, or several at the same instant */                           \
+    X(SLIP_TO_STICK, 5, "slip-to-stick")   /* likewise */                                                              \
+    X(TURN, 6, "turn")                     /* largest indentation */                                                   \
+    X(CONTACT_END, 7, "contact-end")       /* the last element leaves */
 
 #define RESTITUTE_CVODE_EVENT_ENUM(name, value, word) RESTITUTE_EVENT_##name = (value),
 /** What happens, see @ref RESTITUTE_CVODE_EVENT_LIST. */
@@ -64,12 +64,13 @@ RESTITUTE_API const char *restitute_cvode_event_text(int kind);
 /** One event. Units as in @ref restitute_history: T, d0, a_el, and U' for the tangential velocity, or SI. */
 typedef struct restitute_cvode_event {
     double time;
-    double position;             /**< distance of the element from the axis; of several the outermost; contact radius for the others */
+    double
+        position; /**< distance of the element from the axis; of several the outermost; contact radius for the others */
     double indentation;
-    double normal_velocity;      /**< positive into the partner */
-    double tangential_velocity;  /**< of the contact point */
-    int kind;                    /**< a @ref restitute_cvode_event_kind */
-    int elements;                /**< how many elements it happens to at that instant */
+    double normal_velocity;     /**< positive into the partner */
+    double tangential_velocity; /**< of the contact point */
+    int kind;                   /**< a @ref restitute_cvode_event_kind */
+    int elements;               /**< how many elements it happens to at that instant */
 } restitute_cvode_event;
 
 /** The events of one impact, in order of time. */
@@ -107,12 +108,12 @@ RESTITUTE_API int restitute_cvode_solve_scene(restitute_solver *solver, const re
 
 /** Work behind the last call of a solver of this method, all its runs together: what a work-precision report wants. */
 typedef struct restitute_cvode_work {
-    size_t struct_size;   /**< set by @ref restitute_cvode_work_init */
-    int64_t steps;        /**< of CVODE */
-    int64_t restarts;     /**< re-initialisations, after non-smooth points */
-    int64_t rates;        /**< evaluations of the right-hand side */
-    int64_t events;       /**< found by rootfinding */
-    int stiff;            /**< 1: backward differentiation, 0: Adams */
+    size_t struct_size; /**< set by @ref restitute_cvode_work_init */
+    int64_t steps;      /**< of CVODE */
+    int64_t restarts;   /**< re-initialisations, after non-smooth points */
+    int64_t rates;      /**< evaluations of the right-hand side */
+    int64_t events;     /**< found by rootfinding */
+    int stiff;          /**< 1: backward differentiation, 0: Adams */
 } restitute_cvode_work;
 
 RESTITUTE_API void restitute_cvode_work_init(restitute_cvode_work *work);

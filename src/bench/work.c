@@ -65,7 +65,8 @@ void bench_print_work(const struct bench_runs *runs, unsigned methods, FILE *str
     for (int m = 0; m < BENCH_METHODS; m++)
         for (size_t i = 0; i < runs->count && (methods & 1u << m) && bench_methods[m].handle; i++) {
             size_t before = 0; /* each tolerance once */
-            while (before < i && !(runs->runs[before].method == m && runs->runs[before].tolerance == runs->runs[i].tolerance))
+            while (before < i &&
+                   !(runs->runs[before].method == m && runs->runs[before].tolerance == runs->runs[i].tolerance))
                 before++;
             if (before == i && runs->runs[i].method == m) print_line(runs, m, runs->runs[i].tolerance, values, stream);
         }

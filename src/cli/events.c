@@ -63,8 +63,9 @@ bool events_check(struct settings *settings, struct reason *why)
 static int solve_into(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                       restitute_history *history, restitute_cvode_events *events, restitute_error *error)
 {
-    return problem->physical ? restitute_cvode_solve_scene(solver, &problem->scene, result, NULL, history, events, error)
-                             : restitute_cvode_solve(solver, &problem->impact, result, NULL, history, events, error);
+    return problem->physical
+               ? restitute_cvode_solve_scene(solver, &problem->scene, result, NULL, history, events, error)
+               : restitute_cvode_solve(solver, &problem->impact, result, NULL, history, events, error);
 }
 
 int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
@@ -102,7 +103,8 @@ int events_solve(restitute_solver *solver, const struct problem *problem, restit
 bool events_check(struct settings *settings, struct reason *why)
 {
     if (!settings->text[TEXT_EVENTS]) return true;
-    return refuse(why, "--events needs the component cvode, which is not in this build (SUNDIALS; Debian: libsundials-dev)");
+    return refuse(why,
+                  "--events needs the component cvode, which is not in this build (SUNDIALS; Debian: libsundials-dev)");
 }
 
 /* Never reached: events_check() refuses first. */

@@ -21,10 +21,12 @@ const char *restitute_cvode_event_text(int kind)
 {
     switch (kind) {
 #define EVENT_CASE(name, value, word)                                                                                  \
-    case value: return word;
+    case value:                                                                                                        \
+        return word;
         RESTITUTE_CVODE_EVENT_LIST(EVENT_CASE)
 #undef EVENT_CASE
-    default: return "unknown event";
+    default:
+        return "unknown event";
     }
 }
 
@@ -38,8 +40,8 @@ static struct cvode_memory *memory_of(restitute_solver *solver, restitute_error 
     const struct restitute_method *method = restitute_private_method(solver);
     if (method != restitute_method_cvode() && method != restitute_method_cvode_bdf() &&
         method != restitute_method_cvode_adams()) {
-        report(error, RESTITUTE_ERROR_DOMAIN, "the solver is of the method %s: must be of cvode, cvode-bdf or cvode-adams",
-               method->name);
+        report(error, RESTITUTE_ERROR_DOMAIN,
+               "the solver is of the method %s: must be of cvode, cvode-bdf or cvode-adams", method->name);
         return NULL;
     }
     return (struct cvode_memory *)restitute_private_workspace(solver)->own;
@@ -53,7 +55,8 @@ static int check_events(const restitute_cvode_events *events, restitute_error *e
                       "restitute_cvode_events: struct_size is %zu, this library expects %zu; call its init function",
                       events->struct_size, sizeof *events);
     if (events->capacity > 0 && !events->event)
-        return report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu", events->capacity);
+        return report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
+                      events->capacity);
     return RESTITUTE_OK;
 }
 
@@ -99,10 +102,10 @@ static int scene_units(const restitute_scene *scene, struct units *units, restit
     restitute_numbers_init(&numbers);
     const int status = restitute_scene_numbers(scene, &numbers, error);
     if (status < 0) return status;
-    const double sliding =
-        fabs(scene->tangential_speed + scene->radius1 * scene->spin1 +
-             (isfinite(scene->radius2) ? scene->radius2 * scene->spin2 : 0));
-    const double psi = numbers.psi > 1e-12 && isfinite(numbers.psi) ? numbers.psi : 1; /* as the core has it: 1 is a scale */
+    const double sliding = fabs(scene->tangential_speed + scene->radius1 * scene->spin1 +
+                                (isfinite(scene->radius2) ? scene->radius2 * scene->spin2 : 0));
+    const double psi =
+        numbers.psi > 1e-12 && isfinite(numbers.psi) ? numbers.psi : 1; /* as the core has it: 1 is a scale */
     *units = (struct units){numbers.time, numbers.length_z, numbers.length_x, scene->normal_speed, sliding / psi};
     return RESTITUTE_OK;
 }
@@ -135,7 +138,8 @@ int restitute_cvode_last_work(const restitute_solver *solver, restitute_cvode_wo
                       work->struct_size, sizeof *work);
     const struct cvode_memory *memory = memory_of((restitute_solver *)solver, error);
     if (!memory) return solver ? RESTITUTE_ERROR_DOMAIN : RESTITUTE_ERROR_NULL;
-    if (memory->work.steps == 0) return report(error, RESTITUTE_ERROR_DOMAIN, "the solver has not solved an impact yet");
+    if (memory->work.steps == 0)
+        return report(error, RESTITUTE_ERROR_DOMAIN, "the solver has not solved an impact yet");
     const size_t size = work->struct_size;
     *work = memory->work;
     work->struct_size = size;

@@ -13,9 +13,10 @@ struct integrator_system {
     enum integrator_family family;
     double horizon; /* order of the time to be covered: the first step is small against it */
     int (*rates)(void *owner, double t, const double *y, double *rate);
-    void (*roots)(void *owner, double t, const double *y, double *value);      /* an event where a value falls through 0 */
-    void (*newton)(void *owner, double gamma, const double *y, const double *b, double *x); /* (1 - gamma J) x = b; BDF */
-    void (*weights)(void *owner, const double *y, double *weight);             /* 1/(error allowed) */
+    void (*roots)(void *owner, double t, const double *y, double *value); /* an event where a value falls through 0 */
+    void (*newton)(void *owner, double gamma, const double *y, const double *b,
+                   double *x);                                     /* (1 - gamma J) x = b; BDF */
+    void (*weights)(void *owner, const double *y, double *weight); /* 1/(error allowed) */
     void *owner;
 };
 

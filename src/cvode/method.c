@@ -28,7 +28,8 @@ static int reserve(double tolerance, struct rst_workspace *workspace)
 static const enum integrator_family bdf = INTEGRATOR_BDF, adams = INTEGRATOR_ADAMS;
 
 static int solve_with(const enum integrator_family *family, const struct rst_problem *problem,
-                      struct rst_workspace *workspace, int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+                      struct rst_workspace *workspace, int keep_ledger, struct rst_outcome *outcome,
+                      restitute_error *error)
 {
     if (reserve(problem->tolerance, workspace)) return report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     return cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);

@@ -16,16 +16,15 @@ static void keep(struct run *run, double t, const double *y)
     const struct recorder *recorder = run->observer;
     struct rst_history *history = recorder->history;
     const double force = run->setup->mode == RST_FRICTIONLESS ? 0 : run->shears ? run->sums.force : run->contact.force;
-    history->samples[history->count++] = (struct rst_sample){.time = t,
-                                                             .indentation = y[0],
-                                                             .contact_radius = run->contact.radius,
-                                                             .stick_radius = run_stick_radius(run),
-                                                             .normal_force = 15.0 / 8 * run->contact.force,
-                                                             .shear_force =
-                                                                 15.0 / 8 * force * run->setup->shear_scale,
-                                                             .velocity = run_velocity(run, y),
-                                                             .shear_velocity =
-                                                                 run_shear_velocity(run, y) / recorder->psi};
+    history->samples[history->count++] =
+        (struct rst_sample){.time = t,
+                            .indentation = y[0],
+                            .contact_radius = run->contact.radius,
+                            .stick_radius = run_stick_radius(run),
+                            .normal_force = 15.0 / 8 * run->contact.force,
+                            .shear_force = 15.0 / 8 * force * run->setup->shear_scale,
+                            .velocity = run_velocity(run, y),
+                            .shear_velocity = run_shear_velocity(run, y) / recorder->psi};
 }
 
 static void sample(struct run *run, double from, double to)

@@ -14,8 +14,8 @@
 /* Root functions before those of the elements. */
 enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 
-/* Knots of the trace are at most this far apart, in units of the depth scale: for an error of Hermite's cubic below rounding of
- * the tolerance's fourth root. */
+/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root of the error of a step:
+ * Hermite's cubic between them, of fourth order, then errs by less than a hundredth of that. */
 static const double knot_factor = 0.5;
 
 /* Functions of elements that are 0 by construction are shifted by this part of the allowed error, so that CVODE does not
@@ -244,7 +244,8 @@ static int prepare(struct run *run)
     run->doubles = calloc(size + 2 * modes * modes, sizeof(double));
     run->elements.motion = calloc((size_t)n + 1, sizeof *run->elements.motion);
     run->elements.change = calloc((size_t)n + 1, sizeof *run->elements.change);
-    if (!run->doubles || !run->elements.motion || !run->elements.change) return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (!run->doubles || !run->elements.motion || !run->elements.change)
+        return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     lay_out(run, run->doubles);
     if (n == 0) {
         trace_begin(run->trace, k);
@@ -331,8 +332,8 @@ static int admit(struct run *run, double t)
             y = run->look;
         }
         run->scene.n_entered++;
-        rst_cvode_enter_element(&run->scene, run->setup->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c, e->b,
-                                e->amplitude);
+        rst_cvode_enter_element(&run->scene, run->setup->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
+                                e->b, e->amplitude);
     }
     return 0;
 }
@@ -409,7 +410,8 @@ static double suffered(struct run *run, double weight)
     if (late <= 0 || integrator_look(run->integrator, reached, run->look)) return 0;
     const double *now = run->y, *then = run->look;
     const size_t v = position_of_shear(&run->scene) + 1;
-    const double slip = fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
+    const double slip =
+        fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
     return 3.75 * run->setup->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
 }
 
@@ -417,8 +419,8 @@ static double suffered(struct run *run, double weight)
 static void watch(struct run *run)
 {
     const struct elements *e = &run->elements;
-    rst_cvode_slip_rates(&run->scene, e->motion, run->inside, run->recovery.rate, run->recovery.u, e->amplitude, 0, 0, e->d,
-                         e->f, run->time, run->y, e->value);
+    rst_cvode_slip_rates(&run->scene, e->motion, run->inside, run->recovery.rate, run->recovery.u, e->amplitude, 0, 0,
+                         e->d, e->f, run->time, run->y, e->value);
 }
 
 /* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if the slip
@@ -461,8 +463,8 @@ static int change_motion(struct run *run, int *restart)
             slip_at = e->x[i];
             slipping++;
         } else {
-            rst_cvode_begin_stick(&run->scene, s->g, e->x, i + 1, run->recovery.u, run->recovery.v, e->shift, e->c, e->b,
-                                  run->y, e->motion, e->amplitude);
+            rst_cvode_begin_stick(&run->scene, s->g, e->x, i + 1, run->recovery.u, run->recovery.v, e->shift, e->c,
+                                  e->b, run->y, e->motion, e->amplitude);
             stick_at = e->x[i];
             sticking++;
             weight += 0.5 * ((i + 1 < run->inside ? e->x[i + 1] : run->contact.radius) - (i > 0 ? e->x[i - 1] : 0));
@@ -587,7 +589,8 @@ static int advance(struct run *run)
     const int64_t first = run->scene.n_entered;
     const enum integrator_return what = integrator_advance(run->integrator, &run->time, run->y);
     if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, integrator_text(run->integrator));
-    if (run->shears && admit(run, run->time)) return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
+    if (run->shears && admit(run, run->time))
+        return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
     int status = run->setup->n_nodes == 0 && !run->scene.restitution ? extend_trace(run, from) : RESTITUTE_OK;
     if (status) return status;
     if (run->observe) run->observe(run, from, run->time);
@@ -600,7 +603,8 @@ static int advance(struct run *run)
 static int check_work(struct run *run)
 {
     if (run->event_count > most_events * (run->setup->n_nodes + 4))
-        return fail(run, RESTITUTE_ERROR_TOO_MUCH_WORK, "an event storm: elements change between stick and slip without end");
+        return fail(run, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                    "an event storm: elements change between stick and slip without end");
     if (spent(run) > run->setup->max_updates) {
         snprintf(run->text, sizeof run->text, "max_updates = %lld: spent before there was a result; raise it",
                  (long long)run->setup->max_updates);
@@ -626,7 +630,8 @@ int run_follow(struct run *run, const struct run_setup *setup, struct trace *tra
     const int slides_on = setup->mode == RST_GROSS_SLIP && (2 * setup->chi <= 1 || setup->psi >= psi_c);
     if (friction && setup->mode == RST_GROSS_SLIP && !slides_on)
         run->slip_end = (2 * setup->chi - setup->psi) / (2 * setup->chi - 1);
-    if (setup->n_nodes == 0 && trace_add(trace, 0, 0, 1, run->y + 2)) return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (setup->n_nodes == 0 && trace_add(trace, 0, 0, 1, run->y + 2))
+        return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (setup->n_nodes > 0) status = note(run, RESTITUTE_EVENT_ENTRY, 0, 1);
     if (status) return status;
     status = friction && setup->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);

@@ -3,8 +3,8 @@
 #ifndef RST_CVODE_RUN_H
 #define RST_CVODE_RUN_H
 
-#include "integrator.h"
 #include "cvode_kernels.h"
+#include "integrator.h"
 #include "log.h"
 #include "method.h"
 #include "trace.h"
@@ -14,13 +14,13 @@ struct run_setup {
     double chi, psi;
     struct rst_solid solid;
     enum rst_mode mode;
-    double shear_scale;  /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
-    int64_t n_nodes;     /* elements; 0: the normal side alone */
-    double closeness;    /* relative error of a step */
-    double depth;        /* scale of the depth */
-    double radius;       /* largest, of the elements; 0 without elements */
-    double rebound;      /* D' at the end, where known: decides on slip to the end */
-    double rest_speed;   /* a sphere that cannot rebound faster has sunk in */
+    double shear_scale; /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
+    int64_t n_nodes;    /* elements; 0: the normal side alone */
+    double closeness;   /* relative error of a step */
+    double depth;       /* scale of the depth */
+    double radius;      /* largest, of the elements; 0 without elements */
+    double rebound;     /* D' at the end, where known: decides on slip to the end */
+    double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
     enum integrator_family family;
     int64_t max_updates; /* that this run may spend */
 };
@@ -50,13 +50,13 @@ struct run {
     struct cvode_sums sums;
     struct elements elements;
     struct recovery recovery;
-    double *doubles;       /* what the last two point into */
+    double *doubles; /* what the last two point into */
     struct integrator *integrator;
     double time, *y, *start_y, *start_rate, *look, *scratch;
-    int64_t near, inside;  /* where to look first */
+    int64_t near, inside;          /* where to look first */
     int64_t next_entry, outermost; /* for entry and exit events */
-    double slip_end;       /* D' at which gross slip ends; below any: it does not */
-    int shears;            /* tangential states are being integrated */
+    double slip_end;               /* D' at which gross slip ends; below any: it does not */
+    int shears;                    /* tangential states are being integrated */
     int ended, sunk;
 
     double max_depth, max_time, max_force;

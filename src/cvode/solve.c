@@ -150,8 +150,8 @@ static int64_t first_elements(const struct rst_problem *problem)
 {
     if (problem->elements > 0) return problem->elements;
     const double faster = sqrt(fmax(1, problem->chi * 6 / 7));
-    return (int64_t)fmin((double)most_elements,
-                         4 * ceil(0.25 * usual_elements * faster * pow(usual_tolerance / problem->tolerance, usual_power)));
+    return (int64_t)fmin((double)most_elements, 4 * ceil(0.25 * usual_elements * faster *
+                                                         pow(usual_tolerance / problem->tolerance, usual_power)));
 }
 
 /* U' at the end, extrapolated from two runs, the second with twice the elements. */
@@ -184,8 +184,8 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
 }
 
 /* Runs with a quarter, half and all of the elements. */
-static int start_refining(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory, int64_t n,
-                          struct run *run, restitute_error *error)
+static int start_refining(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
+                          int64_t n, struct run *run, restitute_error *error)
 {
     int status = RESTITUTE_OK;
     for (int i = 0; i < 3 && !status; i++) {
@@ -225,8 +225,8 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
 }
 
 /* Closed forms: no friction, slip to the end (27). */
-static int without_elements(const struct rst_problem *problem, const struct rst_outcome *normal, struct rst_outcome *outcome,
-                            restitute_error *error)
+static int without_elements(const struct rst_problem *problem, const struct rst_outcome *normal,
+                            struct rst_outcome *outcome, restitute_error *error)
 {
     *outcome = *normal;
     if (problem->mode != RST_FRICTIONLESS) {
@@ -246,9 +246,10 @@ static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, 
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
     if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
         return report(error, RESTITUTE_ERROR_DOMAIN,
-                      "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler", problem->chi,
-                      problem->psi);
-    outcome->shear_velocity = slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+                      "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
+                      problem->chi, problem->psi);
+    outcome->shear_velocity =
+        slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
     return report_done(error);
 }
 
@@ -262,8 +263,8 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.rebound = -outcome->velocity;
     all.max_updates = INT64_MAX;
     memory->log.count = 0;
-    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, &memory->log,
-                                      &run, error);
+    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory,
+                                      &memory->log, &run, error);
     for (size_t i = 0; i < memory->log.count; i++)
         memory->log.event[i].tangential_velocity *= setup->shear_scale;
     return status;
@@ -276,9 +277,10 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
     struct rst_outcome normal;
     const double stiffness = stiffness_of(problem, setup.depth);
     if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
-        return report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
-                      "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
-                      stiffness, too_stiff);
+        return report(
+            error, RESTITUTE_ERROR_UNSTABLE_STEP,
+            "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
+            stiffness, too_stiff);
     memory->work = (restitute_cvode_work){.stiff = setup.family == INTEGRATOR_BDF};
     memory->updates = 0;
     int status = solve_normal(&setup, memory, &normal, error);

@@ -71,18 +71,20 @@ static void arguments_are_checked(void **state)
     restitute_cvode_events_init(&events);
     CHECK(restitute_cvode_solve(NULL, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "solver");
     CHECK(restitute_cvode_solve(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "impact");
-    CHECK(restitute_cvode_solve_scene(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "scene");
+    CHECK(restitute_cvode_solve_scene(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL,
+          "scene");
     events.capacity = 3;
     CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "array");
     events.struct_size = 1;
-    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_STRUCT_SIZE,
+          "size");
     restitute_cvode_work_init(&work);
     CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_ERROR_DOMAIN, "nothing solved yet");
     CHECK(restitute_cvode_last_work(solver, NULL, &error) == RESTITUTE_ERROR_NULL, "work");
     CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(work.steps > 0 && work.rates >= work.steps && work.events > 0 && work.restarts > 0 && !work.stiff, "%lld steps",
-          (long long)work.steps);
+    CHECK(work.steps > 0 && work.rates >= work.steps && work.events > 0 && work.restarts > 0 && !work.stiff,
+          "%lld steps", (long long)work.steps);
     restitute_solver_destroy(solver);
     options.time_step = 0.1;
     CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_ERROR_DOMAIN, "time_step");
@@ -125,7 +127,8 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
         CHECK(restitute_cvode_last_work(solver, &work[i], &error) == 0, "%s", error.message);
         restitute_solver_destroy(solver);
     }
-    CHECK(work[1].events <= 4, "slip to the end: turn and end of two runs, and no more: %lld", (long long)work[1].events);
+    CHECK(work[1].events <= 4, "slip to the end: turn and end of two runs, and no more: %lld",
+          (long long)work[1].events);
     CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
 }
 
@@ -151,7 +154,8 @@ static void history_ends_with_the_pair(void **state)
         CHECK(h.count == samples, "%zu", h.count);
         for (int k = 0; k < samples; k++) {
             CHECK_NEAR(a[0][k], k * result.contact_time / (samples - 1), 1e-5, "sample %d", k);
-            CHECK(a[3][k] <= a[2][k] && a[4][k] >= -1e-6, "sample %d: %g of %g, force %g", k, a[3][k], a[2][k], a[4][k]);
+            CHECK(a[3][k] <= a[2][k] && a[4][k] >= -1e-6, "sample %d: %g of %g, force %g", k, a[3][k], a[2][k],
+                  a[4][k]);
             if (psi[i] > 0) CHECK(fabs(a[5][k]) <= a[4][k] + 1e-6, "sample %d: more than friction gives", k);
         }
         const double scale = psi[i] > 0 ? psi[i] : 1;

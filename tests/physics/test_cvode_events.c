@@ -118,7 +118,8 @@ static void elastic_elements_stick_again_together(void **state)
         CHECK_NEAR(fabs(e->tangential_velocity), fabs(e->normal_velocity), 1e-5, "event %zu", i);
     }
     solve_logged(cvode_to(1e-5), impact_of(chi, 0.9, 0, 1), &log_a);
-    CHECK_NEAR(first_event(&log_a, RESTITUTE_EVENT_STICK_TO_SLIP)->indentation, 0.96, 0.01, "edge slip, at the first element behind the edge");
+    CHECK_NEAR(first_event(&log_a, RESTITUTE_EVENT_STICK_TO_SLIP)->indentation, 0.96, 0.01,
+               "edge slip, at the first element behind the edge");
 }
 
 /* In SI units: the same events, scaled. */
@@ -141,7 +142,8 @@ static void events_of_a_scene_have_units(void **state)
     restitute_cvode_events_init(&log_a.events);
     log_a.events.event = log_a.event;
     log_a.events.capacity = most_events;
-    CHECK(restitute_cvode_solve_scene(solver, &scene, NULL, NULL, NULL, &log_a.events, &error) == 0, "%s", error.message);
+    CHECK(restitute_cvode_solve_scene(solver, &scene, NULL, NULL, NULL, &log_a.events, &error) == 0, "%s",
+          error.message);
     restitute_solver_destroy(solver);
     solve_logged(options, impact_of(numbers.chi, numbers.psi, numbers.delta1, numbers.gamma), &log_b);
     CHECK(log_a.events.count == log_b.events.count, "%zu, %zu", log_a.events.count, log_b.events.count);

@@ -144,7 +144,8 @@ static void energy_is_accounted_for(void **state)
     const double cases[][3] = {{0.5, 0, 1}, {2, 1, 1}, {0.7, 0.3, 0}, {5, 1, 1}, {0.7, 1, 0.01}, {1.3, 0.05, 2}};
     (void)state;
     for (int i = 0; i < 6; i++) {
-        const struct solution s = solve_impact(cvode_to(1e-5), impact_of(7.0 / 6, cases[i][0], cases[i][1], cases[i][2]));
+        const struct solution s =
+            solve_impact(cvode_to(1e-5), impact_of(7.0 / 6, cases[i][0], cases[i][1], cases[i][2]));
         const restitute_ledger *l = &s.ledger;
         CHECK_NEAR(l->residual_z, 0, 2e-3, "case %d", i);
         CHECK_NEAR(l->residual_x, 0, 1e-2, "case %d", i);
