@@ -79,7 +79,7 @@ static void ranges(void **state)
     (void)state;
     restitute_table_family_init(&family);
     restitute_table_options_init(&options);
-    options.tolerance = 2e-3;
+    options.tolerance = 1e-2;
     family.chi[0] = 2.0 / 3, family.chi[1] = 7.0 / 4;
     family.delta1[0] = 0.1, family.delta1[1] = 1;
     family.gamma[0] = 0.5, family.gamma[1] = 2;
