@@ -58,9 +58,8 @@ static void set_range(double range[2], double low, double high)
 
 static int set_ranges(const restitute_table_family *given, struct rst_family *f, restitute_error *error)
 {
-    const int elastic =
-        (given->delta1[0] == 0 && given->delta1[1] == 0) ||
-        (isinf(given->gamma[0]) && given->gamma[0] > 0 && isinf(given->gamma[1]) && given->gamma[1] > 0);
+    const int no_gamma = isinf(given->gamma[0]) && given->gamma[0] > 0 && isinf(given->gamma[1]) && given->gamma[1] > 0;
+    const int elastic = (given->delta1[0] == 0 && given->delta1[1] == 0) || no_gamma;
     const int kelvin_voigt = given->gamma[0] == 0 && given->gamma[1] == 0;
     int status = check_range(given->chi, "chi", 1.0 / 3, 1000, 3001, error);
     if (!status && !(given->delta1[0] == 0 && given->delta1[1] == 0))
