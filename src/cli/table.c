@@ -11,7 +11,7 @@ int table_main(int count, char **arguments)
                                                                                  table_query_run, table_export_run};
     struct table_settings settings;
     const enum table_reading reading = table_options_read(count, arguments, &settings);
-    const int status = reading == TABLE_GO_ON ? actions[settings.action](&settings)
+    const int status = reading == TABLE_GO_ON  ? actions[settings.action](&settings)
                        : reading == TABLE_STOP ? EXIT_DONE
                                                : EXIT_USAGE;
     table_options_release(&settings);

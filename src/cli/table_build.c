@@ -91,13 +91,17 @@ static bool read_family(struct build *b, struct reason *why)
     struct values values = b->settings->values;
     restitute_table_family_init(&b->family);
     char *const *text = b->settings->text;
-    if (!read_range(b->settings, TABLE_SPEED, b->family.speed, why) || !read_range(b->settings, TABLE_CHI, b->family.chi, why) ||
-        !read_range(b->settings, TABLE_DELTA1, b->family.delta1, why) || !read_range(b->settings, TABLE_GAMMA, b->family.gamma, why))
+    if (!read_range(b->settings, TABLE_SPEED, b->family.speed, why) ||
+        !read_range(b->settings, TABLE_CHI, b->family.chi, why) ||
+        !read_range(b->settings, TABLE_DELTA1, b->family.delta1, why) ||
+        !read_range(b->settings, TABLE_GAMMA, b->family.gamma, why))
         return false;
     const bool ranges = text[TABLE_CHI] || text[TABLE_DELTA1] || text[TABLE_GAMMA];
     if (!values_physical(&values)) {
         if (text[TABLE_SPEED]) return refuse(why, "--speed: needs a contact, see --material");
-        return ranges ? true : refuse(why, "no table is described: give --material and a contact, or --delta1, --gamma, --chi; see --help");
+        return ranges ? true
+                      : refuse(why, "no table is described: give --material and a contact, or --delta1, --gamma, "
+                                    "--chi; see --help");
     }
     if (ranges) return refuse(why, "--chi, --delta1, --gamma: not with a contact, which has its own");
     values.given[FIELD_SPEED] = true; /* the library takes no notice of it */
@@ -132,7 +136,8 @@ static void describe(struct build *b)
     int length = snprintf(b->line, sizeof b->line, "tolerance %a, ", b->options.tolerance);
     if (s)
         snprintf(b->line + length, sizeof b->line - (size_t)length,
-                 "material %016" PRIx64 ", deformable %d, spheres %a %a %a %a %a %a, blocked %d, friction %a, speed %a %a",
+                 "material %016" PRIx64
+                 ", deformable %d, spheres %a %a %a %a %a %a, blocked %d, friction %a, speed %a %a",
                  fingerprint, s->deformable, s->radius1, s->mass1, s->inertia1, s->radius2, s->mass2, s->inertia2,
                  s->rotation_blocked, s->friction, f->speed[0], f->speed[1]);
     else
@@ -151,7 +156,8 @@ static void show(const restitute_table_builder *builder, double since)
 {
     char text[100];
     const int64_t done = restitute_table_builder_solved(builder), all = restitute_table_builder_expected(builder);
-    snprintf(text, sizeof text, "%lld of about %lld impacts, %.0f s", (long long)done, (long long)all, seconds() - since);
+    snprintf(text, sizeof text, "%lld of about %lld impacts, %.0f s", (long long)done, (long long)all,
+             seconds() - since);
     bench_progress(text);
 }
 
@@ -202,7 +208,8 @@ static int build(const struct build *b)
     restitute_error error;
     struct reason why;
     struct stat there;
-    if (restitute_table_builder_create(&b->family, &b->options, &builder, &error) < 0) return complain("%s", error.message);
+    if (restitute_table_builder_create(&b->family, &b->options, &builder, &error) < 0)
+        return complain("%s", error.message);
     if (b->settings->resume && stat(b->partial, &there) == 0 &&
         restitute_table_builder_read(builder, b->line, b->partial, &error) < 0) {
         restitute_table_builder_destroy(builder);
@@ -211,12 +218,13 @@ static int build(const struct build *b)
     catch_signals();
     const int status = run(b, builder, &table, &error, &why);
     int result;
-    if (table) result = finish(b, table, status, &error);
-    else if (status < 0) result = complain("%s", error.message);
+    if (table)
+        result = finish(b, table, status, &error);
+    else if (status < 0)
+        result = complain("%s", error.message);
     else {
         result = put_down(b, builder, &why) ? EXIT_INTERRUPTED : complain("%s", why.text);
-        if (result == EXIT_INTERRUPTED)
-            fprintf(stderr, "restitute: interrupted; go on with --resume\n");
+        if (result == EXIT_INTERRUPTED) fprintf(stderr, "restitute: interrupted; go on with --resume\n");
     }
     restitute_table_destroy(table);
     restitute_table_builder_destroy(builder);
@@ -230,10 +238,11 @@ int table_build_run(const struct table_settings *settings)
     const char *output = settings->text[TABLE_OUTPUT];
     int status = EXIT_DONE;
     b->settings = settings;
-    if (output_is_standard(output)) refuse(&why, "--output = -: a table needs a file"), status = EXIT_USAGE;
+    if (output_is_standard(output))
+        refuse(&why, "--output = -: a table needs a file"), status = EXIT_USAGE;
     else if (!output_check(output, "--output", &why) ||
-             !output_spares(output, "--output", settings->text[TABLE_MATERIAL], &why) ||
-             !read_family(b, &why) || !read_options(b, &why))
+             !output_spares(output, "--output", settings->text[TABLE_MATERIAL], &why) || !read_family(b, &why) ||
+             !read_options(b, &why))
         status = EXIT_USAGE;
     if (status == EXIT_DONE) {
         describe(b);

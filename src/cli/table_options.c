@@ -13,8 +13,8 @@
 enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
 
 const char *const table_text_names[TABLE_TEXTS] = {
-    "material", "partner",      "speed",            "chi",   "delta1",    "gamma",   "psi",         "normal-speed",
-    "tangential-speed", "input", "tolerance", "threads", "max-impacts", "format", "output"};
+    "material",         "partner", "speed",     "chi",     "delta1",      "gamma",  "psi",   "normal-speed",
+    "tangential-speed", "input",   "tolerance", "threads", "max-impacts", "format", "output"};
 
 static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query", "export"};
 
@@ -32,7 +32,8 @@ static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query"
 static const struct poptOption build_options[] = {
     TEXT(TABLE_OUTPUT, "FILE", "the table, an HDF5 file; required"),
     TEXT(TABLE_MATERIAL, "FILE", "of one contact: what deforms, a material file, .json, or .csv with tau_s,G_Pa"),
-    TEXT(TABLE_PARTNER, "rigid|same|FILE", "one of the two bodies deforms (default), both do, or the partner's material"),
+    TEXT(TABLE_PARTNER, "rigid|same|FILE",
+         "one of the two bodies deforms (default), both do, or the partner's material"),
     FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"),
     TEXT(TABLE_SPEED, "FROM:TO", "normal speeds, m/s; default 1e-4:100"),
     TEXT(TABLE_CHI, "FROM[:TO]", "of ranges: (1-nu)/(2-nu) (1 + m R^2/J), in [1/3, 1000]; default 7/6"),
@@ -76,7 +77,8 @@ static const char *const footers[TABLE_ACTIONS] = {
     "  restitute table build --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
     "      --speed 1e-3:10 --output pib.h5\n"
     "  restitute table build --delta1 1e-3:100 --gamma 1e-3:1000 --chi 2/3:7/4 --tolerance 1e-4 --output all.h5\n"
-    "\nThe errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not reached (the table is\n"
+    "\nThe errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not reached (the "
+    "table is\n"
     "written, with its errors), 2 bad usage, nothing written, 130 interrupted.\n",
     "\nExit status: 0 done, 2 no such table, or damaged.\n",
     "\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
@@ -96,15 +98,18 @@ static struct poptOption *option_table(enum table_action action)
     struct poptOption *table = allocate(2 * FIELD_COUNT + TABLE_TEXTS + 8, sizeof *table), *entry = table;
     for (enum field field = 0; action == TABLE_BUILD && field < FIELD_COUNT; field++) {
         if (!of_contact(field)) continue;
-        *entry++ = (struct poptOption)ENTRY(field_rules[field].option, CODE_FIELD + (int)field, "NUMBER", field_rules[field].help);
+        *entry++ = (struct poptOption)ENTRY(field_rules[field].option, CODE_FIELD + (int)field, "NUMBER",
+                                            field_rules[field].help);
         if (!field_rules[field].alias) continue;
         *entry = (struct poptOption)ENTRY(field_rules[field].alias, CODE_FIELD + (int)field, "NUMBER", NULL);
         entry++->argInfo |= POPT_ARGFLAG_DOC_HIDDEN;
     }
     for (const struct poptOption *o = options[action];; o++) {
         *entry = *o;
-        if (o->val >= CODE_TEXT && o->val < CODE_HELP) entry->longName = table_text_names[o->val - CODE_TEXT];
-        else if (!o->longName) break;
+        if (o->val >= CODE_TEXT && o->val < CODE_HELP)
+            entry->longName = table_text_names[o->val - CODE_TEXT];
+        else if (!o->longName)
+            break;
         entry++;
     }
     return table;
@@ -122,8 +127,10 @@ static bool keep(char **place, const char *name, char *text, struct reason *why)
 
 static bool take(poptContext context, int code, struct table_settings *s, struct reason *why)
 {
-    if (code == CODE_RESUME) s->resume = true;
-    else if (code == CODE_BLOCKED) s->values.rotation_blocked = 1;
+    if (code == CODE_RESUME)
+        s->resume = true;
+    else if (code == CODE_BLOCKED)
+        s->values.rotation_blocked = 1;
     else if (code >= CODE_TEXT)
         return keep(&s->text[code - CODE_TEXT], table_text_names[code - CODE_TEXT], poptGetOptArg(context), why);
     else
@@ -176,8 +183,10 @@ static enum table_reading find_action(int count, char **arguments, enum table_ac
         fputs(usage, stdout);
         return TABLE_STOP;
     }
-    if (*word) complain("table: unknown action \"%.64s\": must be build, info, query or export", word);
-    else complain("table: an action is missing: build, info, query or export; see restitute table --help");
+    if (*word)
+        complain("table: unknown action \"%.64s\": must be build, info, query or export", word);
+    else
+        complain("table: an action is missing: build, info, query or export; see restitute table --help");
     return TABLE_FAILED;
 }
 

@@ -23,8 +23,10 @@ static restitute_table *read_table(const struct table_settings *settings)
 static void print_range(const char *name, const double range[2], const char *unit)
 {
     if (isnan(range[0])) return;
-    if (range[0] == range[1]) printf("%-16s %.6g%s\n", name, range[0], unit);
-    else printf("%-16s %.6g to %.6g%s\n", name, range[0], range[1], unit);
+    if (range[0] == range[1])
+        printf("%-16s %.6g%s\n", name, range[0], unit);
+    else
+        printf("%-16s %.6g to %.6g%s\n", name, range[0], range[1], unit);
 }
 
 static void print_info(const restitute_table_info *i)
@@ -35,7 +37,8 @@ static void print_info(const restitute_table_info *i)
     print_range("delta1", i->delta1, "");
     print_range("gamma", i->gamma, "");
     if (i->of_contact)
-        printf("%-16s %g\n%-16s %g m, %g kg (effective)\n", "friction", i->friction, "radius, mass", i->radius, i->mass);
+        printf("%-16s %g\n%-16s %g m, %g kg (effective)\n", "friction", i->friction, "radius, mass", i->radius,
+               i->mass);
     printf("%-16s %g\n", "tolerance", i->tolerance);
     printf("%-16s %.2g (ez), %.2g (ex), verified at %lld points\n", "error", i->error_ez, i->error_ex,
            (long long)i->checks);
@@ -53,11 +56,11 @@ static json_t *json_of_range(const double range[2])
 
 static json_t *json_of_info(const restitute_table_info *i)
 {
-    json_t *object = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", i->of_contact ? "contact" : "ranges", "speed_m_s",
-                               json_of_range(i->speed), "chi", json_of_range(i->chi), "delta1",
-                               json_of_range(i->delta1), "gamma", json_of_range(i->gamma), "friction",
-                               json_of_number(i->friction), "radius_m", json_of_number(i->radius), "mass_kg",
-                               json_of_number(i->mass));
+    json_t *object =
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", i->of_contact ? "contact" : "ranges", "speed_m_s",
+                  json_of_range(i->speed), "chi", json_of_range(i->chi), "delta1", json_of_range(i->delta1), "gamma",
+                  json_of_range(i->gamma), "friction", json_of_number(i->friction), "radius_m",
+                  json_of_number(i->radius), "mass_kg", json_of_number(i->mass));
     json_object_set_new(object, "tolerance", json_of_number(i->tolerance));
     json_object_set_new(object, "error_ez", json_of_number(i->error_ez));
     json_object_set_new(object, "error_ex", json_of_number(i->error_ex));
@@ -84,8 +87,10 @@ int table_info_run(const struct table_settings *settings)
     restitute_table_info_init(&info);
     restitute_table_describe(table, &info, NULL);
     restitute_table_destroy(table);
-    if (*format == 't') print_info(&info);
-    else if (!provenance_write(NULL, json_of_info(&info), &why)) return complain("%s", why.text);
+    if (*format == 't')
+        print_info(&info);
+    else if (!provenance_write(NULL, json_of_info(&info), &why))
+        return complain("%s", why.text);
     return EXIT_DONE;
 }
 
@@ -126,8 +131,8 @@ static int query_one(const struct table_settings *s, struct query *q)
                             contact ? "one contact, which is asked by --normal-speed and --tangential-speed"
                                     : "ranges, which is asked by --chi, --psi, --delta1 and --gamma");
     for (int i = 0; i < (contact ? 2 : 4); i++)
-        if (!table_number(s, contact ? speeds[i] : numbers[i], contact && i == 1 ? -1e300 : 0, contact ? 1e300 : INFINITY,
-                          &q->value[i], &why))
+        if (!table_number(s, contact ? speeds[i] : numbers[i], contact && i == 1 ? -1e300 : 0,
+                          contact ? 1e300 : INFINITY, &q->value[i], &why))
             return complain("%s", why.text);
     if (isnan(q->value[contact ? 0 : 1])) return complain("--%s is missing", contact ? "normal-speed" : "psi");
     if (look_up(q, &pair) < 0) return complain("the table has no answer to this");
@@ -164,12 +169,15 @@ static bool answer_row(struct query *q, const restitute_csv *csv, size_t row, co
     set_defaults(q);
     for (int k = 0; k < 4; k++)
         if (column[k] >= 0)
-            good &= restitute_number_read(restitute_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
+            good &=
+                restitute_number_read(restitute_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
     const bool done = good && look_up(q, &pair) == RESTITUTE_OK;
     for (size_t i = 0; i < restitute_csv_columns(csv); i++)
         fprintf(out, "%s,", restitute_csv_cell(csv, row, i));
-    if (done) fprintf(out, "%s,%s,\n", number_text(pair.ez).text, number_text(pair.ex).text);
-    else fprintf(out, ",,%s\n", good ? "a value is out of its range" : "a cell is no number");
+    if (done)
+        fprintf(out, "%s,%s,\n", number_text(pair.ez).text, number_text(pair.ex).text);
+    else
+        fprintf(out, ",,%s\n", good ? "a value is out of its range" : "a cell is no number");
     return done;
 }
 
@@ -182,7 +190,8 @@ static int query_many(const struct table_settings *s, struct query *q)
     int column[4];
     size_t failed = 0;
     if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
-    bool good = find_columns(q, csv, column, &why) && output_spares(s->text[TABLE_OUTPUT], "--output", s->text[TABLE_INPUT], &why) &&
+    bool good = find_columns(q, csv, column, &why) &&
+                output_spares(s->text[TABLE_OUTPUT], "--output", s->text[TABLE_INPUT], &why) &&
                 output_open(s->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         for (size_t i = 0; i < restitute_csv_columns(csv); i++)
@@ -227,7 +236,8 @@ static void export_rows(const restitute_table *table, const restitute_table_data
                     const double ez = d->ez[i * d->nodes[1] + j], chi = place[2][k];
                     const double psi = psi_of(place[3][l], chi, ez), speed = place[0][i];
                     if (d->of_contact)
-                        restitute_table_pair(table, speed, psi * speed / (d->psi_factor > 0 ? d->psi_factor : 1), &pair);
+                        restitute_table_pair(table, speed, psi * speed / (d->psi_factor > 0 ? d->psi_factor : 1),
+                                             &pair);
                     else
                         restitute_table_numbers_pair(table, chi, psi, speed, place[1][j], &pair);
                     fprintf(out, "%s,", number_text(speed).text);

@@ -32,11 +32,14 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
                                 "restitute_table_options_init of this version",
                                 o->struct_size, sizeof *o);
     if (!(o->tolerance >= 1e-7 && o->tolerance <= 0.1))
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]", o->tolerance);
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]",
+                                o->tolerance);
     if (o->threads < 0 || o->threads > 1024)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)",
+                                o->threads);
     if (o->max_impacts <= 0)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0",
+                                (long long)o->max_impacts);
     return RESTITUTE_OK;
 }
 
@@ -188,8 +191,10 @@ static int piece_allocate(const struct restitute_table_builder *b, int64_t count
 {
     const size_t n = (size_t)count;
     *p = (struct piece){.index = malloc(n * sizeof *p->index), .results = malloc(n * sizeof *p->results)};
-    if (b->family.of_contact) p->scenes = malloc(n * sizeof *p->scenes);
-    else p->impacts = malloc(n * sizeof *p->impacts);
+    if (b->family.of_contact)
+        p->scenes = malloc(n * sizeof *p->scenes);
+    else
+        p->impacts = malloc(n * sizeof *p->impacts);
     return !p->index || !p->results || (!p->scenes && !p->impacts);
 }
 
@@ -199,8 +204,10 @@ static void piece_add(const struct restitute_table_builder *b, int64_t index, st
     const int64_t i = p->count++;
     p->index[i] = index;
     restitute_result_init(&p->results[i]);
-    if (p->scenes) rst_family_scene(&b->family, at.speed, at.psi, &p->scenes[i]);
-    else rst_family_impact(&b->family, at.speed, at.gamma, at.chi, at.psi, &p->impacts[i]);
+    if (p->scenes)
+        rst_family_scene(&b->family, at.speed, at.psi, &p->scenes[i]);
+    else
+        rst_family_impact(&b->family, at.speed, at.gamma, at.chi, at.psi, &p->impacts[i]);
 }
 
 static int piece_solve(const struct restitute_table_builder *b, struct piece *p, restitute_error *error)
@@ -208,7 +215,8 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? part_for_checks * b->options.tolerance : b->filling_tolerance);
+    options.tolerance =
+        fmax(1e-8, b->stage == RST_CHECKING ? part_for_checks * b->options.tolerance : b->filling_tolerance);
     const size_t n = (size_t)p->count;
     return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
                      : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
@@ -241,8 +249,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
 static void replay(struct restitute_table_builder *b)
 {
     for (; b->next < b->points && b->used < b->journal_count; b->next++)
-        if (b->point[b->next].slips == b->part && !b->point[b->next].known)
-            b->solved[b->next] = b->journal[b->used++];
+        if (b->point[b->next].slips == b->part && !b->point[b->next].known) b->solved[b->next] = b->journal[b->used++];
 }
 
 /* ---- stages */
@@ -326,8 +333,10 @@ static int add_points(struct restitute_table_builder *b)
     b->filling_tolerance *= 0.4;
     rst_memo_clear(&b->memo);
     for (int a = 0; a < rst_axes; a++)
-        if (a < 2) halve_panels(b, a, 1);
-        else lengthen(b, a);
+        if (a < 2)
+            halve_panels(b, a, 1);
+        else
+            lengthen(b, a);
     return 1;
 }
 
@@ -354,10 +363,11 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
             b->stage = RST_FINISHED;
             return RESTITUTE_OK;
         }
-        return rst_table_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                                "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
-                                "or narrow the ranges",
-                                (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
+        return rst_table_report(
+            error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+            "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
+            "or narrow the ranges",
+            (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
     }
     if (rst_plan_filling(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_FILLING;
@@ -478,7 +488,8 @@ int restitute_table_builder_restore(restitute_table_builder *builder, const doub
                                 (long long)builder->journal_count);
     for (size_t i = 0; i < 4 * count; i++)
         if (!(fabs(journal[i]) <= (i % 4 < 2 ? 2 : DBL_MAX)))
-            return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i, journal[i]);
+            return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i,
+                                    journal[i]);
     struct rst_solved *copy = malloc((count + 1) * sizeof *copy);
     if (!copy) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu impacts", count);
     memcpy(copy, journal, count * sizeof *copy);

@@ -40,10 +40,10 @@ int rst_panels_halve(struct rst_panels *p, int panel);
 /* Where an impact is: places in [0, 1] along the axes, of which one of RST_STICK and RST_SLIP counts. */
 struct rst_point {
     double u[3];
-    double s;          /* psi, or the place t with y = (1 - cos(pi t))/2 */
-    int64_t column;    /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
+    double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
+    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
     int slips;
-    int known;         /* solved in an earlier round */
+    int known; /* solved in an earlier round */
 };
 
 /* What came of it. */
@@ -67,8 +67,8 @@ struct restitute_table_builder {
     restitute_table_options options;
     double low[3], high[3]; /* of the axes, outwards to seams of cells; logarithms for speed and gamma */
     double seam_low[2], seam_high[2];
-    int active[rst_axes];   /* nonzero: more than one node */
-    int64_t n[rst_axes];    /* points */
+    int active[rst_axes]; /* nonzero: more than one node */
+    int64_t n[rst_axes];  /* points */
     struct rst_panels panels[rst_axes];
     int64_t probe[rst_axes];
     enum rst_stage stage;
@@ -82,7 +82,7 @@ struct restitute_table_builder {
     int64_t journal_count, journal_capacity, used;
 
     restitute_table *draft;
-    double tail[rst_axes]; /* size of the last coefficients of the last filling */
+    double tail[rst_axes];                 /* size of the last coefficients of the last filling */
     double panel_tail[2][rst_most_panels]; /* the same for panels of speed and gamma */
     int failing[2][rst_most_panels];       /* panels in which a check failed */
     double filling_tolerance;

@@ -87,9 +87,7 @@ int restitute_table_nodes(const restitute_table *table, int axis, double *places
                             : i >= table->start[1] ? rst_slip_node(table->slip_cells, i - table->start[1])
                                                    : 0;
         const double stick = table->stick_cells ? (double)i / (double)(table->stick_cells * rst_cubic) : 0;
-        places[i] = i >= table->start[2]   ? 2 - rst_slip_y(root)
-                    : i >= table->start[1] ? 1 + rst_slip_y(root)
-                                           : stick;
+        places[i] = i >= table->start[2] ? 2 - rst_slip_y(root) : i >= table->start[1] ? 1 + rst_slip_y(root) : stick;
     }
     return RESTITUTE_OK;
 }
@@ -123,7 +121,8 @@ static int set_axis(const restitute_table_data *d, int i, const char *name, stru
         !is_seam(low, 52 - k) || !is_seam(high, 52 - k))
         return refuse(error, name);
     rst_octaves_set(low, high, k, axis);
-    if (!(d->range[i][0] >= low && d->range[i][1] <= high && d->range[i][0] < d->range[i][1])) return refuse(error, name);
+    if (!(d->range[i][0] >= low && d->range[i][1] <= high && d->range[i][0] < d->range[i][1]))
+        return refuse(error, name);
     rst_octaves_limit(d->range[i][0], d->range[i][1], axis);
     return RESTITUTE_OK;
 }
@@ -157,8 +156,7 @@ static int set_form(const restitute_table_data *d, restitute_table *form, restit
     form->terms = d->terms;
     rst_table_count(form);
     /* without a slip side psi_c must be 1 for all chi */
-    if (form->stick_cells > 0 && form->slip_cells == 0 && 2 * form->chi_high > 1)
-        return refuse(error, "cells of psi");
+    if (form->stick_cells > 0 && form->slip_cells == 0 && 2 * form->chi_high > 1) return refuse(error, "cells of psi");
     if ((double)form->n_speed * (double)form->n_gamma * (double)form->n_psi * (double)form->n_chi > most_values)
         return refuse(error, "number of nodes");
     return RESTITUTE_OK;

@@ -156,8 +156,8 @@ static int measure_tails(struct restitute_table_builder *b, const struct coarse 
 /* ---- cells */
 
 /* Largest difference of local polynomials through `nodes` places and the global one, in the middles between nodes. */
-static double cell_error(const struct restitute_table_builder *b, const struct coarse *c, enum rst_axis axis, int64_t nodes,
-                         const double *place, const double *middle)
+static double cell_error(const struct restitute_table_builder *b, const struct coarse *c, enum rst_axis axis,
+                         int64_t nodes, const double *place, const double *middle)
 {
     const int64_t n = b->n[axis], degree = rst_cubic, cells = (nodes - 1) / degree, m = nodes - 1;
     double *row = malloc((size_t)((nodes + m) * n) * sizeof *row), error = -1;
@@ -366,7 +366,8 @@ static int make(struct restitute_table_builder *b, struct coarse *c, restitute_t
     form.chi_low = rst_builder_number(b, RST_CHI, b->active[RST_CHI] ? 0 : 0.5);
     form.chi_high = rst_builder_number(b, RST_CHI, b->active[RST_CHI] ? 1 : 0.5);
     if (choose_octaves(b, c, RST_SPEED, &form.speed) || choose_octaves(b, c, RST_GAMMA, &form.gamma) ||
-        choose_even(b, c, RST_CHI, &form.chi_cells) || choose_even(b, c, RST_STICK, &form.stick_cells) || choose_slip(b, c, &form.slip_cells))
+        choose_even(b, c, RST_CHI, &form.chi_cells) || choose_even(b, c, RST_STICK, &form.stick_cells) ||
+        choose_slip(b, c, &form.slip_cells))
         return 1;
     rst_table_count(&form);
     *table = rst_table_allocate(&form);

@@ -58,12 +58,13 @@ static void set_range(double range[2], double low, double high)
 
 static int set_ranges(const restitute_table_family *given, struct rst_family *f, restitute_error *error)
 {
-    const int elastic = (given->delta1[0] == 0 && given->delta1[1] == 0) || (isinf(given->gamma[0]) && given->gamma[0] > 0 && isinf(given->gamma[1]) && given->gamma[1] > 0);
+    const int no_gamma = isinf(given->gamma[0]) && given->gamma[0] > 0 && isinf(given->gamma[1]) && given->gamma[1] > 0;
+    const int elastic = (given->delta1[0] == 0 && given->delta1[1] == 0) || no_gamma;
     const int kelvin_voigt = given->gamma[0] == 0 && given->gamma[1] == 0;
     int status = check_range(given->chi, "chi", 1.0 / 3, 1000, 3001, error);
     if (!status && !(given->delta1[0] == 0 && given->delta1[1] == 0))
         status = check_range(given->delta1, "delta1", DBL_MIN, 1e6, 1e12, error);
-    if (!status && !kelvin_voigt && !(isinf(given->gamma[0]) && isinf(given->gamma[1])))
+    if (!status && !kelvin_voigt && !no_gamma)
         status = check_range(given->gamma, "gamma", DBL_MIN, 1e6, 1e12, error);
     if (status) return status;
     f->sliding = RST_SLIDES;
@@ -279,10 +280,12 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
     found.chi = numbers.chi;
     found.gamma = numbers.gamma;
     found.delta1 = numbers.delta1;
-    if (table->of_contact) status = bind_own(table, scene, &numbers, &found, error);
+    if (table->of_contact)
+        status = bind_own(table, scene, &numbers, &found, error);
     else if (!(numbers.gamma >= 0))
-        status = rst_table_report(error, RESTITUTE_ERROR_DOMAIN,
-                                  "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
+        status = rst_table_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
     if (status) return status;
     *contact = found;
     return rst_table_done(error);

@@ -7,7 +7,11 @@
 void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis)
 {
     int64_t first, last;
-    *axis = (struct rst_octaves){.low = low, .high = low, .shift = 52 - k, .mask = (INT64_C(1) << (52 - k)) - 1, .scale = ldexp(rst_cubic, k - 52)};
+    *axis = (struct rst_octaves){.low = low,
+                                 .high = low,
+                                 .shift = 52 - k,
+                                 .mask = (INT64_C(1) << (52 - k)) - 1,
+                                 .scale = ldexp(rst_cubic, k - 52)};
     if (!(low < high)) return;
     memcpy(&first, &low, sizeof first);
     memcpy(&last, &high, sizeof last);

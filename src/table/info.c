@@ -46,7 +46,8 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
                                    .bytes = sizeof *table + table->block_size * sizeof(double)};
     memcpy(info->version, table->version, sizeof info->version);
     copy_range(info->chi, table->asked[2]);
-    if (table->of_contact) describe_contact(table, info);
+    if (table->of_contact)
+        describe_contact(table, info);
     else {
         copy_range(info->delta1, table->asked[0]);
         copy_range(info->gamma, table->asked[1]);

@@ -130,16 +130,19 @@ static double tangential(const restitute_table *t, const struct place *p, double
 #if defined(__GNUC__)
 __attribute__((__noinline__))
 #endif
-static void evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding,
-                                    double v_n, restitute_table_value *pair)
+static void
+evaluate_general(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
+                 restitute_table_value *pair)
 {
     struct place p;
     find_place(t, speed, gamma, &p);
     chi = chi_in_table(t, chi);
     const double ez = rebound(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     pair->ez = ez;
-    if (sliding > critical * v_n) pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
-    else pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
+    if (sliding > critical * v_n)
+        pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+    else
+        pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
 }
 
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
@@ -165,8 +168,10 @@ static inline void evaluate_two_axes(const restitute_table *t, double speed, dou
 static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double sliding,
                             double v_n, restitute_table_value *pair)
 {
-    if (t->two_axes) evaluate_two_axes(t, speed, sliding, v_n, pair);
-    else evaluate_general(t, speed, gamma, chi, sliding, v_n, pair);
+    if (t->two_axes)
+        evaluate_two_axes(t, speed, sliding, v_n, pair);
+    else
+        evaluate_general(t, speed, gamma, chi, sliding, v_n, pair);
 }
 
 void rst_table_evaluate(const restitute_table *table, double speed, double gamma, double chi, double psi,
@@ -234,8 +239,8 @@ int restitute_table_pairs(const restitute_table *table, const restitute_table_co
     const restitute_table_contact *c = contact_or_own(table, contact);
     for (size_t i = 0; i < n; i++) {
         restitute_table_value pair;
-        evaluate(table, speed_of(table, c, normal_speeds[i]), c->gamma, c->chi,
-                 sliding_of(c, tangential_speeds[i]), normal_speeds[i], &pair);
+        evaluate(table, speed_of(table, c, normal_speeds[i]), c->gamma, c->chi, sliding_of(c, tangential_speeds[i]),
+                 normal_speeds[i], &pair);
         if (ez) ez[i] = pair.ez;
         if (ex) ex[i] = pair.ex;
     }

@@ -142,7 +142,8 @@ static int read_outer(struct restitute_table_builder *b, enum rst_axis axis, dou
             if (take_longer(&b->n[axis], points_needed(value, n, goal))) return 1;
             for (int64_t j = 0; j < n; j++)
                 value[j] = s[j].ex;
-            if (b->family.sliding != RST_NO_FRICTION && take_longer(&b->n[axis], points_needed(value, n, goal))) return 1;
+            if (b->family.sliding != RST_NO_FRICTION && take_longer(&b->n[axis], points_needed(value, n, goal)))
+                return 1;
             *first += n;
         }
     return 0;
@@ -238,10 +239,8 @@ int rst_plan_checks(struct restitute_table_builder *b)
             for (int64_t k = 0; k < n[2]; k++)
                 for (int side = 0; side < 1 + b->active[RST_SLIP]; side++)
                     for (int64_t l = 0; l < n[RST_STICK + side]; l++) {
-                        const struct rst_point p = {.u = {x[0][i], x[1][j], x[2][k]},
-                                                    .s = x[RST_STICK + side][l],
-                                                    .slips = side,
-                                                    .column = -1};
+                        const struct rst_point p = {
+                            .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .slips = side, .column = -1};
                         if (add_point(b, p)) return 1;
                     }
     return 0;

@@ -151,8 +151,7 @@ int restitute_table_pair_of(const restitute_table *table, const restitute_table_
 {
     restitute_table_value found;
     if (!pair) return RESTITUTE_ERROR_NULL;
-    const int status =
-        restitute_table_pairs(table, contact, 1, &normal_speed, &tangential_speed, &found.ez, &found.ex);
+    const int status = restitute_table_pairs(table, contact, 1, &normal_speed, &tangential_speed, &found.ez, &found.ex);
     if (status) return status;
     *pair = found;
     if (slope) by_speeds(table, contact ? contact : &table->own, normal_speed, tangential_speed, slope);

@@ -50,16 +50,16 @@ struct restitute_table {
     struct rst_octaves speed, gamma;
     int64_t n_chi;
     double chi_low, chi_high;
-    int64_t chi_cells; /* 0: one node, no axis */
+    int64_t chi_cells;   /* 0: one node, no axis */
     int64_t stick_cells; /* 0: one node, psi = 0 or no friction */
     int64_t slip_cells;  /* in each half of the slip side; 0: none */
     int64_t n_speed, n_gamma, n_psi;
-    int two_axes; /* speed and psi, and no more */
-    int64_t start[3];   /* first node of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
+    int two_axes;        /* speed and psi, and no more */
+    int64_t start[3];    /* first node of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
     double psi_cells[2]; /* cells over the length of psi in [0, 1], of r in [0, r(1/2)]; next below that */
-    double *ez;                       /* [speed][gamma] */
-    double *ex;                       /* [speed][gamma][psi][chi] */
-    size_t block_size;                /* doubles in `block` */
+    double *ez;          /* [speed][gamma] */
+    double *ex;          /* [speed][gamma][psi][chi] */
+    size_t block_size;   /* doubles in `block` */
     double block[];
 };
 

@@ -64,7 +64,8 @@ static void make_block(const char *title, const unsigned char *bytes, size_t siz
 {
     memset(block, 0, block_size);
     snprintf(block, block_size,
-             "restitute %s, schema %d, checksum %016" PRIx64 ", bytes %zu\nHDF5 begins at byte 512 (a user block of HDF5); h5py "
+             "restitute %s, schema %d, checksum %016" PRIx64
+             ", bytes %zu\nHDF5 begins at byte 512 (a user block of HDF5); h5py "
              "and h5dump read this file as it is.\n",
              title, schema, checksum(bytes, size), size);
 }
@@ -111,9 +112,10 @@ static int refuse_block(const char *path, const char *title, const struct rst_ol
     for (size_t i = length; i < file->size && i < length + 6 && file->bytes[i] >= '0' && file->bytes[i] <= '9'; i++)
         version = 10 * version + (file->bytes[i] - '0');
     if (version > schema)
-        return rst_file_report(error, RESTITUTE_ERROR_FORMAT,
-                               "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged",
-                               path, version, schema);
+        return rst_file_report(
+            error, RESTITUTE_ERROR_FORMAT,
+            "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged", path,
+            version, schema);
     return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 

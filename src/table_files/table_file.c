@@ -10,13 +10,14 @@ static const char title[] = "table";
 
 /* Members that are attributes of the root. */
 #define NUMBERS(X)                                                                                                     \
-    X(tolerance) X(error_ez) X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction)   \
-    X(radius) X(mass) X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(tolerance)                                                                                                       \
+    X(error_ez) X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius)      \
+        X(mass) X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells)
 
-static const char units_of_attributes[] =
-    "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; equilibrium_modulus Pa; parallel_viscosity Pa s; "
-    "psi_factor: psi v_n/|v_t|; all others dimensionless";
+static const char units_of_attributes[] = "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; "
+                                          "equilibrium_modulus Pa; parallel_viscosity Pa s; "
+                                          "psi_factor: psi v_n/|v_t|; all others dimensionless";
 
 /* Arrays of two numbers by their parts. */
 struct pair_name {
@@ -24,11 +25,11 @@ struct pair_name {
     size_t offset;
 };
 #define AT(member) offsetof(restitute_table_data, member)
-static const struct pair_name pairs[] = {{"range_first_low", AT(range[0][0])},  {"range_first_high", AT(range[0][1])},
-                                         {"range_gamma_low", AT(range[1][0])},  {"range_gamma_high", AT(range[1][1])},
-                                         {"range_chi_low", AT(range[2][0])},    {"range_chi_high", AT(range[2][1])},
-                                         {"axis_first_low", AT(low[0])},        {"axis_first_high", AT(high[0])},
-                                         {"axis_gamma_low", AT(low[1])},        {"axis_gamma_high", AT(high[1])}};
+static const struct pair_name pairs[] = {{"range_first_low", AT(range[0][0])}, {"range_first_high", AT(range[0][1])},
+                                         {"range_gamma_low", AT(range[1][0])}, {"range_gamma_high", AT(range[1][1])},
+                                         {"range_chi_low", AT(range[2][0])},   {"range_chi_high", AT(range[2][1])},
+                                         {"axis_first_low", AT(low[0])},       {"axis_first_high", AT(high[0])},
+                                         {"axis_gamma_low", AT(low[1])},       {"axis_gamma_high", AT(high[1])}};
 enum { n_pairs = sizeof pairs / sizeof *pairs };
 
 static int put_attributes(hid_t f, const restitute_table_data *d)
@@ -60,8 +61,9 @@ static int put_axes(hid_t f, const restitute_table *table, const restitute_table
         double *place = malloc((size_t)d->nodes[axis] * sizeof *place);
         if (!place) return 1;
         const char *name = axis ? names[axis] : d->of_contact ? "speed" : "delta1";
-        failed = restitute_table_nodes(table, axis, place) ||
-                 rst_put_numbers(f, name, 1, &d->nodes[axis], place, axis == 0 && d->of_contact ? "m/s" : "1", texts[axis]);
+        failed =
+            restitute_table_nodes(table, axis, place) ||
+            rst_put_numbers(f, name, 1, &d->nodes[axis], place, axis == 0 && d->of_contact ? "m/s" : "1", texts[axis]);
         free(place);
     }
     return failed;
@@ -76,7 +78,8 @@ static int put_table(hid_t f, const restitute_table *table, const restitute_tabl
                                        "at [speed or delta1][gamma][psi][chi]: ex for psi <= 1, then "
                                        "ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone");
     if (failed || d->terms == 0) return failed;
-    return rst_put_numbers(f, "relaxation_time", 1, &d->terms, d->relaxation_time, "s", "of the material's Prony series") ||
+    return rst_put_numbers(f, "relaxation_time", 1, &d->terms, d->relaxation_time, "s",
+                           "of the material's Prony series") ||
            rst_put_numbers(f, "modulus", 1, &d->terms, d->modulus, "Pa", "of the material's Prony series");
 }
 

@@ -78,8 +78,7 @@ static hid_t open_scalar(hid_t place, const char *name, H5T_class_t class)
     const hid_t type = attribute < 0 ? -1 : H5Aget_type(attribute);
     const hid_t space = attribute < 0 ? -1 : H5Aget_space(attribute);
     const int good = type >= 0 && space >= 0 && H5Tget_class(type) == class &&
-                     H5Sget_simple_extent_npoints(space) == 1 &&
-                     (class != H5T_STRING || H5Tis_variable_str(type) == 0);
+                     H5Sget_simple_extent_npoints(space) == 1 && (class != H5T_STRING || H5Tis_variable_str(type) == 0);
     close_all(1, type, space, -1);
     if (good) return attribute;
     close_all(1, attribute, -1, -1);

@@ -13,9 +13,8 @@ static inline restitute_scene ball_on(double gamma, restitute_material **materia
 {
     restitute_scene scene;
     restitute_error error;
-    const int status = gamma > 0
-                           ? restitute_material_standard_solid(1e6, 1e6 / gamma, 300, 0.5, material, &error)
-                           : restitute_material_kelvin_voigt(1e6, 300, 0.5, material, &error);
+    const int status = gamma > 0 ? restitute_material_standard_solid(1e6, 1e6 / gamma, 300, 0.5, material, &error)
+                                 : restitute_material_kelvin_voigt(1e6, 300, 0.5, material, &error);
     CHECK(status == RESTITUTE_OK, "%s", error.message);
     restitute_scene_init(&scene);
     scene.material = *material;
