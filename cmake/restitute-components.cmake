@@ -73,6 +73,10 @@ restitute_decide(RESTITUTE_TABLE_FILES "the component table_files" RESTITUTE_WIT
 
 # Only the version is looked at here: from 6.4 on the interface is the same but for what src/cvode/integrator.c knows.
 if(RESTITUTE_CVODE)
+  # Packages made with OpenMP ask for it, though the two libraries taken here do not use it; clang often has none.
+  if(NOT TARGET OpenMP::OpenMP_C)
+    add_library(OpenMP::OpenMP_C INTERFACE IMPORTED)
+  endif()
   find_package(SUNDIALS QUIET COMPONENTS cvode nvecserial)
   set(RESTITUTE_SUNDIALS_FITS OFF)
   if(SUNDIALS_FOUND AND SUNDIALS_VERSION VERSION_GREATER_EQUAL 6.4 AND SUNDIALS_VERSION VERSION_LESS 8)
