@@ -18,8 +18,9 @@ double bench_clock(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double time_once(void (*work)(void *context), void *context)
+static double time_once(void (*work)(void *context), void (*between)(void *context), void *context)
 {
+    if (between) between(context);
     const double start = bench_clock();
     work(context);
     return bench_clock() - start;
@@ -38,14 +39,15 @@ double bench_median(double *values, size_t n)
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-struct bench_time bench_time_work(void (*work)(void *context), void *context, double long_work)
+struct bench_time bench_time_work(void (*work)(void *context), void (*between)(void *context), void *context,
+                                  double long_work)
 {
     double samples[most_repeats], sum = 0;
     int n = 0;
-    const double first = time_once(work, context);
+    const double first = time_once(work, between, context);
     if (first > long_work) return (struct bench_time){first, 1};
     while (n < least_repeats || (n < most_repeats && sum < full)) {
-        samples[n] = time_once(work, context);
+        samples[n] = time_once(work, between, context);
         sum += samples[n++];
     }
     return (struct bench_time){bench_median(samples, (size_t)n), n};

@@ -1,5 +1,6 @@
 /* Many impacts by several threads. Each case is solved by itself, and a solver brings nothing from one case into the
- * next, so that neither the number of threads nor the order in which they take the cases is seen in the results.
+ * next but what that would find itself, bit by bit, so that neither the number of threads nor the order in which they
+ * take the cases is seen in the results.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <fenv.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* The normal problem of the method `sync`, refined until its error estimate meets what is wanted.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <string.h>
 
 #include "kernels.h"
 #include "status.h"
@@ -39,10 +40,50 @@ static size_t doubles(size_t size, size_t count)
     return count * (size / sizeof(double));
 }
 
+/* What the solution in workspace->levels belongs to: impacts that differ in their tangential side alone, as in a table, share it.
+ * Solids of more terms are not remembered. */
+enum { most_terms_known = 8 };
+struct question {
+    double g_inf, eta, n_terms, closeness, first, last, wanted, allowed;
+    double g[most_terms_known], tau[most_terms_known];
+};
+
+/* The head of workspace->levels. */
+struct memo {
+    double known; /* 0: nothing */
+    struct question question;
+    struct normal normal;
+};
+
+static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
+{
+    const struct rst_solid *s = &problem->solid;
+    struct question q = {s->g_inf, s->eta, (double)s->n_terms, rst_sync_closeness(problem), (double)first, (double)last,
+                         wanted, (double)problem->max_updates, {0}, {0}};
+    for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
+        q.g[k] = s->g[k];
+        q.tau[k] = s->tau[k];
+    }
+    return q;
+}
+
+static int is_known(const struct rst_workspace *workspace, const struct question *question)
+{
+    const struct memo *memo = (const struct memo *)workspace->levels;
+    return memo && memo->known != 0 && memcmp(&memo->question, question, sizeof *question) == 0;
+}
+
+static void remember(const struct rst_workspace *workspace, const struct question *question, const struct normal *normal)
+{
+    if (question->n_terms > most_terms_known) return;
+    *(struct memo *)workspace->levels = (struct memo){1, *question, *normal};
+}
+
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
 {
     const size_t n = (size_t)levels, m = (size_t)n_terms;
-    return doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
+    return doubles(sizeof(struct memo), 1) + doubles(sizeof(struct sync_level), 2 * n + 1) +
+           doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
 }
 
 /* One run, in workspace->levels, which has room. Nonzero if iterations do not settle. */
@@ -51,10 +92,12 @@ static int run(const struct rst_problem *problem, const struct rst_workspace *wo
 {
     const struct rst_solid *s = &problem->solid;
     const size_t n = (size_t)levels, m = (size_t)s->n_terms;
-    struct sync_level *level = (struct sync_level *)workspace->levels;
+    struct memo *memo = (struct memo *)workspace->levels;
+    struct sync_level *level = (struct sync_level *)(memo + 1);
     struct sync_node *node = (struct sync_node *)(level + 2 * n + 1);
     double *memory = (double *)(node + n + 1), *loading = memory + m * (2 * n + 1);
     int64_t failed;
+    memo->known = 0;
     rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels, rst_sync_closeness(problem),
                       level, memory, loading, node, &failed);
     normal->level = level;
@@ -123,6 +166,11 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 {
     int64_t found = 0;
     struct series series = {0};
+    const struct question question = question_of(problem, first, last, wanted);
+    if (is_known(workspace, &question)) {
+        *normal = ((const struct memo *)workspace->levels)->normal;
+        return RESTITUTE_OK;
+    }
     int status = choose_grid(problem, normal, error);
     if (status) return status;
     for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
@@ -136,7 +184,10 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
         }
         compare(problem, wanted, &series, normal);
         if (series.count > 1) found = n;
-        if (series.count > 2 && normal->reached) return RESTITUTE_OK;
+        if (series.count > 2 && normal->reached) {
+            remember(workspace, &question, normal);
+            return RESTITUTE_OK;
+        }
     }
     if (found > 0 && normal->levels != found) run(problem, workspace, found, normal); /* the last one has spoilt the levels */
     normal->levels = found;

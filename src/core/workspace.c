@@ -28,7 +28,10 @@ int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
 
 int rst_workspace_levels(struct rst_workspace *workspace, size_t count)
 {
-    return grow(&workspace->levels, &workspace->levels_size, count);
+    const size_t before = workspace->levels_size;
+    if (grow(&workspace->levels, &workspace->levels_size, count)) return 1;
+    if (workspace->levels_size > before) workspace->levels[0] = 0;
+    return 0;
 }
 
 void rst_workspace_free(struct rst_workspace *workspace)

@@ -27,7 +27,7 @@ struct rst_workspace {
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 
-/* Room for `count` doubles of element data, and of levels. Nonzero: out of memory. */
+/* Room for `count` doubles of element data, and of levels, the first of which is 0 in new room. Nonzero: out of memory. */
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count);
 int rst_workspace_levels(struct rst_workspace *workspace, size_t count);
 
