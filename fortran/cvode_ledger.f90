@@ -36,7 +36,7 @@ contains
     real(c_double), intent(in) :: y(scene%n_states)
     real(c_double), intent(out) :: rate(3)
     real(c_double), intent(inout) :: held_z(scene%n_nodes), held_x(scene%n_nodes)
-    real(dp) :: weight, now(3), edge(3), velocity
+    real(dp) :: inner, outer, now(3), edge(3), velocity
     integer(ip) :: i, n
 
     n = 0
@@ -45,16 +45,14 @@ contains
       n = n + 1
     end do
     rate = 0
+    inner = 0
     do i = 1, max(n, n_last)
       call of_element(i, now)
       if (i > n) cycle
-      if (i < n) then
-        weight = 0.5_dp*x(i + 1)
-      else
-        weight = 0.5_dp*contact%radius
-      end if
-      if (i > 1) weight = weight - 0.5_dp*x(i - 1)
-      rate = rate + weight*now
+      outer = contact%radius
+      if (i < n) outer = x(i + 1)
+      rate = rate + 0.5_dp*(outer - inner)*now
+      inner = x(i)
     end do
     if (n == 0) return
     velocity = y(state_velocity)
