@@ -3,7 +3,6 @@
 #include <restitute/bem.h>
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "box.h"
@@ -32,20 +31,9 @@ enum { first_elements = 15, most_elements = 2000, most_tries = 8 };
 /* The grid is wider than the contact by this and some cells. */
 static const double margin = 1.03, margin_cells = 1.5;
 
-int bem_report(restitute_error *error, int status, const char *format, ...)
-{
-    va_list arguments;
-    if (!error) return status;
-    error->status = status;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-    return status;
-}
-
 static int out_of_memory(restitute_error *error)
 {
-    return bem_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the fields of the method bem");
+    return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the fields of the method bem");
 }
 
 /* All that the runs of one impact have in common. */
@@ -121,11 +109,11 @@ static int begin(const struct rst_problem *problem, struct rst_workspace *worksp
     const size_t n = (size_t)problem->solid.n_terms + 1;
     *impact = (struct impact){.problem = problem, .method = (const struct bem_method *)problem->method};
     if (problem->solid.eta > 0)
-        return bem_report(error, RESTITUTE_ERROR_DOMAIN,
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "the solid has a parallel dashpot and so no instantaneous modulus: the method bem cannot do "
                           "it; give a Prony term with a short relaxation time instead, or take another method");
     if (problem->elements > most_elements)
-        return bem_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: must be in [4, %d] with the method bem",
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: must be in [4, %d] with the method bem",
                           (long long)problem->elements, most_elements);
     impact->memory = bem_memory_of(workspace);
     double *terms = impact->memory ? bem_memory_terms(impact->memory, 4 * n) : NULL;
@@ -145,7 +133,7 @@ static int find_box(struct impact *impact, restitute_error *error)
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
-    return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "the method bem finds no box and step for this solid: its impact and its relaxation are too far "
                       "apart; take another method");
 }
@@ -204,7 +192,7 @@ static int met(const struct impact *impact, const struct rst_outcome *outcome)
 
 static int not_reached(const struct impact *impact, const struct rst_outcome *outcome, restitute_error *error)
 {
-    return bem_report(
+    return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
         "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
         impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
@@ -216,12 +204,12 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
     const struct rst_problem *p = impact->problem;
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
     if (end == BEM_TOO_LONG)
-        return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
                           step * p->time_unit, p->unit_name);
     if (end == BEM_REBOUND || end == BEM_SUNK) /* a run, but none to compare it with */
-        return bem_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "max_updates = %lld: spent before there was a result; raise it", (long long)p->max_updates);
-    return bem_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+    return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                       "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
                       step * p->time_unit, p->unit_name);
 }
@@ -242,7 +230,7 @@ static int too_many_steps(struct impact *impact, double elements, double step, r
     const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
     const double updates = duration / step * convolutions_per_step * 4 * m * m;
     if (updates <= (double)p->max_updates) return RESTITUTE_OK;
-    return bem_report(
+    return rst_report(
         error, RESTITUTE_ERROR_TOO_MUCH_WORK,
         "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
         (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);

@@ -4,6 +4,7 @@
 #define BEM_METHOD_H
 
 #include "../core/method.h"
+#include "../core/report.h"
 #include "run.h"
 
 struct bem_method {
@@ -13,9 +14,6 @@ struct bem_method {
 };
 
 extern const struct restitute_method bem_base_method;
-
-/* Fill `error` (if wanted) and return `status`. */
-int bem_report(restitute_error *error, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* A new impact: forget the last one. */
 void bem_recorder_begin(struct restitute_bem_recorder *recorder);

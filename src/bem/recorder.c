@@ -28,11 +28,11 @@ void restitute_bem_snapshot_init(restitute_bem_snapshot *snapshot)
 
 int restitute_bem_recorder_create(size_t count, restitute_bem_recorder **recorder, restitute_error *error)
 {
-    if (!recorder) return bem_report(error, RESTITUTE_ERROR_NULL, "recorder is NULL");
+    if (!recorder) return rst_report(error, RESTITUTE_ERROR_NULL, "recorder is NULL");
     if (count < 1 || count > most_snapshots)
-        return bem_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be in [1, %d]", count, most_snapshots);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be in [1, %d]", count, most_snapshots);
     restitute_bem_recorder *r = calloc(1, sizeof *r + count * sizeof *r->snapshots);
-    if (!r) return bem_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a recorder");
+    if (!r) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a recorder");
     r->capacity = count;
     r->method = (struct bem_method){.base = bem_base_method, .recorder = r};
     *recorder = r;
@@ -98,14 +98,14 @@ int restitute_bem_recorder_get(const restitute_bem_recorder *recorder, size_t in
                                restitute_error *error)
 {
     if (!recorder || !snapshot)
-        return bem_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? "snapshot" : "recorder");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? "snapshot" : "recorder");
     if (snapshot->struct_size != sizeof *snapshot)
-        return bem_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
                           "restitute_bem_snapshot.struct_size = %zu: must be %zu; prepare it with "
                           "restitute_bem_snapshot_init of this version",
                           snapshot->struct_size, sizeof *snapshot);
     if (index >= recorder->count)
-        return bem_report(error, RESTITUTE_ERROR_DOMAIN, "index = %zu: must be below %zu", index, recorder->count);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "index = %zu: must be below %zu", index, recorder->count);
     const struct snapshot *s = &recorder->snapshots[index];
     *snapshot = (restitute_bem_snapshot){.struct_size = sizeof *snapshot,
                                          .time = s->time,

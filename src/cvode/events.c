@@ -34,13 +34,13 @@ const char *restitute_cvode_event_text(int kind)
 static struct cvode_memory *memory_of(restitute_solver *solver, restitute_error *error)
 {
     if (!solver) {
-        report(error, RESTITUTE_ERROR_NULL, "solver is NULL");
+        rst_report(error, RESTITUTE_ERROR_NULL, "solver is NULL");
         return NULL;
     }
     const struct restitute_method *method = restitute_private_method(solver);
     if (method != restitute_method_cvode() && method != restitute_method_cvode_bdf() &&
         method != restitute_method_cvode_adams()) {
-        report(error, RESTITUTE_ERROR_DOMAIN,
+        rst_report(error, RESTITUTE_ERROR_DOMAIN,
                "the solver is of the method %s: must be of cvode, cvode-bdf or cvode-adams", method->name);
         return NULL;
     }
@@ -51,11 +51,11 @@ static int check_events(const restitute_cvode_events *events, restitute_error *e
 {
     if (!events) return RESTITUTE_OK;
     if (events->struct_size != sizeof *events)
-        return report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
                       "restitute_cvode_events: struct_size is %zu, this library expects %zu; call its init function",
                       events->struct_size, sizeof *events);
     if (events->capacity > 0 && !events->event)
-        return report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
+        return rst_report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
                       events->capacity);
     return RESTITUTE_OK;
 }
@@ -131,17 +131,17 @@ int restitute_cvode_solve_scene(restitute_solver *solver, const restitute_scene 
 
 int restitute_cvode_last_work(const restitute_solver *solver, restitute_cvode_work *work, restitute_error *error)
 {
-    if (!work) return report(error, RESTITUTE_ERROR_NULL, "work is NULL");
+    if (!work) return rst_report(error, RESTITUTE_ERROR_NULL, "work is NULL");
     if (work->struct_size != sizeof *work)
-        return report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
                       "restitute_cvode_work: struct_size is %zu, this library expects %zu; call its init function",
                       work->struct_size, sizeof *work);
     const struct cvode_memory *memory = memory_of((restitute_solver *)solver, error);
     if (!memory) return solver ? RESTITUTE_ERROR_DOMAIN : RESTITUTE_ERROR_NULL;
     if (memory->work.steps == 0)
-        return report(error, RESTITUTE_ERROR_DOMAIN, "the solver has not solved an impact yet");
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the solver has not solved an impact yet");
     const size_t size = work->struct_size;
     *work = memory->work;
     work->struct_size = size;
-    return report_done(error);
+    return rst_done(error);
 }

@@ -115,7 +115,7 @@ int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, str
     all.rebound = -outcome->velocity;
     all.max_updates = INT64_MAX;
     keeper.held_z = calloc(4 * (size_t)all.n_nodes, sizeof(double));
-    if (!keeper.held_z) return report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the ledger");
+    if (!keeper.held_z) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the ledger");
     keeper.held_x = keeper.held_z + all.n_nodes;
     keeper.before_z = keeper.held_x + all.n_nodes;
     keeper.before_x = keeper.before_z + all.n_nodes;
@@ -128,5 +128,5 @@ int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, str
     if (status == RESTITUTE_OK) outcome->ledger = keeper.ledger;
     run_release(&run);
     free(keeper.held_z);
-    return status ? report(error, status, "%s", run.text) : RESTITUTE_OK;
+    return status ? rst_report(error, status, "%s", run.text) : RESTITUTE_OK;
 }

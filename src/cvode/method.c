@@ -31,7 +31,7 @@ static int solve_with(const enum integrator_family *family, const struct rst_pro
                       struct rst_workspace *workspace, int keep_ledger, struct rst_outcome *outcome,
                       restitute_error *error)
 {
-    if (reserve(problem->tolerance, workspace)) return report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (reserve(problem->tolerance, workspace)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     return cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);
 }
 

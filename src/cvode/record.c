@@ -58,5 +58,5 @@ int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
     const int status = run_follow(&run, &setup, &memory->trace, NULL);
     if (!status && run_look(&run, run.time, &y) == 0) keep(&run, run.time, y);
     run_release(&run);
-    return status ? report(error, status, "%s", run.text) : RESTITUTE_OK;
+    return status ? rst_report(error, status, "%s", run.text) : RESTITUTE_OK;
 }

@@ -115,7 +115,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
         const int status = run_follow(&run, setup, &memory->trace, NULL);
         run_release(&run);
         add_work(memory, &run);
-        if (status) return report(error, status, "%s", run.text);
+        if (status) return rst_report(error, status, "%s", run.text);
         *outcome = (struct rst_outcome){
             .velocity = run.sunk ? 0 : run.end_velocity,
             .shear_velocity = run.end_shear_velocity,
@@ -143,7 +143,7 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     const int status = run_follow(run, &with_elements, &memory->trace, log);
     run_release(run);
     add_work(memory, run);
-    return status ? report(error, status, "%s", run->text) : RESTITUTE_OK;
+    return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
 }
 
 static int64_t first_elements(const struct rst_problem *problem)
@@ -178,7 +178,7 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
 static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *limit,
                       restitute_error *error)
 {
-    return report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                   "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s: no more allowed",
                   problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
@@ -202,14 +202,14 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
     struct run run[3];
     int64_t n = first_elements(problem);
     if (n > most_elements)
-        return report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld", (long long)n,
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld", (long long)n,
                       (long long)most_elements);
     setup->radius = outcome->max_contact_radius;
     int status = start_refining(problem, setup, memory, n, run, error);
     while (!status) {
         compare(setup, run, n, outcome);
         outcome->updates = memory->updates;
-        if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return report_done(error);
+        if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
         if (problem->elements > 0 || 2 * n > most_elements) return too_coarse(problem, outcome, "elements", error);
         /* twice the elements see twice the events, each looked for over all of them */
         if (memory->updates + 4 * run[2].updates > problem->max_updates)
@@ -233,8 +233,8 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
         outcome->shear_velocity = problem->psi - 2 * problem->chi * (1 - normal->velocity);
         outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->psi;
     }
-    if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return report_done(error);
-    return report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
+    if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
                   problem->tolerance, outcome->error_ez, outcome->error_ex);
 }
 
@@ -245,12 +245,12 @@ static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, 
     const int slides = problem->mode == RST_FRICTIONLESS ||
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
     if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
-        return report(error, RESTITUTE_ERROR_DOMAIN,
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                       "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
                       problem->chi, problem->psi);
     outcome->shear_velocity =
         slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
-    return report_done(error);
+    return rst_done(error);
 }
 
 /* Once more with the log, for those who asked for it. */
@@ -277,7 +277,7 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
     struct rst_outcome normal;
     const double stiffness = stiffness_of(problem, setup.depth);
     if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
-        return report(
+        return rst_report(
             error, RESTITUTE_ERROR_UNSTABLE_STEP,
             "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
             stiffness, too_stiff);

@@ -46,7 +46,7 @@ static void *buffer_append(struct buffer *buffer, size_t count, size_t size)
 
 static int no_memory(struct reading *reading)
 {
-    return reading->status = file_fail(reading->error, RESTITUTE_ERROR_MEMORY, "%s line %zu: out of memory",
+    return reading->status = rst_report(reading->error, RESTITUTE_ERROR_MEMORY, "%s line %zu: out of memory",
                                        reading->name, reading->line);
 }
 
@@ -56,7 +56,7 @@ static void on_cell(void *bytes, size_t length, void *data)
     restitute_csv *csv = reading->csv;
     if (reading->status != RESTITUTE_OK) return;
     if (memchr(bytes, '\0', length)) {
-        reading->status = file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a NUL byte; not a text file",
+        reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a NUL byte; not a text file",
                                     reading->name, reading->line);
         return;
     }
@@ -84,11 +84,11 @@ static int check_names(struct reading *reading)
     for (size_t i = 0; i < csv->columns; i++) {
         const char *name = cell_text(csv, i);
         if (!*name)
-            return file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
+            return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
                              reading->name, reading->line, i + 1);
         for (size_t k = 0; k < i; k++)
             if (strcmp(name, cell_text(csv, k)) == 0)
-                return file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
+                return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
                                  reading->name, reading->line, name);
     }
     return RESTITUTE_OK;
@@ -113,7 +113,7 @@ static void on_row_end(int terminator, void *data)
         reading->status = check_names(reading);
     } else if (count != csv->columns) {
         reading->status =
-            file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %zu cells, but the header has %zu columns",
+            rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %zu cells, but the header has %zu columns",
                       reading->name, reading->line, count, csv->columns);
     } else {
         csv->rows++;
@@ -133,7 +133,7 @@ static void feed_lines(struct csv_parser *parser, struct reading *reading, const
         reading->line++;
         if (quoted || *at != '#') {
             if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length)
-                reading->status = file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
+                reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
                                             reading->line, csv_strerror(csv_error(parser)));
             for (size_t i = 0; i < length; i++)
                 quoted ^= at[i] == '"';
@@ -148,11 +148,11 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) return no_memory(reading);
     feed_lines(&parser, reading, text);
     if (csv_fini(&parser, on_cell, on_row_end, reading) != 0 && reading->status == RESTITUTE_OK)
-        reading->status = file_fail(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a quote is never closed",
+        reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a quote is never closed",
                                     reading->name, reading->line);
     csv_free(&parser);
     if (reading->status == RESTITUTE_OK && reading->csv->columns == 0)
-        reading->status = file_fail(reading->error, RESTITUTE_ERROR_FORMAT,
+        reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT,
                                     "%s: is empty; it must begin with a row of "
                                     "column names",
                                     reading->name);
@@ -161,7 +161,7 @@ static int parse_table(struct reading *reading, const struct file_text *text)
 
 int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
 {
-    if (!path || !csv) return file_fail(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
+    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
     struct file_text text;
     int status = file_text_read(path, &text, error);
     if (status != RESTITUTE_OK) return status;
@@ -174,7 +174,7 @@ int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *e
     if (status == RESTITUTE_OK) {
         table->fingerprint = file_text_fingerprint(&text, FILE_FINGERPRINT_START);
         *csv = table;
-        file_done(error);
+        rst_done(error);
     } else {
         restitute_csv_destroy(table);
     }

@@ -1,33 +1,11 @@
-/* A whole file as text, its fingerprint, and how an error is put down.
+/* A whole file as text, and its fingerprint.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "file_text.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-int file_fail(restitute_error *error, int status, const char *format, ...)
-{
-    if (error) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error->message, sizeof error->message, format, arguments);
-        va_end(arguments);
-        error->status = status;
-    }
-    return status;
-}
-
-int file_done(restitute_error *error)
-{
-    if (error) {
-        error->status = RESTITUTE_OK;
-        error->message[0] = '\0';
-    }
-    return RESTITUTE_OK;
-}
 
 const char *file_name_for_message(const char *path)
 {
@@ -74,13 +52,13 @@ int file_text_read(const char *path, struct file_text *text, restitute_error *er
     const int standard = strcmp(path, "-") == 0;
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream)
-        return file_fail(error, RESTITUTE_ERROR_FILE, "%s: cannot be read: %s", file_name_for_message(path),
+        return rst_report(error, RESTITUTE_ERROR_FILE, "%s: cannot be read: %s", file_name_for_message(path),
                          strerror(errno));
     const int status = read_stream(stream, text);
     const int reason = errno;
     if (!standard) fclose(stream);
     if (status != RESTITUTE_OK)
-        return file_fail(error, status, "%s: cannot be read: %s", file_name_for_message(path), strerror(reason));
+        return rst_report(error, status, "%s: cannot be read: %s", file_name_for_message(path), strerror(reason));
     return RESTITUTE_OK;
 }
 

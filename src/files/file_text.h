@@ -1,9 +1,11 @@
-/* What the readers of this component share: a whole file as text, its fingerprint, and how an error is put down.
+/* What the readers of this component share: a whole file as text, its fingerprint, and errors.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RESTITUTE_FILE_TEXT_H
 #define RESTITUTE_FILE_TEXT_H
 
 #include <restitute/files.h>
+
+#include "report.h"
 
 /* A file in memory; `bytes` has a NUL behind its `length` bytes. */
 struct file_text {
@@ -17,12 +19,6 @@ int file_text_read(const char *path, struct file_text *text, restitute_error *er
 /* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */
 #define FILE_FINGERPRINT_START UINT64_C(14695981039346656037)
 uint64_t file_text_fingerprint(const struct file_text *text, uint64_t start);
-
-/* Put status and message into `error`, if there is one, and return the status. */
-int file_fail(restitute_error *error, int status, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-/* Clear `error`, if there is one, and return OK. */
-int file_done(restitute_error *error);
 
 /* The path, or only its end if it would crowd the rest out of a message. */
 const char *file_name_for_message(const char *path);

@@ -66,14 +66,14 @@ static int copy_text(const struct material_file *file, const char *key, int requ
 {
     const json_t *value = json_object_get(file->root, key);
     if (!value && !required) return RESTITUTE_OK;
-    if (!value) return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
+    if (!value) return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
     const size_t line = json_line_of_key(file->text, key);
     if (!json_is_string(value))
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
                          key);
     const size_t length = json_string_length(value);
     if (length == 0 || length >= size || strlen(json_string_value(value)) != length)
-        return file_fail(file->error, RESTITUTE_ERROR_DOMAIN,
+        return rst_report(file->error, RESTITUTE_ERROR_DOMAIN,
                          "%s line %zu: \"%s\" has %zu bytes: must have 1 to %zu, "
                          "none of them zero",
                          file->name, line, key, length, size - 1);
@@ -89,10 +89,10 @@ static int read_number(const struct material_file *file, const json_t *object, c
     if (!value && !required) return RESTITUTE_OK;
     if (!value)
         return line
-                   ? file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line, key)
-                   : file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
+                   ? rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line, key)
+                   : rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
     if (!json_is_number(value))
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
                          line ? line : json_line_of_key(file->text, key), key);
     *number = json_number_value(value);
     return RESTITUTE_OK;
@@ -105,7 +105,7 @@ static int read_positive(const struct material_file *file, const char *key, int 
     const int status = read_number(file, file->root, key, 0, required, number);
     if (status != RESTITUTE_OK || !json_object_get(file->root, key)) return status;
     if (isfinite(*number) && (*number > 0 || (zero_allowed && *number == 0))) return RESTITUTE_OK;
-    return file_fail(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
+    return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
                      file->name, json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
 }
 
@@ -113,7 +113,7 @@ static int read_poisson_ratio(const struct material_file *file, double *poisson_
 {
     const int status = read_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
     if (status != RESTITUTE_OK || (*poisson_ratio >= 0 && *poisson_ratio <= 0.5)) return status;
-    return file_fail(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
+    return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
                      file->name, json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
 }
 
@@ -121,7 +121,7 @@ static const struct model *find_model(const struct material_file *file, const ch
 {
     for (int i = 0; i < MODEL_COUNT; i++)
         if (strcmp(models[i].name, name) == 0) return &models[i];
-    file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+    rst_report(file->error, RESTITUTE_ERROR_FORMAT,
               "%s line %zu: model = \"%s\": must be elastic, standard_solid, "
               "kelvin_voigt, maxwell or prony",
               file->name, json_line_of_key(file->text, "model"), name);
@@ -145,7 +145,7 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
     json_object_foreach(file->root, key, value)
     {
         if (!is_allowed(model, key))
-            return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
+            return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
                              file->name, json_line_of_key(file->text, key), key, model->name);
     }
     return RESTITUTE_OK;
@@ -155,7 +155,7 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
 static int read_term(const struct material_file *file, const json_t *term, size_t line, double *time, double *modulus)
 {
     if (!json_is_object(term))
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
                          "%s line %zu: each of \"terms\" must be an object "
                          "{\"tau_s\": .., \"modulus_pa\": ..}",
                          file->name, line);
@@ -164,7 +164,7 @@ static int read_term(const struct material_file *file, const json_t *term, size_
     json_object_foreach((json_t *)term, key, value)
     {
         if (strcmp(key, "tau_s") != 0 && strcmp(key, "modulus_pa") != 0)
-            return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" in a term",
+            return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" in a term",
                              file->name, line, key);
     }
     const int status = read_number(file, term, "tau_s", line, 1, time);
@@ -175,7 +175,7 @@ static int read_term_list(const struct material_file *file, const json_t *list, 
 {
     const size_t line = json_line_of_key(file->text, "terms");
     if (!json_is_array(list) || json_array_size(list) == 0)
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
                          "%s line %zu: \"terms\" must be an array of at least one "
                          "{\"tau_s\": .., \"modulus_pa\": ..}",
                          file->name, line);
@@ -209,7 +209,7 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
 {
     const json_t *list = json_object_get(file->root, "terms");
     if (!list == !json_object_get(file->root, "prony_csv"))
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT,
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
                          "%s: model prony needs either \"terms\" or \"prony_csv\"%s", file->name,
                          list ? ", not both" : "");
     if (list) return read_term_list(file, list, terms);
@@ -217,7 +217,7 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
     int status = copy_text(file, "prony_csv", 1, name, sizeof name);
     if (status != RESTITUTE_OK) return status;
     char *path = path_beside(file->path, name);
-    if (!path) return file_fail(file->error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file->name);
+    if (!path) return rst_report(file->error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file->name);
     uint64_t fingerprint;
     status = prony_terms_read_csv(path, terms, &fingerprint, file->error);
     if (status == RESTITUTE_OK) file->fingerprint ^= fingerprint;
@@ -275,14 +275,14 @@ static int create_material(struct material_file *file, const struct model *model
         status = restitute_material_kelvin_voigt(number[MODULUS1], number[VISCOSITY], nu, material, &why);
     else
         status = restitute_material_maxwell(number[MODULUS], number[VISCOSITY], nu, material, &why);
-    if (status < 0 && why.message[0] != '\0') return file_fail(file->error, status, "%s: %s", file->name, why.message);
-    return status < 0 ? status : file_done(file->error);
+    if (status < 0 && why.message[0] != '\0') return rst_report(file->error, status, "%s: %s", file->name, why.message);
+    return status < 0 ? status : rst_done(file->error);
 }
 
 static int material_from_root(struct material_file *file, restitute_material **material, restitute_material_info *info)
 {
     if (!json_is_object(file->root))
-        return file_fail(file->error, RESTITUTE_ERROR_FORMAT, "%s: must be one JSON object, { .. }", file->name);
+        return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: must be one JSON object, { .. }", file->name);
     struct material_content content = {.poisson_ratio = NAN};
     restitute_material_info_init(&content.info);
     const struct model *model = NULL;
@@ -308,7 +308,7 @@ static int read_json_material(const char *path, restitute_material **material, r
     if (file.root)
         status = material_from_root(&file, material, info);
     else
-        status = file_fail(error, RESTITUTE_ERROR_FORMAT, "%s line %d column %d: not JSON: %.120s", file.name,
+        status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s line %d column %d: not JSON: %.120s", file.name,
                            reason.line, reason.column, reason.text);
     json_decref(file.root);
     free(text.bytes);
@@ -337,13 +337,13 @@ static int read_csv_material(const char *path, restitute_material **material, re
 int restitute_material_read_info(const char *path, restitute_material **material, restitute_material_info *info,
                                  restitute_error *error)
 {
-    if (!path || !material) return file_fail(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "material" : "path");
+    if (!path || !material) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "material" : "path");
     if (info && info->struct_size != sizeof *info)
-        return file_fail(error, RESTITUTE_ERROR_STRUCT_SIZE, "info was not prepared by restitute_material_info_init");
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "info was not prepared by restitute_material_info_init");
     const char *extension = strrchr(path, '.');
     if (extension && strcasecmp(extension, ".json") == 0) return read_json_material(path, material, info, error);
     if (extension && strcasecmp(extension, ".csv") == 0) return read_csv_material(path, material, info, error);
-    return file_fail(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
+    return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
                      file_name_for_message(path));
 }
 

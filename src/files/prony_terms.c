@@ -15,7 +15,7 @@ int prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_erro
     *terms = fresh;
     if (fresh.relaxation_time && fresh.modulus && fresh.line) return RESTITUTE_OK;
     prony_terms_release(terms);
-    return file_fail(error, RESTITUTE_ERROR_MEMORY, "no memory for %zu Prony terms", count);
+    return rst_report(error, RESTITUTE_ERROR_MEMORY, "no memory for %zu Prony terms", count);
 }
 
 void prony_terms_release(struct prony_terms *terms)
@@ -44,7 +44,7 @@ static int check_distinct(const struct prony_terms *terms, const char *file, con
 {
     struct timed_line *sorted = malloc((terms->count + 1) * sizeof *sorted);
     if (!sorted)
-        return file_fail(error, RESTITUTE_ERROR_MEMORY, "%s: no memory for %zu Prony terms", file, terms->count);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "%s: no memory for %zu Prony terms", file, terms->count);
     for (size_t i = 0; i < terms->count; i++)
         sorted[i] = (struct timed_line){terms->relaxation_time[i], terms->line[i]};
     qsort(sorted, terms->count, sizeof *sorted, by_time);
@@ -52,7 +52,7 @@ static int check_distinct(const struct prony_terms *terms, const char *file, con
     for (size_t i = 1; i < terms->count && status == RESTITUTE_OK; i++)
         if (sorted[i].time == sorted[i - 1].time)
             status =
-                file_fail(error, RESTITUTE_ERROR_DOMAIN,
+                rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "%s line %zu: %s = %.15g stands in line %zu too: no two terms may have one relaxation time",
                           file, sorted[i].line, time_key, sorted[i].time, sorted[i - 1].line);
     free(sorted);
@@ -67,7 +67,7 @@ int prony_terms_check(const struct prony_terms *terms, const char *file, const c
         const char *key[2] = {time_key, modulus_key};
         for (int k = 0; k < 2; k++)
             if (!(value[k] > 0 && isfinite(value[k])))
-                return file_fail(error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and > 0", file,
+                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and > 0", file,
                                  terms->line[i], key[k], value[k]);
     }
     return check_distinct(terms, file, time_key, error);
@@ -82,14 +82,14 @@ static int find_columns(const restitute_csv *csv, const char *file, size_t colum
         const char *name = restitute_csv_name(csv, i);
         const int which = strcmp(name, names[0]) == 0 ? 0 : strcmp(name, names[1]) == 0 ? 1 : -1;
         if (which < 0)
-            return file_fail(error, RESTITUTE_ERROR_FORMAT,
+            return rst_report(error, RESTITUTE_ERROR_FORMAT,
                              "%s: unknown column %.64s; a Prony table has tau_s and G_Pa", file, name);
         column[which] = i;
         found[which] = 1;
     }
     for (int k = 0; k < 2; k++)
         if (!found[k])
-            return file_fail(error, RESTITUTE_ERROR_FORMAT, "%s: no column %s; a Prony table has tau_s and G_Pa", file,
+            return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: no column %s; a Prony table has tau_s and G_Pa", file,
                              names[k]);
     return RESTITUTE_OK;
 }
@@ -100,7 +100,7 @@ static int read_cell(const restitute_csv *csv, const char *file, size_t row, siz
     const char *cell = restitute_csv_cell(csv, row, column);
     const int status = restitute_number_read(cell, value);
     if (status == RESTITUTE_OK) return status;
-    return file_fail(error, status, "%s line %zu: %s = \"%.64s\": must be a finite number > 0", file,
+    return rst_report(error, status, "%s line %zu: %s = \"%.64s\": must be a finite number > 0", file,
                      restitute_csv_line(csv, row), restitute_csv_name(csv, column), cell);
 }
 
@@ -110,7 +110,7 @@ static int terms_from_table(const restitute_csv *csv, const char *file, struct p
     size_t column[2] = {0, 0};
     int status = find_columns(csv, file, column, error);
     if (status == RESTITUTE_OK && restitute_csv_rows(csv) == 0)
-        status = file_fail(error, RESTITUTE_ERROR_FORMAT, "%s: has column names but no rows", file);
+        status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: has column names but no rows", file);
     if (status == RESTITUTE_OK) status = prony_terms_allocate(restitute_csv_rows(csv), terms, error);
     if (status != RESTITUTE_OK) return status;
     for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++) {

@@ -1,0 +1,41 @@
+/* Setting the optional error of a call. Every library of the project has these two of its own, since none exports them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_REPORT_H
+#define RST_REPORT_H
+
+#include <restitute/restitute.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#if defined(__GNUC__)
+#define RST_PRINTF(position, first) __attribute__((__format__(__printf__, position, first)))
+#else
+#define RST_PRINTF(position, first)
+#endif
+
+static inline int rst_report(restitute_error *error, int status, const char *format, ...) RST_PRINTF(3, 4);
+
+/* Fill `error` (if wanted) and return `status`. */
+static inline int rst_report(restitute_error *error, int status, const char *format, ...)
+{
+    if (error) {
+        va_list arguments;
+        error->status = status;
+        va_start(arguments, format);
+        vsnprintf(error->message, sizeof error->message, format, arguments);
+        va_end(arguments);
+    }
+    return status;
+}
+
+/* Clear `error` (if wanted) and return OK. */
+static inline int rst_done(restitute_error *error)
+{
+    if (error) {
+        error->status = RESTITUTE_OK;
+        error->message[0] = '\0';
+    }
+    return RESTITUTE_OK;
+}
+
+#endif
