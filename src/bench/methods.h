@@ -11,10 +11,10 @@ struct bench_method {
     const char *name;
     const restitute_method *(*handle)(void); /* NULL: the paper's algorithm */
     enum paper_motion motion;                /* of the paper's algorithm */
-    int remembers;                           /* a solver is faster with a solid that it has just solved: see bench_forget() */
-    int takes_time_step;                     /* else only the number of elements can be prescribed */
-    double finest;                           /* tolerance at which it can serve as reference in a run; 0: it does not */
-    double fine;                             /* the same where hundreds of references are needed */
+    int remembers;       /* a solver is faster with a solid that it has just solved: see bench_forget() */
+    int takes_time_step; /* else only the number of elements can be prescribed */
+    double finest;       /* tolerance at which it can serve as reference in a run; 0: it does not */
+    double fine;         /* the same where hundreds of references are needed */
 };
 
 #ifdef RESTITUTE_WITH_CVODE

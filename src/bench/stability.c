@@ -103,7 +103,8 @@ int bench_map_cell(const struct bench_scene *scene, int method, int level, doubl
                    const struct bench_cell *coarser, struct bench_cell *cell)
 {
     const struct bench_method *m = &bench_methods[method];
-    const int64_t steps = bench_map_steps(level), wanted = steps / (m->takes_time_step || !m->handle ? steps_per_element : 2);
+    const int64_t steps = bench_map_steps(level),
+                  wanted = steps / (m->takes_time_step || !m->handle ? steps_per_element : 2);
     const int64_t elements = wanted < fewest_elements ? fewest_elements : wanted;
     *cell = (struct bench_cell){.method = method,
                                 .steps = steps,

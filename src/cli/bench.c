@@ -266,9 +266,9 @@ int bench_main(int count, char **arguments)
         status = settings.mode == MODE_OMISSIONS   ? omissions_run(&settings)
                  : settings.mode == MODE_STABILITY ? bench_map_run(&settings)
 #ifdef RESTITUTE_WITH_BEM
-                 : settings.mode == MODE_BEM       ? bench_bem_campaign(&settings)
+                 : settings.mode == MODE_BEM ? bench_bem_campaign(&settings)
 #endif
-                                                   : precision_run(&settings);
+                                             : precision_run(&settings);
     }
     bench_options_release(&settings);
     return status;

@@ -50,8 +50,10 @@ int main(int count, char **arguments)
     else if (strcmp(word, "--version") == 0)
         printf("restitute %s\n", restitute_version());
     else
-        status = *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help", word)
-                       : complain("a command is missing: pair, history, bench or table; see restitute --help");
+        status =
+            *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help",
+                             word)
+                  : complain("a command is missing: pair, history, bench or table; see restitute --help");
     if (fflush(stdout) != 0 && status == EXIT_DONE) status = complain("standard output cannot be written");
     return status;
 }

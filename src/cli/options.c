@@ -107,9 +107,11 @@ static struct poptOption history_output_options[] = {
     ENTRY("events", CODE_TEXT + TEXT_EVENTS, "FILE",
           "write the log of events here, as CSV, or as HDF5 if the name ends in .h5; takes the method cvode"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
-    ENTRY("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
-          "with --method bem: pressure, traction and stick map at nine times to .h5, or the middle one to .svg or .png"),
-    FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND};
+    ENTRY(
+        "fields", CODE_TEXT + TEXT_FIELDS, "FILE",
+        "with --method bem: pressure, traction and stick map at nine times to .h5, or the middle one to .svg or .png"),
+    FLAG("help", CODE_HELP, "show this and stop"),
+    POPT_TABLEEND};
 
 static const char pair_footer[] =
     "\nOne impact:\n"
@@ -237,17 +239,12 @@ static bool read_solver(struct settings *settings, struct reason *why)
 
 /* The methods of this build, the default first. */
 static const restitute_method *(*const methods[])(void) = {
-    restitute_method_euler,
-    restitute_method_sync,
+    restitute_method_euler, restitute_method_sync,
 #ifdef RESTITUTE_WITH_CVODE
-    restitute_method_cvode,
-    restitute_method_cvode_bdf,
-    restitute_method_cvode_adams,
+    restitute_method_cvode, restitute_method_cvode_bdf, restitute_method_cvode_adams,
 #endif
 #ifdef RESTITUTE_WITH_BEM
-    restitute_method_bem,
-    restitute_method_bem_paper,
-    restitute_method_bem_both,
+    restitute_method_bem,   restitute_method_bem_paper, restitute_method_bem_both,
 #endif
 };
 enum { METHODS = sizeof methods / sizeof *methods };
@@ -267,13 +264,17 @@ static bool read_method(struct settings *settings, struct reason *why)
     }
 #ifndef RESTITUTE_WITH_CVODE
     if (strncmp(text, "cvode", strlen("cvode")) == 0)
-        return refuse(why, "--method = \"%.64s\": the component cvode is not in this build (SUNDIALS; Debian: "
-                           "libsundials-dev); must be among %s", text, names);
+        return refuse(why,
+                      "--method = \"%.64s\": the component cvode is not in this build (SUNDIALS; Debian: "
+                      "libsundials-dev); must be among %s",
+                      text, names);
 #endif
 #ifndef RESTITUTE_WITH_BEM
     if (strncmp(text, "bem", strlen("bem")) == 0)
-        return refuse(why, "--method = \"%.64s\": the component bem is not in this build (FFTW; Debian: libfftw3-dev); "
-                           "must be among %s", text, names);
+        return refuse(why,
+                      "--method = \"%.64s\": the component bem is not in this build (FFTW; Debian: libfftw3-dev); "
+                      "must be among %s",
+                      text, names);
 #endif
     return refuse(why, "--method = \"%.64s\": is not in this build; must be among %s", text, names);
 }

@@ -101,7 +101,8 @@ static int make_dense(const struct rst_problem *problem, struct rst_workspace *w
     rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio, normal->level,
                      store->level, store->trace, store->node, &failed);
     if (!failed) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "iterations do not settle between %lld levels; take the method euler for this solid",
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "iterations do not settle between %lld levels; take the method euler for this solid",
                       (long long)normal->levels);
 }
 
@@ -121,7 +122,8 @@ int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *wor
         if (status) return status;
         status = RESTITUTE_ERROR_TOO_MUCH_WORK;
         if (normal.levels > 0)
-            status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * *levels + 1) + more, store, room, error);
+            status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * *levels + 1) + more, store,
+                                room, error);
         if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || coarse >= outcome->normal_levels) return status;
     }
 }
@@ -246,7 +248,8 @@ static int give_up(const struct rst_problem *problem, double ahead, restitute_er
 {
     if (ahead > (double)problem->max_updates)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_updates = %lld: spent before there was a result; raise it", (long long)problem->max_updates);
+                          "max_updates = %lld: spent before there was a result; raise it",
+                          (long long)problem->max_updates);
     if (problem->elements > 0) return told_too_few_or_many(problem, error);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "iterations do not settle with up to %d levels; take the method euler for this solid",
@@ -259,7 +262,8 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
 {
     char limit[64] = "rounding adds up";
     if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
-    if (problem->elements > 0) snprintf(limit, sizeof limit, "elements = %lld", (long long)problem->elements);
+    if (problem->elements > 0)
+        snprintf(limit, sizeof limit, "elements = %lld", (long long)problem->elements);
     else if (ahead > (double)problem->max_updates)
         snprintf(limit, sizeof limit, "max_updates = %lld", (long long)problem->max_updates);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
@@ -285,7 +289,8 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
 /* The first two runs of the tangential problem, at `ratio` times the levels of the normal one and at half of that, from the same
  * levels. */
 static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                      int64_t ratio, struct run *half, struct run *now, struct rst_outcome *outcome, restitute_error *error)
+                      int64_t ratio, struct run *half, struct run *now, struct rst_outcome *outcome,
+                      restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
     const int64_t n = ratio * normal->levels;
@@ -322,7 +327,8 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
     int64_t ratio = (int64_t)ceil(needed / (double)normal->levels);
     struct run now = {0}, before;
     outcome->elements = 0; /* no result yet */
-    while (problem->elements <= 0 && ratio > 1 && updates_ahead(problem, ratio * normal->levels, 0) > (double)problem->max_updates)
+    while (problem->elements <= 0 && ratio > 1 &&
+           updates_ahead(problem, ratio * normal->levels, 0) > (double)problem->max_updates)
         ratio /= 2;
     for (;; ratio *= 2) {
         const int64_t n = ratio * normal->levels;
@@ -330,12 +336,14 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
         if (n > rst_sync_most_levels || *ahead > (double)problem->max_updates) break;
         if (now.levels > 0 && rounding_of_level * (double)n > problem->tolerance) break;
         before = now;
-        const int status = now.levels > 0 ? next_run(problem, workspace, normal, ratio, &now, outcome, error)
-                                          : first_runs(problem, workspace, normal, ratio, &before, &now, outcome, error);
+        const int status = now.levels > 0
+                               ? next_run(problem, workspace, normal, ratio, &now, outcome, error)
+                               : first_runs(problem, workspace, normal, ratio, &before, &now, outcome, error);
         if (status) return status;
         if (!isfinite(now.velocity)) break;
         note_shear(problem, normal, &before, &now, outcome);
-        if (problem->elements > 0 || fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) break;
+        if (problem->elements > 0 || fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
+            break;
     }
     return RESTITUTE_OK;
 }
@@ -411,4 +419,5 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
            rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
 }
 
-const struct restitute_method rst_method_sync = {.name = "sync", .reserve = sync_reserve, .solve = sync_solve, .record = rst_sync_record};
+const struct restitute_method rst_method_sync = {
+    .name = "sync", .reserve = sync_reserve, .solve = sync_solve, .record = rst_sync_record};

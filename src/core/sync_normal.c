@@ -32,7 +32,8 @@ static const double strongest_damping = 19.1;
 double rst_sync_closeness(const struct rst_problem *problem)
 {
     const double n = rst_sync_levels_to_start(problem);
-    return problem->elements > 0 ? rounding : fmax(rounding, fmin(closeness * problem->tolerance, unevenness / (n * n)));
+    return problem->elements > 0 ? rounding
+                                 : fmax(rounding, fmin(closeness * problem->tolerance, unevenness / (n * n)));
 }
 
 static size_t doubles(size_t size, size_t count)
@@ -58,8 +59,16 @@ struct memo {
 static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
 {
     const struct rst_solid *s = &problem->solid;
-    struct question q = {s->g_inf, s->eta, (double)s->n_terms, rst_sync_closeness(problem), (double)first, (double)last,
-                         wanted, (double)problem->max_updates, {0}, {0}};
+    struct question q = {s->g_inf,
+                         s->eta,
+                         (double)s->n_terms,
+                         rst_sync_closeness(problem),
+                         (double)first,
+                         (double)last,
+                         wanted,
+                         (double)problem->max_updates,
+                         {0},
+                         {0}};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
         q.g[k] = s->g[k];
         q.tau[k] = s->tau[k];
@@ -73,7 +82,8 @@ static int is_known(const struct rst_workspace *workspace, const struct question
     return memo && memo->known != 0 && memcmp(&memo->question, question, sizeof *question) == 0;
 }
 
-static void remember(const struct rst_workspace *workspace, const struct question *question, const struct normal *normal)
+static void remember(const struct rst_workspace *workspace, const struct question *question,
+                     const struct normal *normal)
 {
     if (question->n_terms > most_terms_known) return;
     *(struct memo *)workspace->levels = (struct memo){1, *question, *normal};
@@ -112,9 +122,10 @@ static int choose_grid(const struct rst_problem *problem, struct normal *normal,
     *normal = (struct normal){0};
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &normal->grid);
     if (normal->grid.turn > strongest_damping)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "rebound slower than 1e-8 of the impact: lost in rounding; the damping is too strong for this "
-                          "method, take euler");
+        return rst_report(
+            error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+            "rebound slower than 1e-8 of the impact: lost in rounding; the damping is too strong for this "
+            "method, take euler");
     return RESTITUTE_OK;
 }
 
@@ -138,7 +149,7 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
 /* The runs on end so far. */
 struct series {
     int count;
-    int64_t levels; /* of the last, if count > 0 */
+    int64_t levels;                      /* of the last, if count > 0 */
     double time, velocity, extrapolated; /* the latter if count > 1 */
 };
 
@@ -152,8 +163,9 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
         normal->velocity = extrapolated;
         normal->contact_time = end->time + part_taken * (end->time - series->time);
         normal->depth = normal->level[normal->levels].depth;
-        normal->error = series->count > 1 ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4)
-                                          : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
+        normal->error = series->count > 1
+                            ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4)
+                            : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
         normal->error += 1.5 * rst_sync_closeness(problem);
         normal->taken_off = part_taken * fabs(change);
         normal->reached = normal->error <= wanted && normal->taken_off <= left_in_levels * wanted;
@@ -189,7 +201,8 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
             return RESTITUTE_OK;
         }
     }
-    if (found > 0 && normal->levels != found) run(problem, workspace, found, normal); /* the last one has spoilt the levels */
+    if (found > 0 && normal->levels != found)
+        run(problem, workspace, found, normal); /* the last one has spoilt the levels */
     normal->levels = found;
     return RESTITUTE_OK;
 }

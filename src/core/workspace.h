@@ -21,7 +21,7 @@ struct rst_workspace {
     double *levels; /* the same, kept while room for elements grows */
     size_t levels_size;
     struct rst_own_memory *own; /* of the solver's method; NULL: none */
-    sync_loop *loop; /* of the method sync, the widest that this processor has */
+    sync_loop *loop;            /* of the method sync, the widest that this processor has */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */

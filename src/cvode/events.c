@@ -41,7 +41,7 @@ static struct cvode_memory *memory_of(restitute_solver *solver, restitute_error 
     if (method != restitute_method_cvode() && method != restitute_method_cvode_bdf() &&
         method != restitute_method_cvode_adams()) {
         rst_report(error, RESTITUTE_ERROR_DOMAIN,
-               "the solver is of the method %s: must be of cvode, cvode-bdf or cvode-adams", method->name);
+                   "the solver is of the method %s: must be of cvode, cvode-bdf or cvode-adams", method->name);
         return NULL;
     }
     return (struct cvode_memory *)restitute_private_workspace(solver)->own;
@@ -51,12 +51,13 @@ static int check_events(const restitute_cvode_events *events, restitute_error *e
 {
     if (!events) return RESTITUTE_OK;
     if (events->struct_size != sizeof *events)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                      "restitute_cvode_events: struct_size is %zu, this library expects %zu; call its init function",
-                      events->struct_size, sizeof *events);
+        return rst_report(
+            error, RESTITUTE_ERROR_STRUCT_SIZE,
+            "restitute_cvode_events: struct_size is %zu, this library expects %zu; call its init function",
+            events->struct_size, sizeof *events);
     if (events->capacity > 0 && !events->event)
         return rst_report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
-                      events->capacity);
+                          events->capacity);
     return RESTITUTE_OK;
 }
 
@@ -134,8 +135,8 @@ int restitute_cvode_last_work(const restitute_solver *solver, restitute_cvode_wo
     if (!work) return rst_report(error, RESTITUTE_ERROR_NULL, "work is NULL");
     if (work->struct_size != sizeof *work)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                      "restitute_cvode_work: struct_size is %zu, this library expects %zu; call its init function",
-                      work->struct_size, sizeof *work);
+                          "restitute_cvode_work: struct_size is %zu, this library expects %zu; call its init function",
+                          work->struct_size, sizeof *work);
     const struct cvode_memory *memory = memory_of((restitute_solver *)solver, error);
     if (!memory) return solver ? RESTITUTE_ERROR_DOMAIN : RESTITUTE_ERROR_NULL;
     if (memory->work.steps == 0)

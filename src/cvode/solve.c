@@ -179,8 +179,8 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
                       restitute_error *error)
 {
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                  "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s: no more allowed",
-                  problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s: no more allowed",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
 /* Runs with a quarter, half and all of the elements. */
@@ -202,8 +202,8 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
     struct run run[3];
     int64_t n = first_elements(problem);
     if (n > most_elements)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld", (long long)n,
-                      (long long)most_elements);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld",
+                          (long long)n, (long long)most_elements);
     setup->radius = outcome->max_contact_radius;
     int status = start_refining(problem, setup, memory, n, run, error);
     while (!status) {
@@ -235,7 +235,7 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
     }
     if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
-                  problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->tolerance, outcome->error_ez, outcome->error_ex);
 }
 
 /* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
@@ -246,8 +246,8 @@ static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, 
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
     if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
-                      problem->chi, problem->psi);
+                          "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
+                          problem->chi, problem->psi);
     outcome->shear_velocity =
         slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
     return rst_done(error);

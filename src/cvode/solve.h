@@ -8,7 +8,7 @@
 /* What a solver keeps from call to call. */
 struct cvode_memory {
     struct rst_own_memory base; /* first */
-    struct trace trace; /* of the last impact */
+    struct trace trace;         /* of the last impact */
     struct event_log log;
     int wants_log;
     restitute_cvode_work work;

@@ -47,7 +47,7 @@ static void *buffer_append(struct buffer *buffer, size_t count, size_t size)
 static int no_memory(struct reading *reading)
 {
     return reading->status = rst_report(reading->error, RESTITUTE_ERROR_MEMORY, "%s line %zu: out of memory",
-                                       reading->name, reading->line);
+                                        reading->name, reading->line);
 }
 
 static void on_cell(void *bytes, size_t length, void *data)
@@ -57,7 +57,7 @@ static void on_cell(void *bytes, size_t length, void *data)
     if (reading->status != RESTITUTE_OK) return;
     if (memchr(bytes, '\0', length)) {
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a NUL byte; not a text file",
-                                    reading->name, reading->line);
+                                     reading->name, reading->line);
         return;
     }
     const size_t start = csv->text.count;
@@ -85,11 +85,11 @@ static int check_names(struct reading *reading)
         const char *name = cell_text(csv, i);
         if (!*name)
             return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
-                             reading->name, reading->line, i + 1);
+                              reading->name, reading->line, i + 1);
         for (size_t k = 0; k < i; k++)
             if (strcmp(name, cell_text(csv, k)) == 0)
                 return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
-                                 reading->name, reading->line, name);
+                                  reading->name, reading->line, name);
     }
     return RESTITUTE_OK;
 }
@@ -114,7 +114,7 @@ static void on_row_end(int terminator, void *data)
     } else if (count != csv->columns) {
         reading->status =
             rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %zu cells, but the header has %zu columns",
-                      reading->name, reading->line, count, csv->columns);
+                       reading->name, reading->line, count, csv->columns);
     } else {
         csv->rows++;
     }
@@ -134,7 +134,7 @@ static void feed_lines(struct csv_parser *parser, struct reading *reading, const
         if (quoted || *at != '#') {
             if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length)
                 reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
-                                            reading->line, csv_strerror(csv_error(parser)));
+                                             reading->line, csv_strerror(csv_error(parser)));
             for (size_t i = 0; i < length; i++)
                 quoted ^= at[i] == '"';
         }
@@ -149,13 +149,13 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     feed_lines(&parser, reading, text);
     if (csv_fini(&parser, on_cell, on_row_end, reading) != 0 && reading->status == RESTITUTE_OK)
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a quote is never closed",
-                                    reading->name, reading->line);
+                                     reading->name, reading->line);
     csv_free(&parser);
     if (reading->status == RESTITUTE_OK && reading->csv->columns == 0)
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT,
-                                    "%s: is empty; it must begin with a row of "
-                                    "column names",
-                                    reading->name);
+                                     "%s: is empty; it must begin with a row of "
+                                     "column names",
+                                     reading->name);
     return reading->status;
 }
 

@@ -53,7 +53,7 @@ int file_text_read(const char *path, struct file_text *text, restitute_error *er
     FILE *stream = standard ? stdin : fopen(path, "rb");
     if (!stream)
         return rst_report(error, RESTITUTE_ERROR_FILE, "%s: cannot be read: %s", file_name_for_message(path),
-                         strerror(errno));
+                          strerror(errno));
     const int status = read_stream(stream, text);
     const int reason = errno;
     if (!standard) fclose(stream);

@@ -70,13 +70,13 @@ static int copy_text(const struct material_file *file, const char *key, int requ
     const size_t line = json_line_of_key(file->text, key);
     if (!json_is_string(value))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
-                         key);
+                          key);
     const size_t length = json_string_length(value);
     if (length == 0 || length >= size || strlen(json_string_value(value)) != length)
         return rst_report(file->error, RESTITUTE_ERROR_DOMAIN,
-                         "%s line %zu: \"%s\" has %zu bytes: must have 1 to %zu, "
-                         "none of them zero",
-                         file->name, line, key, length, size - 1);
+                          "%s line %zu: \"%s\" has %zu bytes: must have 1 to %zu, "
+                          "none of them zero",
+                          file->name, line, key, length, size - 1);
     memcpy(target, json_string_value(value), length + 1);
     return RESTITUTE_OK;
 }
@@ -88,12 +88,12 @@ static int read_number(const struct material_file *file, const json_t *object, c
     const json_t *value = json_object_get(object, key);
     if (!value && !required) return RESTITUTE_OK;
     if (!value)
-        return line
-                   ? rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line, key)
-                   : rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
+        return line ? rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line,
+                                 key)
+                    : rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
     if (!json_is_number(value))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
-                         line ? line : json_line_of_key(file->text, key), key);
+                          line ? line : json_line_of_key(file->text, key), key);
     *number = json_number_value(value);
     return RESTITUTE_OK;
 }
@@ -106,7 +106,7 @@ static int read_positive(const struct material_file *file, const char *key, int 
     if (status != RESTITUTE_OK || !json_object_get(file->root, key)) return status;
     if (isfinite(*number) && (*number > 0 || (zero_allowed && *number == 0))) return RESTITUTE_OK;
     return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
-                     file->name, json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
+                      file->name, json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
 }
 
 static int read_poisson_ratio(const struct material_file *file, double *poisson_ratio)
@@ -114,7 +114,7 @@ static int read_poisson_ratio(const struct material_file *file, double *poisson_
     const int status = read_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
     if (status != RESTITUTE_OK || (*poisson_ratio >= 0 && *poisson_ratio <= 0.5)) return status;
     return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
-                     file->name, json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
+                      file->name, json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
 }
 
 static const struct model *find_model(const struct material_file *file, const char *name)
@@ -122,9 +122,9 @@ static const struct model *find_model(const struct material_file *file, const ch
     for (int i = 0; i < MODEL_COUNT; i++)
         if (strcmp(models[i].name, name) == 0) return &models[i];
     rst_report(file->error, RESTITUTE_ERROR_FORMAT,
-              "%s line %zu: model = \"%s\": must be elastic, standard_solid, "
-              "kelvin_voigt, maxwell or prony",
-              file->name, json_line_of_key(file->text, "model"), name);
+               "%s line %zu: model = \"%s\": must be elastic, standard_solid, "
+               "kelvin_voigt, maxwell or prony",
+               file->name, json_line_of_key(file->text, "model"), name);
     return NULL;
 }
 
@@ -146,7 +146,7 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
     {
         if (!is_allowed(model, key))
             return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
-                             file->name, json_line_of_key(file->text, key), key, model->name);
+                              file->name, json_line_of_key(file->text, key), key, model->name);
     }
     return RESTITUTE_OK;
 }
@@ -156,16 +156,16 @@ static int read_term(const struct material_file *file, const json_t *term, size_
 {
     if (!json_is_object(term))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
-                         "%s line %zu: each of \"terms\" must be an object "
-                         "{\"tau_s\": .., \"modulus_pa\": ..}",
-                         file->name, line);
+                          "%s line %zu: each of \"terms\" must be an object "
+                          "{\"tau_s\": .., \"modulus_pa\": ..}",
+                          file->name, line);
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)term, key, value)
     {
         if (strcmp(key, "tau_s") != 0 && strcmp(key, "modulus_pa") != 0)
             return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" in a term",
-                             file->name, line, key);
+                              file->name, line, key);
     }
     const int status = read_number(file, term, "tau_s", line, 1, time);
     return status == RESTITUTE_OK ? read_number(file, term, "modulus_pa", line, 1, modulus) : status;
@@ -176,9 +176,9 @@ static int read_term_list(const struct material_file *file, const json_t *list, 
     const size_t line = json_line_of_key(file->text, "terms");
     if (!json_is_array(list) || json_array_size(list) == 0)
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
-                         "%s line %zu: \"terms\" must be an array of at least one "
-                         "{\"tau_s\": .., \"modulus_pa\": ..}",
-                         file->name, line);
+                          "%s line %zu: \"terms\" must be an array of at least one "
+                          "{\"tau_s\": .., \"modulus_pa\": ..}",
+                          file->name, line);
     int status = prony_terms_allocate(json_array_size(list), terms, file->error);
     if (status != RESTITUTE_OK) return status;
     json_lines_of_items(file->text, "terms", terms->line, terms->count);
@@ -210,8 +210,8 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
     const json_t *list = json_object_get(file->root, "terms");
     if (!list == !json_object_get(file->root, "prony_csv"))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
-                         "%s: model prony needs either \"terms\" or \"prony_csv\"%s", file->name,
-                         list ? ", not both" : "");
+                          "%s: model prony needs either \"terms\" or \"prony_csv\"%s", file->name,
+                          list ? ", not both" : "");
     if (list) return read_term_list(file, list, terms);
     char name[1024];
     int status = copy_text(file, "prony_csv", 1, name, sizeof name);
@@ -309,7 +309,7 @@ static int read_json_material(const char *path, restitute_material **material, r
         status = material_from_root(&file, material, info);
     else
         status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s line %d column %d: not JSON: %.120s", file.name,
-                           reason.line, reason.column, reason.text);
+                            reason.line, reason.column, reason.text);
     json_decref(file.root);
     free(text.bytes);
     return status;
@@ -344,7 +344,7 @@ int restitute_material_read_info(const char *path, restitute_material **material
     if (extension && strcasecmp(extension, ".json") == 0) return read_json_material(path, material, info, error);
     if (extension && strcasecmp(extension, ".csv") == 0) return read_csv_material(path, material, info, error);
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
-                     file_name_for_message(path));
+                      file_name_for_message(path));
 }
 
 int restitute_material_read(const char *path, restitute_material **material, restitute_error *error)

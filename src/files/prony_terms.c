@@ -53,8 +53,8 @@ static int check_distinct(const struct prony_terms *terms, const char *file, con
         if (sorted[i].time == sorted[i - 1].time)
             status =
                 rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "%s line %zu: %s = %.15g stands in line %zu too: no two terms may have one relaxation time",
-                          file, sorted[i].line, time_key, sorted[i].time, sorted[i - 1].line);
+                           "%s line %zu: %s = %.15g stands in line %zu too: no two terms may have one relaxation time",
+                           file, sorted[i].line, time_key, sorted[i].time, sorted[i - 1].line);
     free(sorted);
     return status;
 }
@@ -67,8 +67,8 @@ int prony_terms_check(const struct prony_terms *terms, const char *file, const c
         const char *key[2] = {time_key, modulus_key};
         for (int k = 0; k < 2; k++)
             if (!(value[k] > 0 && isfinite(value[k])))
-                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and > 0", file,
-                                 terms->line[i], key[k], value[k]);
+                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and > 0",
+                                  file, terms->line[i], key[k], value[k]);
     }
     return check_distinct(terms, file, time_key, error);
 }
@@ -83,14 +83,14 @@ static int find_columns(const restitute_csv *csv, const char *file, size_t colum
         const int which = strcmp(name, names[0]) == 0 ? 0 : strcmp(name, names[1]) == 0 ? 1 : -1;
         if (which < 0)
             return rst_report(error, RESTITUTE_ERROR_FORMAT,
-                             "%s: unknown column %.64s; a Prony table has tau_s and G_Pa", file, name);
+                              "%s: unknown column %.64s; a Prony table has tau_s and G_Pa", file, name);
         column[which] = i;
         found[which] = 1;
     }
     for (int k = 0; k < 2; k++)
         if (!found[k])
             return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: no column %s; a Prony table has tau_s and G_Pa", file,
-                             names[k]);
+                              names[k]);
     return RESTITUTE_OK;
 }
 
@@ -101,7 +101,7 @@ static int read_cell(const restitute_csv *csv, const char *file, size_t row, siz
     const int status = restitute_number_read(cell, value);
     if (status == RESTITUTE_OK) return status;
     return rst_report(error, status, "%s line %zu: %s = \"%.64s\": must be a finite number > 0", file,
-                     restitute_csv_line(csv, row), restitute_csv_name(csv, column), cell);
+                      restitute_csv_line(csv, row), restitute_csv_name(csv, column), cell);
 }
 
 static int terms_from_table(const restitute_csv *csv, const char *file, struct prony_terms *terms,

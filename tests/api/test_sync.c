@@ -55,8 +55,10 @@ static void same_bits_whatever_was_solved_before(void **state)
     CHECK(restitute_solver_create(&options, &used, NULL) == RESTITUTE_OK, "solver");
     restitute_impact impact = random_impact(&random, solid, 0);
     for (int i = 0; i < 180; i++) {
-        if (i % 4 == 0) impact = random_impact(&random, solid, i / 4);
-        else impact.psi = random_log(&random, 0.05, 5); /* the same solid */
+        if (i % 4 == 0)
+            impact = random_impact(&random, solid, i / 4);
+        else
+            impact.psi = random_log(&random, 0.05, 5); /* the same solid */
         const struct solution fresh = solve_impact(options, impact);
         restitute_result again;
         restitute_ledger ledger;

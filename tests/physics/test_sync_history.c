@@ -91,7 +91,8 @@ static void samples_are_even_and_within_bounds(void **state)
              * solids, and 2 chi times that in U' while all slips */
             const double finest = 3 * pow(150, -4);
             CHECK_NEAR(-t->vz[last], r.ez, r.error_ez + finest, "%s, psi %g", name, psi);
-            CHECK_NEAR(t->vx[last], -r.ex * t->vx[0], r.error_ex * t->vx[0] + 2 * chi * finest, "%s, psi %g", name, psi);
+            CHECK_NEAR(t->vx[last], -r.ex * t->vx[0], r.error_ex * t->vx[0] + 2 * chi * finest, "%s, psi %g", name,
+                       psi);
             for (size_t j = 1; j <= last; j++) {
                 CHECK_NEAR(t->time[j], (double)j / (double)last * r.contact_time, 1e-14 * r.contact_time, "time");
                 CHECK(t->stick[j] >= 0 && t->stick[j] <= t->contact[j], "%s, psi %g: sample %zu", name, psi, j);

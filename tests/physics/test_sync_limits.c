@@ -239,7 +239,8 @@ static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
             const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
             restitute_solver_destroy(solver);
             if (delta1 > 5e4 && status == RESTITUTE_ERROR_TOO_MUCH_WORK && strstr(error.message, "damping")) continue;
-            if (delta1 < 5e4 && status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k])) continue;
+            if (delta1 < 5e4 && status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k]))
+                continue;
             print_error("delta1 %g at %g: status %d, ez %g, not %g; %s\n", delta1, tolerances[k], status, r.ez, ez,
                         error.message);
             wrong++;

@@ -1,10 +1,10 @@
 /* The loop over elements gives the same bits in every vector width that this processor has.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <setjmp.h>
 
 #include <cmocka.h>
 
