@@ -109,14 +109,14 @@ contains
     call series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau)
   end subroutine rst_series_chain
 
-  pure subroutine rst_scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, sinks) &
+  pure subroutine rst_scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks) &
     bind(c, name="rst_scout_compression")
     real(c_double), intent(in), value :: g_inf, eta, rest_speed
     integer(c_int64_t), intent(in), value :: n_terms, can_sink
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: stress(n_terms), depth, time
+    real(c_double), intent(out) :: stress(n_terms), depth, time, force
     integer(c_int64_t), intent(out) :: sinks
-    call scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, sinks)
+    call scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
   end subroutine rst_scout_compression
 
   pure subroutine rst_start_impact(scene, state, x2) bind(c, name="rst_start_impact")

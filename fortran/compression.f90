@@ -18,16 +18,18 @@ contains
   !>
   !> `stress` is workspace for n_terms values. `sinks` is 1 when the kinetic energy and all that the foundation
   !> could still give back are below rest_speed**2: such a sphere rebounds slower than rest_speed, if ever (THEORY 4.9).
-  pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, sinks)
+  pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
     real(dp), intent(in) :: g_inf, eta, rest_speed
     integer(ip), intent(in) :: n_terms, can_sink
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: stress(n_terms), depth, time
+    real(dp), intent(out) :: force  !! the largest, int f dX
     integer(ip), intent(out) :: sinks
-    real(dp) :: velocity, h, radius, force, admittance, next
+    real(dp) :: velocity, h, radius, push, admittance, next
     integer(ip) :: step, k
 
     sinks = 0
+    force = 0
     velocity = 1
     time = first_step(g_inf, eta, n_terms, g)
     depth = time
@@ -35,13 +37,14 @@ contains
     do step = 1, 20000
       h = growth*time
       radius = sqrt(depth)
-      force = g_inf*(2.0_dp/3.0_dp)*depth*radius
+      push = g_inf*(2.0_dp/3.0_dp)*depth*radius
       admittance = radius*(eta + g_inf*h)
       do k = 1, n_terms
-        force = force + stress(k)*tau(k)/(tau(k) + h)
+        push = push + stress(k)*tau(k)/(tau(k) + h)
         admittance = admittance + radius*h*g(k)*tau(k)/(tau(k) + h)
       end do
-      next = (velocity - mass_factor*h*force)/(1 + mass_factor*h*admittance)
+      next = (velocity - mass_factor*h*push)/(1 + mass_factor*h*admittance)
+      force = max(force, (velocity - next)/(mass_factor*h))
       if (next <= 0) then  ! the turning point lies within this step
         h = h*velocity/(velocity - next)
         depth = depth + 0.5_dp*h*velocity

@@ -36,7 +36,7 @@ struct layout {
 };
 
 struct scout {
-    double depth, time; /* largest indentation and when, about 1 % accurate */
+    double depth, time, force; /* largest indentation and when, largest force, about 1 % accurate */
     int64_t sinks;
     double stable_step;
 };
@@ -82,7 +82,7 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
     const struct rst_solid *s = &problem->solid;
     struct layout l = lay_out(problem, workspace, 0);
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem), l.stress,
-                          &scout->depth, &scout->time, &scout->sinks);
+                          &scout->depth, &scout->time, &scout->force, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
     double coupling = 15.0 / 8.0 * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);

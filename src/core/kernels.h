@@ -117,7 +117,7 @@ void rst_series_chain(const struct rst_chain *a, const double *m_a, const double
                       struct rst_chain *pair, double *m, double *tau);
 void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                            int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,
-                           int64_t *sinks);
+                           double *force, int64_t *sinks);
 
 void rst_start_impact(const struct euler_scene *scene, struct euler_state *state, double *x2);
 void rst_advance_impact(const struct euler_scene *scene, const double *g, const double *tau, const double *decay,

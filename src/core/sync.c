@@ -195,14 +195,34 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     outcome->normal_levels = normal->levels;
 }
 
+/* Where a sphere that sinks in was given up: how deep, when, the largest force until then, about 1 % accurate. */
+struct scout {
+    int64_t sinks;
+    double depth, time, force;
+};
+
+/* A rebound slower than that is none. */
+static double rest_speed(const struct rst_problem *problem)
+{
+    return 0.01 * problem->tolerance;
+}
+
 /* A solid without equilibrium modulus that the sphere sinks into (THEORY 4.9). The tangential velocity ends at nothing too, unless it
  * slips to the end: with 2 chi > 1 it falls faster than the normal one, once the contact sticks. With 2 chi <= 1, rotation
  * being blocked, it falls more slowly and what is left has no closed form. */
-static int solve_sunk(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
+static int solve_sunk(const struct rst_problem *problem, const struct scout *scout, struct rst_outcome *outcome,
+                      restitute_error *error)
 {
     const int slides = !rst_sync_sticks(problem, 0);
-    *outcome =
-        (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0, .contact_time = INFINITY, .sunk = 1};
+    *outcome = (struct rst_outcome){.shear_velocity = slides ? full_slip(problem, 0) : 0,
+                                    .error_ez = rest_speed(problem),
+                                    .contact_time = INFINITY,
+                                    .followed_time = scout->time,
+                                    .max_indentation = scout->depth,
+                                    .max_contact_radius = sqrt(scout->depth),
+                                    .max_normal_force = 15.0 / 8.0 * scout->force,
+                                    .sunk = 1};
+    if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * rest_speed(problem) / problem->psi;
     return rst_done(error);
 }
 
@@ -368,15 +388,15 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
 }
 
 /* Whether the sphere sinks in for good; only a solid without equilibrium modulus lets it. */
-static int sinks(const struct rst_problem *problem, const struct rst_workspace *workspace)
+static struct scout look_ahead(const struct rst_problem *problem, const struct rst_workspace *workspace)
 {
     const struct rst_solid *s = &problem->solid;
-    double depth, time, *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
-    int64_t sinks = 0;
+    double *stress = workspace->terms + 4 * (workspace->terms_size / rst_term_arrays);
+    struct scout scout = {0};
     if (s->can_sink)
-        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, 0.01 * problem->tolerance,
-                              stress, &depth, &time, &sinks);
-    return sinks != 0;
+        rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem), stress,
+                              &scout.depth, &scout.time, &scout.force, &scout.sinks);
+    return scout;
 }
 
 /* Friction so strong that slip at the edge changes e_x by less than the tolerance: by about psi. */
@@ -395,14 +415,14 @@ static int solve_strong_friction(const struct rst_problem *problem, struct rst_w
 static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                       struct rst_outcome *outcome, restitute_error *error)
 {
-    const int sunk = sinks(problem, workspace);
-    if (sunk && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
+    const struct scout scout = look_ahead(problem, workspace);
+    if (scout.sinks && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
         return rst_method_euler.solve(problem, workspace, keep_ledger, outcome, error);
     const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
                        change_by_slip * problem->psi < negligible_part * problem->tolerance;
-    const int status = sunk     ? solve_sunk(problem, outcome, error)
-                       : strong ? solve_strong_friction(problem, workspace, outcome, error)
-                                : solve_refining(problem, workspace, outcome, error);
+    const int status = scout.sinks ? solve_sunk(problem, &scout, outcome, error)
+                       : strong    ? solve_strong_friction(problem, workspace, outcome, error)
+                                   : solve_refining(problem, workspace, outcome, error);
     if (status < 0 || !keep_ledger) return status;
     const int kept = rst_sync_ledger(problem, workspace, outcome, error);
     return kept ? kept : status;

@@ -93,19 +93,20 @@ static void step_is_stable_just_below_the_limit_and_not_above(void **state)
     }
 }
 
-/* The look ahead sizes the foundation: it must know the depth to two per cent. */
+/* The look ahead sizes the foundation: it must know the depth to two per cent, and the force of an elastic body. */
 static void scout_knows_the_largest_indentation(void **state)
 {
     (void)state;
     struct truth rows[truth_rows];
     read_truth(rows);
     for (int i = 0; i < truth_rows; i++) {
-        double theta = rst_theta_from_delta1(rows[i].delta1), stress, depth, time;
+        double theta = rst_theta_from_delta1(rows[i].delta1), stress, depth, time, force;
         double g = 1 / rows[i].gamma, tau = rows[i].gamma * theta;
         int64_t n = rows[i].gamma > 0 && theta > 0, sinks;
-        rst_scout_compression(1, n ? 0 : theta, n, &g, &tau, 0, 1e-5, &stress, &depth, &time, &sinks);
+        rst_scout_compression(1, n ? 0 : theta, n, &g, &tau, 0, 1e-5, &stress, &depth, &time, &force, &sinks);
         CHECK_NEAR(depth, rows[i].max_indentation, 0.02 * rows[i].max_indentation, "row %d", i);
         CHECK(!sinks && time > 0, "row %d", i);
+        if (theta == 0) CHECK_NEAR(force, 2.0 / 3, 0.02 * 2 / 3, "row %d", i); /* (2/3) D^(3/2) */
     }
 }
 
