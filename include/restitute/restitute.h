@@ -303,7 +303,7 @@ typedef struct restitute_result {
                                   the sign is that of (26): ex > 0 if the contact point turns back */
     double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms included */
     double contact_time;       /**< T or s; infinity with NO_REBOUND */
-    double max_indentation;    /**< d0 or m */
+    double max_indentation;    /**< d0 or m; with NO_REBOUND where the sphere was given up */
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */
     double merging_bound;      /**< bound on the change of ez and ex by merged relaxation times, docs/theory.md */
