@@ -89,7 +89,7 @@ contains
     viscosity = eta
     do k = 1, n_terms
       age = 0.8_dp*tau(k)/depth
-      stiffness = stiffness + g(k)*age/(1 + age)
+      stiffness = stiffness + g(k)*(age/(1 + age))**2
       viscosity = viscosity + g(k)*tau(k)/(1 + age)**2
     end do
     small_radius = depth*stiffness/max(viscosity, tiny(1.0_dp)*1.0e200_dp)**2

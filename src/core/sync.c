@@ -106,26 +106,31 @@ static int make_dense(const struct rst_problem *problem, struct rst_workspace *w
                       (long long)normal->levels);
 }
 
+/* Every other level again and again, down to at most `most`. */
+static int64_t thin_levels(const struct rst_problem *problem, const struct store *store, int64_t levels, int64_t most)
+{
+    const struct rst_solid *s = &problem->solid;
+    while (levels > most && levels % 4 == 0) {
+        levels /= 2;
+        rst_thin_levels(s->n_terms, s->g, s->tau, levels, store->level, store->trace, store->node);
+    }
+    return levels;
+}
+
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
                     int64_t *levels, double **room, restitute_error *error)
 {
     struct normal normal;
-    int64_t coarse = outcome->normal_levels;
-    const int64_t wanted = outcome->elements < most ? outcome->elements : most;
-    while (coarse > most && coarse % 4 == 0)
-        coarse /= 2;
-    for (;; coarse *= 2) {
-        const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
-        int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
-        *levels = ratio * coarse;
-        if (status) return status;
-        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        if (normal.levels > 0)
-            status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * *levels + 1) + more, store,
-                                room, error);
-        if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || coarse >= outcome->normal_levels) return status;
-    }
+    const int64_t coarse = outcome->normal_levels, wanted = outcome->elements < most ? outcome->elements : most;
+    const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
+    int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
+    if (status) return status;
+    status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * ratio * coarse + 1) + more, store,
+                        room, error);
+    if (status) return status;
+    *levels = thin_levels(problem, store, ratio * coarse, wanted);
+    return RESTITUTE_OK;
 }
 
 /* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */
@@ -245,13 +250,14 @@ double rst_sync_levels_to_start(const struct rst_problem *problem)
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs, times the trials
- * of a step where chi is large and levels are few; the next has four times what the last took. Without slip no element is
+ * of a step where chi is large and levels are few; the next has four times what the last took, or more trials. Without slip no element is
  * stepped. */
 static double updates_ahead(const struct rst_problem *problem, int64_t levels, int64_t last)
 {
     const double n = (double)levels, stepped = problem->mode == RST_NO_SLIP ? 2 : n;
-    const double trials = problem->chi > 0.01 * n * n ? 8 : 1;
-    return last > 0 ? 4 * (double)last : 2 * n + 1.25 * trials * n * stepped * (double)(1 + problem->solid.n_terms);
+    const double trials = problem->chi > 0.01 * n * n ? 20 : 1;
+    return last > 0 ? (trials > 1 ? 12 : 4) * (double)last
+                    : 2 * n + 1.25 * trials * n * stepped * (double)(1 + problem->solid.n_terms);
 }
 
 static int told_too_few_or_many(const struct rst_problem *problem, restitute_error *error)
@@ -268,8 +274,8 @@ static int give_up(const struct rst_problem *problem, double ahead, restitute_er
 {
     if (ahead > (double)problem->max_updates)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_updates = %lld: spent before there was a result; raise it",
-                          (long long)problem->max_updates);
+                          "max_updates = %lld: too few for a result, which may take %.2g; raise it",
+                          (long long)problem->max_updates, ahead);
     if (problem->elements > 0) return told_too_few_or_many(problem, error);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "iterations do not settle with up to %d levels; take the method euler for this solid",
@@ -291,7 +297,8 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
-/* The normal problem, to a part of the tolerance if the contact sticks. */
+/* The normal problem, to a part of the tolerance if the contact sticks. Between the levels of a graded grid the motion is not known
+ * as well as at them: there the tangential problem has no more levels. */
 static int solve_normal(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                         restitute_error *error)
 {
@@ -302,68 +309,127 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         const int64_t levels = multiple_of(4, fmax(least_told, (double)problem->elements));
         return rst_sync_normal(problem, workspace, levels / (levels % 8 ? 2 : 4), levels, wanted, normal, error);
     }
-    const int64_t levels = multiple_of(8, normal_levels_to_start(wanted));
+    double start = normal_levels_to_start(wanted);
+    if (sticks && rst_sync_is_graded(problem)) start = fmax(start, rst_sync_levels_to_start(problem));
+    const int64_t levels = multiple_of(8, start);
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
 
-/* The first two runs of the tangential problem, at `ratio` times the levels of the normal one and at half of that, from the same
- * levels. */
-static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                      int64_t ratio, struct run *half, struct run *now, struct rst_outcome *outcome,
-                      restitute_error *error)
+/* How many levels the tangential problem has: `ratio` times those of the normal one, or these thinned. */
+struct resolution {
+    int64_t ratio, levels;
+};
+
+static int prepare(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                   const struct resolution *resolution, struct store *store, struct rst_outcome *outcome,
+                   restitute_error *error)
 {
-    const struct rst_solid *s = &problem->solid;
-    const int64_t n = ratio * normal->levels;
-    struct store store;
     double *room;
-    const int status = make_dense(problem, workspace, normal, ratio, 0, &store, &room, error);
+    const int status = make_dense(problem, workspace, normal, resolution->ratio, 0, store, &room, error);
     if (status) return status;
-    follow_shear(problem, workspace, n, &store, now);
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(store.level, n);
-    rst_thin_levels(s->n_terms, s->g, s->tau, n / 2, store.level, store.trace, store.node);
-    follow_shear(problem, workspace, n / 2, &store, half);
-    outcome->updates += half->updates + now->updates;
+    outcome->max_normal_force = 15.0 / 8.0 * largest_force(store->level, resolution->ratio * normal->levels);
+    thin_levels(problem, store, resolution->ratio * normal->levels, resolution->levels);
     return RESTITUTE_OK;
 }
 
-static int next_run(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                    int64_t ratio, struct run *now, struct rst_outcome *outcome, restitute_error *error)
+/* A run of half the levels, from every other one. */
+static void run_half(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t levels,
+                     const struct store *store, struct run *run, struct rst_outcome *outcome)
+{
+    const struct rst_solid *s = &problem->solid;
+    rst_thin_levels(s->n_terms, s->g, s->tau, levels / 2, store->level, store->trace, store->node);
+    follow_shear(problem, workspace, levels / 2, store, run);
+    outcome->updates += run->updates;
+}
+
+/* Two runs on end: the first two, from the same levels, or one more after `now`. If the updates allowed may not be enough for both
+ * of the first two, it is the half one alone, which tells what the other would take. */
+static int advance_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                        const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
+                        struct rst_outcome *outcome, restitute_error *error)
 {
     struct store store;
-    double *room;
-    const int status = make_dense(problem, workspace, normal, ratio, 0, &store, &room, error);
+    const int first = now->levels == 0;
+    const int status = prepare(problem, workspace, normal, resolution, &store, outcome, error);
     if (status) return status;
-    follow_shear(problem, workspace, ratio * normal->levels, &store, now);
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(store.level, now->levels);
-    outcome->updates += now->updates;
+    *before = *now;
+    if (!half_alone) {
+        follow_shear(problem, workspace, resolution->levels, &store, now);
+        outcome->updates += now->updates;
+    }
+    if (half_alone)
+        run_half(problem, workspace, resolution->levels, &store, now, outcome);
+    else if (first)
+        run_half(problem, workspace, resolution->levels, &store, before, outcome);
     return RESTITUTE_OK;
+}
+
+/* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it where
+ * its grid is graded. normal->levels is 0 if that does not settle. */
+static int double_levels(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
+                         struct resolution *resolution, restitute_error *error)
+{
+    struct normal finer;
+    int status = RESTITUTE_OK;
+    if (resolution->levels >= resolution->ratio * normal->levels) {
+        if (rst_sync_is_graded(problem)) {
+            status = rst_sync_normal_again(problem, workspace, 2 * normal->levels, &finer, error);
+            normal->levels = finer.levels;
+            normal->level = finer.level;
+            normal->taken_off /= 16;
+        } else
+            resolution->ratio *= 2;
+    }
+    resolution->levels *= 2;
+    return status;
+}
+
+static int too_many(const struct rst_problem *problem, int64_t levels)
+{
+    return updates_ahead(problem, levels, 0) > (double)problem->max_updates;
+}
+
+/* Not less than the median impact needs, nor less than half of what the normal problem has if that is more; fewer if the updates
+ * allowed do not suffice. */
+static struct resolution first_resolution(const struct rst_problem *problem, const struct normal *normal)
+{
+    const int told = problem->elements > 0;
+    const double needed = told ? (double)normal->levels : rst_sync_levels_to_start(problem);
+    struct resolution r = {.ratio = 1, .levels = normal->levels};
+    if (!rst_sync_is_graded(problem)) r.ratio = (int64_t)ceil(needed / (double)normal->levels);
+    while (!told && r.ratio > 1 && too_many(problem, r.ratio * normal->levels))
+        r.ratio /= 2;
+    r.levels = r.ratio * normal->levels;
+    while (!told && r.levels % 8 == 0 && ((double)r.levels >= 2 * needed || too_many(problem, r.levels)))
+        r.levels /= 2;
+    return r;
 }
 
 /* Levels of the tangential problem are doubled until two runs on end agree. `ahead`: updates with a run that was not made. */
-static int refine_shear(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+static int refine_shear(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                         struct rst_outcome *outcome, double *ahead, restitute_error *error)
 {
-    const double needed = problem->elements > 0 ? (double)normal->levels : rst_sync_levels_to_start(problem);
-    int64_t ratio = (int64_t)ceil(needed / (double)normal->levels);
-    struct run now = {0}, before;
+    struct resolution resolution = first_resolution(problem, normal);
+    const double allowed = (double)problem->max_updates, enough = acceptance * problem->tolerance;
+    struct run now = {0}, before = {0};
     outcome->elements = 0; /* no result yet */
-    while (problem->elements <= 0 && ratio > 1 &&
-           updates_ahead(problem, ratio * normal->levels, 0) > (double)problem->max_updates)
-        ratio /= 2;
-    for (;; ratio *= 2) {
-        const int64_t n = ratio * normal->levels;
-        *ahead = (double)outcome->updates + updates_ahead(problem, n, now.updates);
-        if (n > rst_sync_most_levels || *ahead > (double)problem->max_updates) break;
+    for (;;) {
+        const int64_t n = resolution.levels;
+        const double both = updates_ahead(problem, n, now.updates);
+        const int half_alone = now.levels == 0 && (double)outcome->updates + both > allowed;
+        *ahead = (double)outcome->updates + (half_alone ? both / 5 : both);
+        if (n > rst_sync_most_levels || *ahead > allowed) break;
         if (now.levels > 0 && rounding_of_level * (double)n > problem->tolerance) break;
-        before = now;
-        const int status = now.levels > 0
-                               ? next_run(problem, workspace, normal, ratio, &now, outcome, error)
-                               : first_runs(problem, workspace, normal, ratio, &before, &now, outcome, error);
+        int status = advance_runs(problem, workspace, normal, &resolution, half_alone, &before, &now, outcome, error);
         if (status) return status;
         if (!isfinite(now.velocity)) break;
+        if (half_alone) continue;
         note_shear(problem, normal, &before, &now, outcome);
-        if (problem->elements > 0 || fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
-            break;
+        /* what the normal problem is off by does not fall any more */
+        const int in_vain = fmax(normal->error, 2 * normal->taken_off) > enough;
+        if (problem->elements > 0 || in_vain || fmax(outcome->error_ez, outcome->error_ex) <= enough) break;
+        status = double_levels(problem, workspace, normal, &resolution, error);
+        if (status || normal->levels == 0) return status;
     }
     return RESTITUTE_OK;
 }

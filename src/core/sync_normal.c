@@ -12,9 +12,9 @@
 static const double part_taken = 1.0 / 15;
 
 /* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that may be small
- * by chance, a part of n^-4. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
+ * by chance, a part of n^-4.5, as the median error falls. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
  * small (docs/accuracy.md). */
-static const double share_of_difference = 0.5, usual_error = 0.6, share_of_change = 0.6, usual_error_of_two = 5;
+static const double share_of_difference = 0.5, usual_error = 2.5, share_of_change = 0.6, usual_error_of_two = 5;
 
 /* The levels have what extrapolation takes off; it is to be this part of the error that is wanted. */
 static const double left_in_levels = 0.1;
@@ -116,6 +116,14 @@ static int run(const struct rst_problem *problem, const struct rst_workspace *wo
     return failed || !isfinite(level[2 * n].velocity);
 }
 
+int rst_sync_is_graded(const struct rst_problem *problem)
+{
+    const struct rst_solid *s = &problem->solid;
+    struct sync_grid grid;
+    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
+    return grid.start > 0;
+}
+
 static int choose_grid(const struct rst_problem *problem, struct normal *normal, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
@@ -164,7 +172,7 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
         normal->contact_time = end->time + part_taken * (end->time - series->time);
         normal->depth = normal->level[normal->levels].depth;
         normal->error = series->count > 1
-                            ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4)
+                            ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4.5)
                             : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
         normal->error += 1.5 * rst_sync_closeness(problem);
         normal->taken_off = part_taken * fabs(change);

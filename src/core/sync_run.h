@@ -35,6 +35,9 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
 /* Room that rst_sync_normal takes in workspace->levels. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
 
+/* Whether damping is so strong that levels crowd at both ends of the compression. */
+int rst_sync_is_graded(const struct rst_problem *problem);
+
 /* The count that the median impact needs for its estimate of e_x to meet the tolerance. */
 double rst_sync_levels_to_start(const struct rst_problem *problem);
 

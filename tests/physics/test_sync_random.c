@@ -27,6 +27,11 @@ static restitute_impact random_impact(uint64_t *random)
         psi = random_in(random, 4, 12) * chi;
         gamma = random_log(random, 1e-3, 1) / (sqrt(32.0 / 15) * delta1);
     }
+    if (kind == 3) { /* rotation blocked and strong damping: slip begins in the moment in which the contact shrinks */
+        delta1 = random_log(random, 3, 30);
+        gamma = random_log(random, 1e-6, 1e-3);
+        return impact_of(random_in(random, 1.0 / 3, 0.5), random_log(random, 0.05, 1), delta1, gamma);
+    }
     return impact_of(fmax(chi, 1.0 / 3), psi, delta1, gamma);
 }
 
