@@ -465,17 +465,25 @@ static struct scout look_ahead(const struct rst_problem *problem, const struct r
     return scout;
 }
 
-/* Friction so strong that slip at the edge changes e_x by less than the tolerance: by about psi. */
-static int solve_strong_friction(const struct rst_problem *problem, struct rst_workspace *workspace,
+/* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about psi, is no slip; the energies in x
+ * are those parts of the whole, psi^2. */
+static int solve_strong_friction(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                                  struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_problem without_slip = *problem;
+    struct euler_ledger *ledger = &outcome->ledger;
+    const double psi = problem->psi;
     without_slip.mode = RST_NO_SLIP;
     without_slip.psi = 1;
     const int status = solve_refining(&without_slip, workspace, outcome, error);
-    outcome->shear_velocity *= problem->psi;
-    outcome->error_ex += change_by_slip * problem->psi;
-    return status;
+    const int kept =
+        status >= 0 && keep_ledger ? rst_sync_ledger(&without_slip, workspace, outcome, error) : RESTITUTE_OK;
+    outcome->shear_velocity *= psi;
+    outcome->error_ex += change_by_slip * psi;
+    ledger->friction_x *= psi * psi;
+    ledger->viscous_x *= psi * psi;
+    ledger->left_x *= psi * psi;
+    return kept ? kept : status;
 }
 
 static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
@@ -484,11 +492,11 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     const struct scout scout = look_ahead(problem, workspace);
     if (scout.sinks && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
         return rst_method_euler.solve(problem, workspace, keep_ledger, outcome, error);
-    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-                       change_by_slip * problem->psi < negligible_part * problem->tolerance;
-    const int status = scout.sinks ? solve_sunk(problem, &scout, outcome, error)
-                       : strong    ? solve_strong_friction(problem, workspace, outcome, error)
-                                   : solve_refining(problem, workspace, outcome, error);
+    if (problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 && !scout.sinks &&
+        change_by_slip * problem->psi < negligible_part * problem->tolerance)
+        return solve_strong_friction(problem, workspace, keep_ledger, outcome, error);
+    const int status =
+        scout.sinks ? solve_sunk(problem, &scout, outcome, error) : solve_refining(problem, workspace, outcome, error);
     if (status < 0 || !keep_ledger) return status;
     const int kept = rst_sync_ledger(problem, workspace, outcome, error);
     return kept ? kept : status;

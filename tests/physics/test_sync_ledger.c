@@ -1,6 +1,7 @@
 /* The ledger of the method sync: both accounts close to second order, and agree with those of the method euler.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/solids.h"
+#include "../support/sync.h"
 
 static const double chi = 7.0 / 6;
 
@@ -89,6 +90,20 @@ static void dissipation_is_never_negative(void **state)
                   l.friction_x, l.viscous_x, l.left_x);
             if (psi <= 0) CHECK(l.friction_x == 0, "%s: friction %g without slip", all[i].name, l.friction_x);
             if (i == 0) CHECK(l.viscous_z == 0 && l.viscous_x == 0, "elastic: viscous %g %g", l.viscous_z, l.viscous_x);
+        }
+}
+
+/* Friction so strong that slip is left out has the ledger of no slip, as parts of psi^2, whatever psi. */
+static void so_is_that_of_strong_friction(void **state)
+{
+    (void)state;
+    for (int i = 0; i < solids; i++)
+        for (double psi = 1e-6; psi > 1e-30; psi *= 1e-8) {
+            const struct restitute_ledger l = solve_impact(sync_to(1e-3), impact_with(&all[i], chi, psi)).ledger;
+            const struct restitute_ledger none = solve_impact(sync_to(1e-3), impact_with(&all[i], chi, 0)).ledger;
+            CHECK(l.friction_x == 0, "%s, psi %g: friction %g", all[i].name, psi, l.friction_x);
+            CHECK_NEAR(l.viscous_x, none.viscous_x, 1e-12, "%s, psi %g", all[i].name, psi);
+            CHECK_NEAR(l.residual_x, none.residual_x, 1e-12, "%s, psi %g", all[i].name, psi);
         }
 }
 
@@ -192,6 +207,7 @@ int main(void)
         cmocka_unit_test(both_accounts_close_to_second_order),
         cmocka_unit_test(residuals_shrink_with_levels),
         cmocka_unit_test(dissipation_is_never_negative),
+        cmocka_unit_test(so_is_that_of_strong_friction),
         cmocka_unit_test(entries_are_those_of_euler),
         cmocka_unit_test(friction_of_full_slip_is_known),
         cmocka_unit_test(without_friction_the_tangential_energy_stays),
