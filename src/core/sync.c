@@ -20,6 +20,9 @@ static const double part_taken = 1.0 / 14;
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
 static const double share_of_change = 0.6, usual_error = 30, thin_slip = 0.1, rounding_of_level = 6e-13;
 
+/* Above that chi slip may end everywhere within a step, and again: such errors fall with n^-2, irregularly. */
+static const double turning_back = 2, usual_error_then = 0.3;
+
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
 
@@ -193,6 +196,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     outcome->shear_velocity = now->velocity + change * part_taken;
     outcome->error_ex = share_of_change * fabs(change) / problem->psi + usual / (n * n * n) + rounding_of_level * n +
                         fmax(normal->error, 2 * normal->taken_off);
+    if (problem->chi > turning_back) outcome->error_ex += usual_error_then / (n * n);
     outcome->spacing = sqrt(normal->depth) / n;
     outcome->step = outcome->contact_time / (2 * n);
     outcome->elements = now->levels;
