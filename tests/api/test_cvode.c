@@ -59,6 +59,38 @@ static void failures_touch_nothing(void **state)
     restitute_solver_destroy(solver);
 }
 
+/* What max_updates allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
+ * reference; elements are as many as fit, and no more than were asked for. */
+static void max_updates_ends_with_the_best_result(void **state)
+{
+    const restitute_impact impact = impact_of(8, 0.5, 0, 1);
+    const double ex = solve_impact(cvode_to(1e-6), impact).result.ex;
+    double last_error = INFINITY;
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        restitute_options options = cvode_to(1e-6);
+        restitute_result r;
+        restitute_error error;
+        char named[60];
+        restitute_result_init(&r);
+        options.max_updates = 50001 * (int64_t)lround(pow(3, i));
+        options.elements = i == 3 ? 400 : 0;
+        restitute_solver *solver = make(options);
+        const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
+        CHECK(status == RESTITUTE_TOLERANCE_NOT_REACHED, "%lld: %d, %s", (long long)options.max_updates, status,
+              error.message);
+        snprintf(named, sizeof named, "max_updates = %lld:", (long long)options.max_updates);
+        CHECK(strstr(error.message, named) != NULL, "\"%s\" is not in \"%s\"", named, error.message);
+        CHECK(r.updates <= options.max_updates * 1.01, "%lld of %lld", (long long)r.updates,
+              (long long)options.max_updates); /* looked at after a step, so the last one may pass it */
+        CHECK(r.error_ex < last_error && (i != 3 || r.elements < 400), "%lld elements, %g", (long long)r.elements,
+              r.error_ex);
+        CHECK_NEAR(r.ex, ex, r.error_ex + 1e-6, "%lld elements", (long long)r.elements);
+        last_error = r.error_ex;
+        restitute_solver_destroy(solver);
+    }
+}
+
 static void arguments_are_checked(void **state)
 {
     restitute_solver *solver = make(cvode_to(1e-3));
@@ -198,6 +230,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failures_touch_nothing),
+        cmocka_unit_test(max_updates_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),
         cmocka_unit_test(scenes_leave_out_what_they_do_not_need),
