@@ -298,8 +298,7 @@ static int integrate_from(struct run *run)
                                              .newton = call_newton,
                                              .weights = call_weights,
                                              .owner = run};
-    run->integrator = integrator_create(&system, run->time, run->y, run->text, sizeof run->text);
-    return run->integrator ? RESTITUTE_OK : RESTITUTE_ERROR_INTEGRATOR;
+    return integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
 /* ------------------------------------------------------------------------------------------------ elements */

@@ -306,16 +306,23 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 
 /* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
  * it slides slower and slower without a closed form. */
-static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
+static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
+                restitute_error *error)
 {
     const int slides = problem->mode == RST_FRICTIONLESS ||
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
     if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
-                          problem->chi, problem->psi);
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",
+            problem->chi, problem->psi);
     outcome->shear_velocity =
         slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all sticks, psi < 1, U' falls
+     * with D' in proportion */
+    outcome->error_ez = setup->rest_speed;
+    outcome->error_ex =
+        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->psi);
     return rst_done(error);
 }
 
@@ -355,7 +362,7 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
     *outcome = normal;
     outcome->updates = memory->updates;
     if (normal.sunk)
-        status = stay(problem, outcome, error);
+        status = stay(problem, &setup, outcome, error);
     else if (slips_to_the_end(&setup, setup.rebound))
         status = without_elements(problem, &normal, outcome, error);
     else

@@ -164,10 +164,10 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
     CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
 }
 
-/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. */
+/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are more samples than steps. */
 static void history_ends_with_the_pair(void **state)
 {
-    enum { samples = 50 };
+    enum { samples = 500 };
     static double a[8][samples];
     restitute_solver *solver = make(cvode_to(1e-5));
     const double psi[] = {0, 0.7, 1.8, 9};
@@ -183,7 +183,7 @@ static void history_ends_with_the_pair(void **state)
         h.time = a[0], h.indentation = a[1], h.contact_radius = a[2], h.stick_radius = a[3];
         h.normal_force = a[4], h.tangential_force = a[5], h.normal_velocity = a[6], h.tangential_velocity = a[7];
         CHECK(restitute_solve(solver, &impact, &result, NULL, &h, &error) == 0, "%s", error.message);
-        CHECK(h.count == samples, "%zu", h.count);
+        CHECK(h.count == samples && result.steps < samples / 2, "%zu of %lld steps", h.count, (long long)result.steps);
         for (int k = 0; k < samples; k++) {
             CHECK_NEAR(a[0][k], k * result.contact_time / (samples - 1), 1e-5, "sample %d", k);
             CHECK(a[3][k] <= a[2][k] && a[4][k] >= -1e-6, "sample %d: %g of %g, force %g", k, a[3][k], a[2][k],
@@ -206,6 +206,12 @@ static void sinking_spheres_are_told(void **state)
     const struct solution s = solve_impact(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
     CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
     CHECK(s.result.ez == 0 && s.result.ex == 0 && isinf(s.result.contact_time), "%g %g", s.result.ez, s.result.ex);
+    /* a rebound slower than a hundredth of the tolerance is not told from none */
+    CHECK_NEAR(s.result.error_ez, 1e-6, 1e-15, "the threshold");
+    CHECK(s.result.error_ex >= 1e-6 && s.result.error_ex < 1e-4, "%g", s.result.error_ex);
+    restitute_solver *solver = make(cvode_to(1e-4));
+    refused(solver, impact_on(maxwell, 0.4, 0.5), RESTITUTE_ERROR_DOMAIN, "euler or sync");
+    restitute_solver_destroy(solver);
     restitute_material_destroy(maxwell);
 }
 
