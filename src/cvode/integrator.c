@@ -175,8 +175,10 @@ int integrator_create(const struct integrator_system *system, double t, const do
     struct integrator *g = calloc(1, sizeof *g);
     int status = RESTITUTE_ERROR_MEMORY;
     *integrator = NULL;
-    snprintf(text, (size_t)text_size, "out of memory for CVODE");
-    if (!g) return status;
+    if (!g) {
+        snprintf(text, (size_t)text_size, "out of memory for CVODE");
+        return status;
+    }
     g->system = *system;
     g->direction = malloc(roots * sizeof *g->direction);
     g->events = calloc(roots, sizeof *g->events);
@@ -190,7 +192,8 @@ int integrator_create(const struct integrator_system *system, double t, const do
     if (status == RESTITUTE_OK)
         *integrator = g;
     else {
-        if (status == RESTITUTE_ERROR_INTEGRATOR) snprintf(text, (size_t)text_size, "%s", integrator_text(g));
+        snprintf(text, (size_t)text_size, "%s",
+                 status == RESTITUTE_ERROR_MEMORY ? "out of memory for CVODE" : integrator_text(g));
         integrator_destroy(g);
     }
     return status;
