@@ -182,7 +182,7 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
     outcome->step = fine->time / (double)fine->work.steps;
 }
 
-/* What there is, without what stands in the way of more. */
+/* The pair as it is, and what stands in the way of a better one. */
 static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *obstacle,
                       restitute_error *error)
 {
@@ -217,10 +217,11 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
     }
 }
 
-/* What the next run with twice the elements will take: they see twice the events, each looked for over all of them. */
+/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all of them. Once
+ * more as much is left for coarser ones. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
-    return memory->updates + 4 * ladder->run[2].updates <= setup->max_updates;
+    return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
 }
 
 /* One more run with twice the elements. It leaves enough for those with half and a quarter of what there is now. */
