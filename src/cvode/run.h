@@ -24,7 +24,7 @@ struct run_setup {
     enum integrator_family family;
     int64_t max_updates;             /* of the whole call, for messages */
     int64_t budget;                  /* of them, what this run may spend */
-    int64_t most_events, most_steps; /* of CVODE; events an element: more of either mean that something is wrong */
+    int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 
 /* Elements: one block of memory. */
