@@ -16,7 +16,7 @@ module rst_cvode_contact
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: normal_rates, past_of
+  public :: normal_rates, past_of, hermite
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
 
@@ -104,9 +104,9 @@ contains
     integer(ip), intent(in) :: near
     real(dp), intent(in) :: t, y(scene%n_states), entered
     real(dp), intent(out) :: depth, residual, stiffness
-    real(dp) :: weight(4), faded
+    real(dp) :: weight(4), faded, slope
     integer(ip) :: k, j
-    depth = depth_at(knot(:, near), knot(:, near + 1), entered)
+    call hermite(knot(:, near), knot(:, near + 1), entered, depth, slope)
     residual = scene%g_inf*(y(state_depth) - depth) + scene%eta*y(state_velocity)
     stiffness = scene%g_inf
     if (scene%n_terms == 0) return
@@ -156,7 +156,8 @@ contains
       call balance(scene, g, tau, knot, memory, near, t, y, entered, depth, residual, stiffness)
       if (residual >= 0) low = entered
       if (residual < 0) high = entered
-      slope = stiffness*slope_at(knot(:, near), knot(:, near + 1), entered)
+      call hermite(knot(:, near), knot(:, near + 1), entered, depth, slope)
+      slope = stiffness*slope
       next = 0.5_dp*(low + high)
       if (slope > 0) next = entered + residual/slope
       if (next > high .and. i == 1) next = high
@@ -209,22 +210,17 @@ contains
     end do
   end subroutine weights
 
-  !> Hermite's cubic through depth and velocity at both ends.
-  pure function depth_at(before, after, t) result(depth)
-    real(dp), intent(in) :: before(3), after(3), t
-    real(dp) :: depth, h, x
+  !> Hermite's cubic through depth and velocity at both ends, and its slope.
+  pure subroutine hermite(before, after, t, depth, slope) bind(c, name="rst_cvode_hermite")
+    real(c_double), intent(in) :: before(3), after(3)
+    real(c_double), intent(in), value :: t
+    real(c_double), intent(out) :: depth, slope
+    real(dp) :: h, x, a, b
     h = after(1) - before(1)
     x = (t - before(1))/h
-    depth = before(2) + x*(h*before(3) + x*(3*(after(2) - before(2)) - h*(2*before(3) + after(3)) &
-                                            + x*(2*(before(2) - after(2)) + h*(before(3) + after(3)))))
-  end function depth_at
-
-  pure function slope_at(before, after, t) result(slope)
-    real(dp), intent(in) :: before(3), after(3), t
-    real(dp) :: slope, h, x
-    h = after(1) - before(1)
-    x = (t - before(1))/h
-    slope = before(3) + x*(2*(3*(after(2) - before(2))/h - 2*before(3) - after(3)) &
-                           + 3*x*(2*(before(2) - after(2))/h + before(3) + after(3)))
-  end function slope_at
+    a = 3*(after(2) - before(2)) - h*(2*before(3) + after(3))
+    b = 2*(before(2) - after(2)) + h*(before(3) + after(3))
+    depth = before(2) + x*(h*before(3) + x*(a + x*b))
+    slope = before(3) + x*(2*a + 3*x*b)/h
+  end subroutine hermite
 end module rst_cvode_contact

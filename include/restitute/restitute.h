@@ -344,7 +344,7 @@ RESTITUTE_API void restitute_ledger_init(restitute_ledger *ledger);
 typedef struct restitute_history {
     size_t struct_size; /**< set by @ref restitute_history_init */
     size_t capacity;    /**< length of every array given, >= 2 */
-    size_t count;       /**< out: samples written */
+    size_t count;       /**< out: samples written; with the methods euler and bem not more than steps and one */
     double *time;
     double *indentation;
     double *contact_radius;

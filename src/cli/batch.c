@@ -91,8 +91,8 @@ static bool check_options(const struct settings *settings, struct reason *why)
         return refuse(why, "--format = \"text\": must be csv or json with --input and --grid");
     if (text[TEXT_FIGURE] && !text[TEXT_GRID]) return refuse(why, "--figure = %.200s: needs --grid", text[TEXT_FIGURE]);
     if (settings->resume && output_is_standard(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
-    if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], text[TEXT_OUTPUT], why)) return false;
-    return settings_spare_inputs(settings, why) && output_check(text[TEXT_OUTPUT], "--output", why);
+    if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], why)) return false;
+    return settings_check_places(settings, why) && output_check(text[TEXT_OUTPUT], "--output", why);
 }
 
 /* Everything that can be refused is, before anything is written. */

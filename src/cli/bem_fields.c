@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file_form.h"
 #include "gnuplot.h"
 #include "output.h"
 
@@ -14,27 +15,22 @@
 #ifdef RESTITUTE_WITH_HDF5
 #include <stdio.h>
 
-#include <hdf5.h>
+#include "hdf5_text.h"
 #endif
 
 enum { snapshots = 9 };
 
-static bool ends_in(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), of_ending = strlen(ending);
-    return length > of_ending && strcmp(path + length - of_ending, ending) == 0;
-}
-
 static bool check_place(const char *path, struct reason *why)
 {
-    if (ends_in(path, ".h5")) {
+    const enum file_form form = file_form_of(path);
+    if (form == FORM_HDF5) {
 #ifndef RESTITUTE_WITH_HDF5
         return refuse(why, "--fields = %.200s: HDF5 is not in this build; .svg and .png are", path);
 #endif
         return output_check(path, "--fields", why);
     }
-    if (!ends_in(path, ".svg") && !ends_in(path, ".png"))
-        return refuse(why, "--fields = %.200s: must end in .h5, .svg or .png", path);
+    if (form != FORM_SVG && form != FORM_PNG)
+        return refuse(why, "--fields = %.200s: must end in .h5, .hdf5, .svg or .png", path);
     return output_check(path, "--fields", why) && gnuplot_check(path, why);
 }
 
@@ -60,18 +56,6 @@ void bem_fields_release(struct bem_fields_keeper *keeper)
 }
 
 #ifdef RESTITUTE_WITH_HDF5
-static bool write_text(hid_t place, const char *name, const char *text)
-{
-    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, strlen(text) + 1);
-    const hid_t attribute = H5Acreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Tclose(type);
-    H5Sclose(space);
-    return good;
-}
-
 /* Values of all snapshots under one name, `rank` dimensions. */
 static bool write_array(hid_t file, const char *name, int rank, const hsize_t *shape, const double *values)
 {
@@ -103,10 +87,10 @@ static bool fill_file(hid_t file, const restitute_bem_recorder *recorder)
         memcpy(fields + (2 * count + i) * grid, shot.stick, grid * sizeof *fields);
     }
     const hsize_t shape[3] = {count, cells, cells}, one = 1;
-    const bool good = write_text(file, "version", restitute_version()) &&
-                      write_text(file, "units",
-                                 "time: T; spacing: a_el; pressure: G_r d0/a_el; traction: that times "
-                                 "friction; stick: 1 sticks, 0 does not; axes: time, y, x") &&
+    const bool good = hdf5_write_text(file, "version", restitute_version()) &&
+                      hdf5_write_text(file, "units",
+                                      "time: T; spacing: a_el; pressure: G_r d0/a_el; traction: that times "
+                                      "friction; stick: 1 sticks, 0 does not; axes: time, y, x") &&
                       write_array(file, "time", 1, shape, times) && write_array(file, "spacing", 1, &one, &spacing) &&
                       write_array(file, "pressure", 3, shape, fields) &&
                       write_array(file, "traction", 3, shape, fields + count * grid) &&
@@ -171,7 +155,7 @@ bool bem_fields_write(const struct settings *settings, struct bem_fields_keeper 
     if (!recorder) return true;
     if (restitute_bem_recorder_count(recorder) == 0) return refuse(why, "--fields: the impact has too few steps");
 #ifdef RESTITUTE_WITH_HDF5
-    if (ends_in(path, ".h5")) return write_hdf5(path, recorder, why);
+    if (file_form_of(path) == FORM_HDF5) return write_hdf5(path, recorder, why);
 #endif
     return draw(path, recorder, why);
 }

@@ -248,7 +248,7 @@ static bool check_places(const struct bench_settings *settings, struct reason *w
         free(path);
         if (!good) return false;
     }
-    return !settings->figure || figure_check(settings->figure, NULL, why);
+    return !settings->figure || figure_check(settings->figure, why);
 }
 
 int bench_main(int count, char **arguments)

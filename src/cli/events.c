@@ -10,6 +10,7 @@
 #endif
 
 #include "events_hdf5.h"
+#include "file_form.h"
 #include "output.h"
 
 static const struct {
@@ -35,15 +36,9 @@ const char *event_column_unit(int column, bool physical)
     return physical ? columns[column].physical_unit : columns[column].dimensionless_unit;
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), wanted = strlen(end);
-    return length >= wanted && strcmp(text + length - wanted, end) == 0;
-}
-
 static bool is_hdf5(const char *path)
 {
-    return ends_with(path, ".h5") || ends_with(path, ".hdf5");
+    return file_form_of(path) == FORM_HDF5;
 }
 
 #ifdef RESTITUTE_WITH_CVODE
@@ -55,6 +50,8 @@ bool events_check(struct settings *settings, struct reason *why)
         settings->solver.method = restitute_method_cvode();
     else if (strncmp(method, "cvode", strlen("cvode")) != 0)
         return refuse(why, "--events: the method %s logs none; must be cvode, cvode-bdf or cvode-adams", method);
+    if (!output_is_standard(path) && !is_hdf5(path) && file_form_of(path) != FORM_CSV)
+        return refuse(why, "--events = \"%.64s\": must end in .csv, .h5 or .hdf5; - is standard output", path);
     if (is_hdf5(path) && !events_hdf5_built())
         return refuse(why, "--events = \"%.64s\": HDF5 is not in this build (Debian: libhdf5-dev); take a .csv", path);
     return output_check(path, "--events", why);

@@ -28,14 +28,15 @@ struct event_table {
 const char *event_column_name(int column, bool physical);
 const char *event_column_unit(int column, bool physical);
 
-/* Refuse --events in a build without the component, and with a method that logs none; without --method, take cvode. */
+/* Refuse --events in a build without the component, with a method that logs none, and a name that ends in nothing known; without
+ * --method, take cvode. */
 bool events_check(struct settings *settings, struct reason *why);
 
 /* Solve, with the events. Returns the library's status. */
 int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                  restitute_history *history, struct event_table *table, restitute_error *error);
 
-/* Write the table to `path`: HDF5 if it ends in .h5 or .hdf5, else CSV. */
+/* Write the table to `path`: HDF5 if it ends in .h5 or .hdf5, else CSV; - is standard output. */
 bool events_write(const char *path, const struct event_table *table, bool physical, struct reason *why);
 
 void events_release(struct event_table *table);

@@ -3,30 +3,16 @@
 #include "events_hdf5.h"
 
 #ifdef RESTITUTE_WITH_HDF5
-#include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
+#include "hdf5_text.h"
 #include "output.h"
 
 bool events_hdf5_built(void)
 {
     return true;
-}
-
-/* A text attribute. */
-static bool describe(hid_t object, const char *name, const char *text)
-{
-    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(type, strlen(text) + 1);
-    const hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
-    if (attribute >= 0) H5Aclose(attribute);
-    H5Sclose(space);
-    H5Tclose(type);
-    return good;
 }
 
 static bool write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
@@ -35,7 +21,7 @@ static bool write_column(hid_t group, const char *name, const char *unit, hid_t 
     const hid_t space = H5Screate_simple(1, &length, NULL);
     const hid_t set = H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     bool good = set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    if (good && *unit) good = describe(set, "unit", unit);
+    if (good && *unit) good = hdf5_write_text(set, "unit", unit);
     if (set >= 0) H5Dclose(set);
     H5Sclose(space);
     return good;
@@ -44,7 +30,7 @@ static bool write_column(hid_t group, const char *name, const char *unit, hid_t 
 static bool write_group(hid_t file, const struct event_table *table, bool physical)
 {
     const hid_t group = H5Gcreate2(file, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = group >= 0 && describe(file, "restitute_version", restitute_version());
+    bool good = group >= 0 && hdf5_write_text(file, "restitute_version", restitute_version());
     const hid_t word = H5Tcopy(H5T_C_S1);
     H5Tset_size(word, H5T_VARIABLE);
     for (int column = 0; column < EVENT_COLUMNS && good; column++)

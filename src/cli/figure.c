@@ -8,11 +8,9 @@
 
 #include "gnuplot.h"
 
-bool figure_check(const char *path, const char *output, struct reason *why)
+bool figure_check(const char *path, struct reason *why)
 {
     if (strcmp(path, "-") == 0) return refuse(why, "--figure = -: must be a file that ends in .svg or .png");
-    if (output && strcmp(path, output) == 0)
-        return refuse(why, "--figure and --output are the same file, %.200s", path);
     return output_check(path, "--figure", why) && gnuplot_check(path, why);
 }
 

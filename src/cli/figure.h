@@ -5,8 +5,8 @@
 
 #include "rows.h"
 
-/* Refuse, before any work, a figure that could not be drawn or written. `output` is the place of the table or NULL. */
-bool figure_check(const char *path, const char *output, struct reason *why);
+/* Refuse, before any work, a figure that could not be drawn or written. */
+bool figure_check(const char *path, struct reason *why);
 
 /* ez over the normal speed, and ex over the angle with a curve for each speed. */
 bool figure_of_grid(const char *path, const struct settings *settings, const struct cases *cases,

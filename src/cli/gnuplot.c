@@ -9,17 +9,12 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
+#include "file_form.h"
 
-static bool is_svg(const char *path)
-{
-    const char *extension = strrchr(path, '.');
-    return extension && strcasecmp(extension, ".svg") == 0;
-}
+extern char **environ;
 
 /* Start `gnuplot argument` with these files as its standard input, output and error. Returns 0 or an errno. */
 static int start(const char *argument, int input, int output, int complaints, pid_t *process)
@@ -54,9 +49,8 @@ static bool ended_well(pid_t process)
 
 bool gnuplot_check(const char *path, struct reason *why)
 {
-    const char *extension = strrchr(path, '.');
-    if (!extension || (!is_svg(path) && strcasecmp(extension, ".png") != 0))
-        return refuse(why, "--figure = %.200s: must end in .svg or .png", path);
+    const enum file_form form = file_form_of(path);
+    if (form != FORM_SVG && form != FORM_PNG) return refuse(why, "--figure = %.200s: must end in .svg or .png", path);
     pid_t process;
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     const int failed = nothing < 0 ? errno : start("--version", nothing, nothing, nothing, &process);
@@ -72,7 +66,7 @@ bool gnuplot_check(const char *path, struct reason *why)
 static void set_terminal(const char *path, int width, int height, FILE *commands)
 {
     fputs("set encoding utf8\n", commands);
-    if (is_svg(path))
+    if (file_form_of(path) == FORM_SVG)
         fprintf(commands, "set terminal svg size %d,%d enhanced font 'Helvetica,14' background 'white'\n", width,
                 height);
     else

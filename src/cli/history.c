@@ -54,12 +54,27 @@ static void write_rows(FILE *stream, const restitute_history *history, bool phys
                     column + 1 < HISTORY_COLUMNS ? ',' : '\n');
 }
 
-static json_t *make_record(const struct settings *settings, struct materials *materials, bool physical, int status)
+static json_t *history_units(bool physical)
 {
     json_t *units = json_object();
     for (int column = 0; column < HISTORY_COLUMNS; column++)
         json_object_set_new(units, column_name(column, physical),
                             json_string(physical ? columns[column].physical_unit : columns[column].dimensionless_unit));
+    return units;
+}
+
+static json_t *event_units(bool physical)
+{
+    json_t *units = json_object();
+    for (int column = 0; column < EVENT_COLUMNS; column++)
+        json_object_set_new(units, event_column_name(column, physical),
+                            json_string(event_column_unit(column, physical)));
+    return units;
+}
+
+/* Takes over `units`. */
+static json_t *make_record(const struct settings *settings, struct materials *materials, json_t *units, int status)
+{
     json_t *record = provenance_record(settings, provenance_settings(settings, NULL, materials), units);
     json_object_set_new(record, "status", json_string(status == RESTITUTE_OK ? "" : restitute_status_text(status)));
     return record;
@@ -68,8 +83,8 @@ static json_t *make_record(const struct settings *settings, struct materials *ma
 static bool check_options(const struct settings *settings, struct reason *why)
 {
     const char *figure = settings->text[TEXT_FIGURE], *output = settings->text[TEXT_OUTPUT];
-    if (figure && !figure_check(figure, output, why)) return false;
-    return settings_spare_inputs(settings, why) && output_check(output, "--output", why);
+    if (figure && !figure_check(figure, why)) return false;
+    return settings_check_places(settings, why) && output_check(output, "--output", why);
 }
 
 static bool solve(const struct settings *settings, const struct problem *problem, restitute_history *history,
@@ -104,12 +119,17 @@ static bool write_result(const struct settings *settings, const struct problem *
     const char *events_path = settings->text[TEXT_EVENTS];
     const char *path = settings->text[TEXT_OUTPUT], *figure = settings->text[TEXT_FIGURE];
     struct output output;
-    if (!provenance_write_beside(path, make_record(settings, materials, problem->physical, status), why) ||
+    if (!provenance_write_beside(path, make_record(settings, materials, history_units(problem->physical), status),
+                                 why) ||
         !output_open(path, &output, why))
         return false;
     write_rows(output.stream, history, problem->physical);
     if (!output_finish(&output, why)) return false;
-    if (events_path && !events_write(events_path, events, problem->physical, why)) return false;
+    if (events_path &&
+        (!provenance_write_beside(events_path, make_record(settings, materials, event_units(problem->physical), status),
+                                  why) ||
+         !events_write(events_path, events, problem->physical, why)))
+        return false;
     return !figure || figure_of_history(figure, settings, problem, history, why);
 }
 

@@ -105,11 +105,12 @@ static struct poptOption history_output_options[] = {
           "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
     ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
     ENTRY("events", CODE_TEXT + TEXT_EVENTS, "FILE",
-          "write the log of events here, as CSV, or as HDF5 if the name ends in .h5; takes the method cvode"),
+          "write the log of events here, as CSV (.csv, or - for standard output) or HDF5 (.h5, .hdf5); takes the "
+          "method cvode"),
     ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
-    ENTRY(
-        "fields", CODE_TEXT + TEXT_FIELDS, "FILE",
-        "with --method bem: pressure, traction and stick map at nine times to .h5, or the middle one to .svg or .png"),
+    ENTRY("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
+          "with --method bem: pressure, traction and stick map at nine times to .h5 or .hdf5, or the middle one to "
+          ".svg or .png"),
     FLAG("help", CODE_HELP, "show this and stop"),
     POPT_TABLEEND};
 
@@ -351,14 +352,25 @@ void options_release(struct settings *settings)
         free(settings->field[i]);
 }
 
-bool settings_spare_inputs(const struct settings *settings, struct reason *why)
+bool settings_check_places(const struct settings *settings, struct reason *why)
 {
+    static const enum text_option outputs[] = {TEXT_OUTPUT, TEXT_EVENTS, TEXT_FIGURE, TEXT_FIELDS};
     const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material, settings->values.partner};
-    for (int i = 0; i < 3; i++)
-        if (!output_spares(settings->text[TEXT_OUTPUT], "--output", inputs[i], why) ||
-            !output_spares(settings->text[TEXT_EVENTS], "--events", inputs[i], why) ||
-            !output_spares(settings->text[TEXT_FIGURE], "--figure", inputs[i], why) ||
-            !output_spares(settings->text[TEXT_FIELDS], "--fields", inputs[i], why))
-            return false;
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        const char *path = settings->text[outputs[i]], *name = text_names[outputs[i]];
+        char option[40];
+        snprintf(option, sizeof option, "--%s", name);
+        if (!path && i > 0) continue; /* without --output there is standard output */
+        for (size_t k = 0; k < sizeof inputs / sizeof inputs[0]; k++)
+            if (!output_spares(path, option, inputs[k], why)) return false;
+        for (size_t k = 0; k < i; k++) {
+            const char *other = settings->text[outputs[k]];
+            if ((!other && k > 0) || !output_same(path, other)) continue;
+            if (output_is_standard(path))
+                return refuse(why, "--%s and --%s are both standard output: at most one can be", name,
+                              text_names[outputs[k]]);
+            return refuse(why, "--%s and --%s are the same file, %.200s", name, text_names[outputs[k]], path);
+        }
+    }
     return true;
 }

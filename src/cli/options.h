@@ -54,8 +54,8 @@ enum reading { READING_GO_ON, READING_STOP, READING_FAILED };
 /* Read the options behind `restitute pair` or `restitute history`: arguments[1] is the subcommand. STOP: help was printed. */
 enum reading options_read(int count, char **arguments, struct settings *settings);
 
-/* Refuse an output or a figure that would replace the case file or the material file. */
-bool settings_spare_inputs(const struct settings *settings, struct reason *why);
+/* Refuse outputs that would replace the case file or a material file, or one another; at most one is standard output. */
+bool settings_check_places(const struct settings *settings, struct reason *why);
 
 void options_release(struct settings *settings);
 

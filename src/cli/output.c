@@ -47,6 +47,25 @@ bool output_spares(const char *path, const char *option, const char *input, stru
     return refuse(why, "%s = %.200s: is an input of this run and would be overwritten", option, path);
 }
 
+/* The folder of a path; false if there is none. */
+static bool folder_of(const char *path, struct stat *status)
+{
+    char *copy = copy_of(path);
+    const bool found = stat(dirname(copy), status) == 0;
+    free(copy);
+    return found;
+}
+
+bool output_same(const char *path, const char *other)
+{
+    struct stat one, two;
+    if (output_is_standard(path) || output_is_standard(other))
+        return output_is_standard(path) && output_is_standard(other);
+    const char *slash = strrchr(path, '/'), *other_slash = strrchr(other, '/');
+    if (strcmp(slash ? slash + 1 : path, other_slash ? other_slash + 1 : other) != 0) return false;
+    return folder_of(path, &one) && folder_of(other, &two) && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
+}
+
 bool output_open(const char *path, struct output *output, struct reason *why)
 {
     memset(output, 0, sizeof *output);

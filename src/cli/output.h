@@ -22,6 +22,9 @@ bool output_check(const char *path, const char *option, struct reason *why);
 /* Refuse to replace `input`, by whatever name; NULL: no such input. */
 bool output_spares(const char *path, const char *option, const char *input, struct reason *why);
 
+/* Whether two places are one: the same name in the same folder, however it is written, or standard output twice. */
+bool output_same(const char *path, const char *other);
+
 /* Open for writing under a temporary name, or standard output. */
 bool output_open(const char *path, struct output *output, struct reason *why);
 

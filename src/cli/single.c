@@ -26,7 +26,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
     if (settings->resume) return refuse(why, "--resume: needs --input or --grid");
     if (settings->text[TEXT_THREADS])
         return refuse(why, "--threads = %s: needs --input or --grid", settings->text[TEXT_THREADS]);
-    return settings_spare_inputs(settings, why) && output_check(settings->text[TEXT_OUTPUT], "--output", why);
+    return settings_check_places(settings, why) && output_check(settings->text[TEXT_OUTPUT], "--output", why);
 }
 
 /* The dimensionless numbers as given, in the struct that a scene fills. */

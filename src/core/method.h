@@ -10,8 +10,9 @@ struct restitute_method {
     const char *name;
     /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
-    int takes_time_step; /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
-    int takes_all_terms; /* no merging: a fast term would become a dashpot, which this method cannot do */
+    int takes_time_step;       /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
+    int takes_all_terms;       /* no merging: a fast term would become a dashpot, which this method cannot do */
+    int records_between_steps; /* samples of a history may be closer than its steps */
     /* Solve; `outcome` is valid if the status is not negative. keep_ledger: fill outcome->ledger. */
     int (*solve)(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                  struct rst_outcome *outcome, restitute_error *error);

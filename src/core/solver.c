@@ -189,7 +189,8 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
                   size_t capacity, struct rst_history *history, restitute_error *error)
 {
-    if (capacity > (size_t)outcome->steps + 1) capacity = (size_t)outcome->steps + 1; /* there are no more samples */
+    const size_t states = (size_t)outcome->steps + 1;
+    if (capacity > states && !solver->options.method->records_between_steps) capacity = states;
     if (capacity > solver->samples_size) {
         struct rst_sample *samples = malloc(capacity * sizeof *samples);
         if (!samples) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu samples", capacity);

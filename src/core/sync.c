@@ -517,5 +517,8 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
            rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
 }
 
-const struct restitute_method rst_method_sync = {
-    .name = "sync", .reserve = sync_reserve, .solve = sync_solve, .record = rst_sync_record};
+const struct restitute_method rst_method_sync = {.name = "sync",
+                                                 .reserve = sync_reserve,
+                                                 .records_between_steps = 1,
+                                                 .solve = sync_solve,
+                                                 .record = rst_sync_record};

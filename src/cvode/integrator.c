@@ -131,36 +131,54 @@ static int make_linear(struct integrator *g)
     return 0;
 }
 
+/* A status of CVODE as one of ours. */
+static int status_of(int flag)
+{
+    if (flag == CV_SUCCESS) return RESTITUTE_OK;
+    return flag == CV_MEM_FAIL ? RESTITUTE_ERROR_MEMORY : RESTITUTE_ERROR_INTEGRATOR;
+}
+
 static int make_solvers(struct integrator *g)
 {
-    if (g->system.family == INTEGRATOR_ADAMS) {
-        g->nonlinear = SUNNonlinSol_FixedPoint(g->y, 0, g->context);
-        return !g->nonlinear || CVodeSetNonlinearSolver(g->cvode, g->nonlinear);
-    }
-    g->nonlinear = SUNNonlinSol_Newton(g->y, g->context);
-    if (!g->nonlinear || CVodeSetNonlinearSolver(g->cvode, g->nonlinear)) return 1;
-    return make_linear(g) || CVodeSetLinearSolver(g->cvode, g->linear, NULL);
+    const int adams = g->system.family == INTEGRATOR_ADAMS;
+    g->nonlinear = adams ? SUNNonlinSol_FixedPoint(g->y, 0, g->context) : SUNNonlinSol_Newton(g->y, g->context);
+    if (!g->nonlinear) return RESTITUTE_ERROR_MEMORY;
+    const int status = status_of(CVodeSetNonlinearSolver(g->cvode, g->nonlinear));
+    if (status || adams) return status;
+    return make_linear(g) ? RESTITUTE_ERROR_MEMORY : status_of(CVodeSetLinearSolver(g->cvode, g->linear, NULL));
+}
+
+static int watch_roots(struct integrator *g)
+{
+    if (g->system.n_roots == 0) return RESTITUTE_OK;
+    int status = status_of(CVodeRootInit(g->cvode, (int)g->system.n_roots, call_roots));
+    if (!status) status = status_of(CVodeSetRootDirection(g->cvode, g->direction));
+    return status ? status : status_of(CVodeSetNoInactiveRootWarn(g->cvode));
 }
 
 static int set_up(struct integrator *g, double t)
 {
     g->cvode = CVodeCreate(g->system.family == INTEGRATOR_BDF ? CV_BDF : CV_ADAMS, g->context);
-    if (!g->cvode || listen(g)) return 1;
-    if (CVodeInit(g->cvode, call_rates, t, g->y) || CVodeSetUserData(g->cvode, g) ||
-        CVodeWFtolerances(g->cvode, call_weights) || make_solvers(g))
-        return 1;
-    if (g->system.n_roots == 0) return 0;
-    return CVodeRootInit(g->cvode, (int)g->system.n_roots, call_roots) ||
-           CVodeSetRootDirection(g->cvode, g->direction) || CVodeSetNoInactiveRootWarn(g->cvode);
+    if (!g->cvode) return RESTITUTE_ERROR_MEMORY;
+    int status = status_of(listen(g));
+    if (!status) status = status_of(CVodeInit(g->cvode, call_rates, t, g->y));
+    if (!status) status = status_of(CVodeSetUserData(g->cvode, g));
+    if (!status) status = status_of(CVodeWFtolerances(g->cvode, call_weights));
+    if (!status) status = make_solvers(g);
+    return status ? status : watch_roots(g);
 }
 
-struct integrator *integrator_create(const struct integrator_system *system, double t, const double *y, char *text,
-                                     int text_size)
+int integrator_create(const struct integrator_system *system, double t, const double *y, struct integrator **integrator,
+                      char *text, int text_size)
 {
     const size_t roots = system->n_roots > 0 ? (size_t)system->n_roots : 1;
     struct integrator *g = calloc(1, sizeof *g);
-    snprintf(text, (size_t)text_size, "out of memory");
-    if (!g) return NULL;
+    int status = RESTITUTE_ERROR_MEMORY;
+    *integrator = NULL;
+    if (!g) {
+        snprintf(text, (size_t)text_size, "out of memory for CVODE");
+        return status;
+    }
     g->system = *system;
     g->direction = malloc(roots * sizeof *g->direction);
     g->events = calloc(roots, sizeof *g->events);
@@ -169,11 +187,16 @@ struct integrator *integrator_create(const struct integrator_system *system, dou
         memcpy(NV_DATA_S(g->y), y, (size_t)system->n_states * sizeof *y);
         for (size_t i = 0; i < roots; i++)
             g->direction[i] = -1;
-        if (set_up(g, t) == 0) return g;
-        if (g->text[0]) snprintf(text, (size_t)text_size, "%s", g->text);
+        status = set_up(g, t);
     }
-    integrator_destroy(g);
-    return NULL;
+    if (status == RESTITUTE_OK)
+        *integrator = g;
+    else {
+        snprintf(text, (size_t)text_size, "%s",
+                 status == RESTITUTE_ERROR_MEMORY ? "out of memory for CVODE" : integrator_text(g));
+        integrator_destroy(g);
+    }
+    return status;
 }
 
 void integrator_destroy(struct integrator *g)

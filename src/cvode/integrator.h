@@ -3,6 +3,7 @@
 #ifndef RST_CVODE_INTEGRATOR_H
 #define RST_CVODE_INTEGRATOR_H
 
+#include <restitute/status.h>
 #include <stdint.h>
 
 enum integrator_family { INTEGRATOR_ADAMS, INTEGRATOR_BDF };
@@ -29,9 +30,9 @@ struct integrator_counts {
 
 struct integrator;
 
-/* NULL: failed, `text` says why. y: the states at t, copied. */
-struct integrator *integrator_create(const struct integrator_system *system, double t, const double *y, char *text,
-                                     int text_size);
+/* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y: the states at t, copied. */
+int integrator_create(const struct integrator_system *system, double t, const double *y, struct integrator **integrator,
+                      char *text, int text_size);
 void integrator_destroy(struct integrator *integrator);
 
 /* One step, or the rest of one up to the next event: t and y, in: where it is, out: where that ends. */

@@ -55,8 +55,11 @@ static int record_with(const enum integrator_family *family, const struct rst_pr
     {                                                                                                                  \
         return record_with(family, problem, workspace, outcome, history, error);                                       \
     }                                                                                                                  \
-    static const struct restitute_method identifier = {                                                                \
-        .name = word, .reserve = reserve, .solve = identifier##_solve, .record = identifier##_record}
+    static const struct restitute_method identifier = {.name = word,                                                   \
+                                                       .reserve = reserve,                                             \
+                                                       .records_between_steps = 1,                                     \
+                                                       .solve = identifier##_solve,                                    \
+                                                       .record = identifier##_record}
 
 METHOD(by_scene, "cvode", NULL);
 METHOD(by_bdf, "cvode-bdf", &bdf);

@@ -52,7 +52,7 @@ int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
     setup.n_nodes = outcome->elements > 0 ? outcome->elements : 2;
     setup.radius = outcome->max_contact_radius;
     setup.rebound = -outcome->velocity;
-    setup.max_updates = INT64_MAX;
+    setup.budget = INT64_MAX;
     history->samples[0] = (struct rst_sample){.velocity = 1, .shear_velocity = 1};
     history->count = 1;
     const int status = run_follow(&run, &setup, &memory->trace, NULL);

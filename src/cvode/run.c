@@ -36,12 +36,6 @@ static const double mostly_sticks = 0.2;
 /* How many times the error of a step the states may be off (docs/cvode.md). */
 static const double error_margin = 100;
 
-/* Events that an element may have before it counts as a storm. */
-static const int64_t most_events = 64;
-
-/* More steps than this mean that something is wrong. */
-static const int64_t most_steps = 1000000;
-
 static size_t position_of_shear(const struct cvode_scene *scene)
 {
     return 2 + 2 * (size_t)scene->n_terms;
@@ -304,8 +298,7 @@ static int integrate_from(struct run *run)
                                              .newton = call_newton,
                                              .weights = call_weights,
                                              .owner = run};
-    run->integrator = integrator_create(&system, run->time, run->y, run->text, sizeof run->text);
-    return run->integrator ? RESTITUTE_OK : RESTITUTE_ERROR_INTEGRATOR;
+    return integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
 /* ------------------------------------------------------------------------------------------------ elements */
@@ -602,17 +595,20 @@ static int advance(struct run *run)
 
 static int check_work(struct run *run)
 {
-    if (run->event_count > most_events * (run->setup->n_nodes + 4))
-        return fail(run, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                    "an event storm: elements change between stick and slip without end");
-    if (spent(run) > run->setup->max_updates) {
-        snprintf(run->text, sizeof run->text, "max_updates = %lld: spent before there was a result; raise it",
-                 (long long)run->setup->max_updates);
-        return RESTITUTE_ERROR_TOO_MUCH_WORK;
-    }
-    if (integrator_work(run->integrator).steps > most_steps)
-        return fail(run, RESTITUTE_ERROR_TOO_MUCH_WORK, "more than 1000000 steps of CVODE");
-    return RESTITUTE_OK;
+    const struct run_setup *s = run->setup;
+    if (run->event_count > s->most_events * (s->n_nodes + 4))
+        snprintf(run->text, sizeof run->text,
+                 "an event storm: %lld events of %lld elements, which change between stick and slip without end",
+                 (long long)run->event_count, (long long)s->n_nodes);
+    else if (integrator_work(run->integrator).steps > s->most_steps)
+        snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
+    else if (spent(run) > s->budget) {
+        run->spent = 1;
+        snprintf(run->text, sizeof run->text, "max_updates = %lld: spent in a run with elements = %lld; raise it",
+                 (long long)s->max_updates, (long long)s->n_nodes);
+    } else
+        return RESTITUTE_OK;
+    return RESTITUTE_ERROR_TOO_MUCH_WORK;
 }
 
 int run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)

@@ -22,7 +22,9 @@ struct run_setup {
     double rebound;     /* D' at the end, where known: decides on slip to the end */
     double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
     enum integrator_family family;
-    int64_t max_updates; /* that this run may spend */
+    int64_t max_updates;             /* of the whole call, for messages */
+    int64_t budget;                  /* of them, what this run may spend */
+    int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 
 /* Elements: one block of memory. */
@@ -63,6 +65,7 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
+    int spent; /* the budget is: run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
     char text[200];
 };
 

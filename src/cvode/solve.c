@@ -31,6 +31,9 @@ static const double acceptance = 0.9;
 
 static const int64_t most_elements = 16384;
 
+/* Events that an element may have before it counts as a storm, and steps that mean that something is wrong. */
+static const int64_t most_events = 64, most_steps = 1000000;
+
 /* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where the
  * pair needs none. */
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
@@ -84,7 +87,10 @@ struct run_setup cvode_setup(const struct rst_problem *problem, const enum integ
                               .rebound = NAN,
                               .rest_speed = 0.01 * problem->tolerance,
                               .family = family ? *family : family_of(problem, depth),
-                              .max_updates = problem->max_updates};
+                              .max_updates = problem->max_updates,
+                              .budget = problem->max_updates,
+                              .most_events = most_events,
+                              .most_steps = most_steps};
 }
 
 static int slips_to_the_end(const struct run_setup *setup, double rebound)
@@ -112,6 +118,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
     for (int i = 0; i < 2; i++) {
         struct run run = {0};
         setup->closeness = i == 0 ? fmin(looser * close, 1e-3) : close;
+        setup->budget = setup->max_updates - memory->updates;
         const int status = run_follow(&run, setup, &memory->trace, NULL);
         run_release(&run);
         add_work(memory, &run);
@@ -175,51 +182,111 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
     outcome->step = fine->time / (double)fine->work.steps;
 }
 
-static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *limit,
+/* The pair as it is, and what stands in the way of a better one. */
+static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *obstacle,
                       restitute_error *error)
 {
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s: no more allowed",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
 }
 
-/* Runs with a quarter, half and all of the elements. */
-static int start_refining(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
-                          int64_t n, struct run *run, restitute_error *error)
+/* Three runs, the last with n of the `wanted` elements, each with twice as many as the one before. */
+struct ladder {
+    struct run run[3];
+    int64_t wanted, n;
+    int halvings; /* of wanted, that lead to n */
+};
+
+static int64_t halved(int64_t n, int times)
 {
-    int status = RESTITUTE_OK;
-    for (int i = 0; i < 3 && !status; i++) {
-        setup->max_updates = problem->max_updates - memory->updates;
-        status = solve_elements(setup, (n + (1 << (2 - i)) - 1) >> (2 - i), memory, NULL, &run[i], error);
-    }
-    return status;
+    return (n + ((int64_t)1 << times) - 1) >> times;
 }
 
-/* Elements are doubled until the pair settles. */
+/* A first run, with a quarter of the elements or as few as an eighth of what is left to spend allows: the next one takes four times as
+ * much, and what trials cost that were too dear stays small. */
+static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
+                        restitute_error *error)
+{
+    int status;
+    for (ladder->halvings = 2;; ladder->halvings++) {
+        ladder->n = halved(ladder->wanted, ladder->halvings);
+        setup->budget = (setup->max_updates - memory->updates) / 8;
+        status = solve_elements(setup, ladder->n, memory, NULL, &ladder->run[2], error);
+        if (!ladder->run[2].spent || ladder->n == 1) return status;
+    }
+}
+
+/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all of them. Once
+ * more as much is left for coarser ones. */
+static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
+{
+    return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
+}
+
+/* One more run with twice the elements. It leaves enough for those with half and a quarter of what there is now. */
+static int climb(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder, restitute_error *error)
+{
+    struct run next;
+    const int64_t n = ladder->halvings > 0 ? halved(ladder->wanted, ladder->halvings - 1) : 2 * ladder->n;
+    setup->budget = setup->max_updates - memory->updates - ladder->run[2].updates;
+    const int status = solve_elements(setup, n, memory, NULL, &next, error);
+    if (status) return status;
+    ladder->run[0] = ladder->run[1];
+    ladder->run[1] = ladder->run[2];
+    ladder->run[2] = next;
+    ladder->n = n;
+    if (ladder->halvings > 0) ladder->halvings--;
+    return RESTITUTE_OK;
+}
+
+/* Runs with a quarter, half and all of the elements. If that costs too much, it is coarser ones that make three. */
+static int start_refining(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
+                          restitute_error *error)
+{
+    int runs = 1, status = begin_ladder(setup, memory, ladder, error);
+    if (status) return status;
+    while (runs < 3 && !status && can_climb(setup, memory, ladder)) {
+        status = climb(setup, memory, ladder, error);
+        if (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+        runs += !status;
+    }
+    for (; runs < 3; runs++) { /* run[2], and run[1] if there are two, have been done */
+        const int place = 2 - runs;
+        setup->budget = setup->max_updates - memory->updates;
+        status = solve_elements(setup, halved(ladder->wanted, ladder->halvings + runs), memory, NULL,
+                                &ladder->run[place], error);
+        if (status) return status;
+    }
+    return RESTITUTE_OK;
+}
+
+/* Elements are doubled until the pair settles. What stands in the way of that leaves the pair as it is, with a remark. */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run run[3];
-    int64_t n = first_elements(problem);
-    if (n > most_elements)
+    struct ladder ladder = {.wanted = first_elements(problem)};
+    char obstacle[256] = "elements: no more allowed";
+    if (ladder.wanted > most_elements)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld",
-                          (long long)n, (long long)most_elements);
+                          (long long)ladder.wanted, (long long)most_elements);
     setup->radius = outcome->max_contact_radius;
-    int status = start_refining(problem, setup, memory, n, run, error);
+    int status = start_refining(setup, memory, &ladder, error);
     while (!status) {
-        compare(setup, run, n, outcome);
+        compare(setup, ladder.run, ladder.n, outcome);
         outcome->updates = memory->updates;
         if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
-        if (problem->elements > 0 || 2 * n > most_elements) return too_coarse(problem, outcome, "elements", error);
-        /* twice the elements see twice the events, each looked for over all of them */
-        if (memory->updates + 4 * run[2].updates > problem->max_updates)
-            return too_coarse(problem, outcome, "max_updates", error);
-        run[0] = run[1];
-        run[1] = run[2];
-        n *= 2;
-        setup->max_updates = problem->max_updates - memory->updates;
-        status = solve_elements(setup, n, memory, NULL, &run[2], error);
-        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, "max_updates", error);
+        if (ladder.halvings == 0 && (problem->elements > 0 || 2 * ladder.n > most_elements))
+            return too_coarse(problem, outcome, obstacle, error);
+        if (!can_climb(setup, memory, &ladder)) {
+            snprintf(obstacle, sizeof obstacle, "max_updates = %lld: no more allowed", (long long)setup->max_updates);
+            return too_coarse(problem, outcome, obstacle, error);
+        }
+        restitute_error failure;
+        status = climb(setup, memory, &ladder, &failure);
+        outcome->updates = memory->updates;
+        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, failure.message, error);
+        if (status && error) *error = failure;
     }
     return status;
 }
@@ -240,16 +307,23 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 
 /* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
  * it slides slower and slower without a closed form. */
-static int stay(const struct rst_problem *problem, struct rst_outcome *outcome, restitute_error *error)
+static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
+                restitute_error *error)
 {
     const int slides = problem->mode == RST_FRICTIONLESS ||
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
     if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler",
-                          problem->chi, problem->psi);
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",
+            problem->chi, problem->psi);
     outcome->shear_velocity =
         slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all sticks, psi < 1, U' falls
+     * with D' in proportion */
+    outcome->error_ez = setup->rest_speed;
+    outcome->error_ex =
+        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->psi);
     return rst_done(error);
 }
 
@@ -261,7 +335,7 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     struct run_setup all = *setup;
     all.radius = outcome->max_contact_radius;
     all.rebound = -outcome->velocity;
-    all.max_updates = INT64_MAX;
+    all.budget = INT64_MAX;
     memory->log.count = 0;
     const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory,
                                       &memory->log, &run, error);
@@ -289,7 +363,7 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
     *outcome = normal;
     outcome->updates = memory->updates;
     if (normal.sunk)
-        status = stay(problem, outcome, error);
+        status = stay(problem, &setup, outcome, error);
     else if (slips_to_the_end(&setup, setup.rebound))
         status = without_elements(problem, &normal, outcome, error);
     else

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cvode_kernels.h"
+
 void trace_begin(struct trace *trace, int64_t n_terms)
 {
     if (trace->n_terms != n_terms) trace_release(trace);
@@ -38,15 +40,6 @@ int trace_add(struct trace *trace, double time, double depth, double velocity, c
     return 0;
 }
 
-static double depth_at(const double *before, double t, double *slope)
-{
-    const double *after = before + 3, h = after[0] - before[0], x = (t - before[0]) / h;
-    const double a = 3 * (after[1] - before[1]) - h * (2 * before[2] + after[2]);
-    const double b = 2 * (before[1] - after[1]) + h * (before[2] + after[2]);
-    *slope = before[2] + x * (2 * a + 3 * x * b) / h;
-    return before[1] + x * (h * before[2] + x * (a + x * b));
-}
-
 double trace_time(const struct trace *trace, double depth)
 {
     int64_t low = 0, high = trace->count - 1;
@@ -58,9 +51,10 @@ double trace_time(const struct trace *trace, double depth)
             high = middle;
     }
     const double *knot = trace->knot + 3 * low;
-    double from = knot[0], to = knot[3], t = from, slope;
+    double from = knot[0], to = knot[3], t = from, there, slope;
     for (int i = 0; i < 60; i++) {
-        const double missing = depth - depth_at(knot, t, &slope);
+        rst_cvode_hermite(knot, knot + 3, t, &there, &slope);
+        const double missing = depth - there;
         if (missing >= 0)
             from = t;
         else

@@ -59,6 +59,38 @@ static void failures_touch_nothing(void **state)
     restitute_solver_destroy(solver);
 }
 
+/* What max_updates allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
+ * reference; elements are as many as fit, and no more than were asked for. */
+static void max_updates_ends_with_the_best_result(void **state)
+{
+    const restitute_impact impact = impact_of(8, 0.5, 0, 1);
+    const double ex = solve_impact(cvode_to(1e-6), impact).result.ex;
+    double last_error = INFINITY;
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        restitute_options options = cvode_to(1e-6);
+        restitute_result r;
+        restitute_error error;
+        char named[60];
+        restitute_result_init(&r);
+        options.max_updates = 50001 * (int64_t)lround(pow(3, i));
+        options.elements = i == 3 ? 400 : 0;
+        restitute_solver *solver = make(options);
+        const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
+        CHECK(status == RESTITUTE_TOLERANCE_NOT_REACHED, "%lld: %d, %s", (long long)options.max_updates, status,
+              error.message);
+        snprintf(named, sizeof named, "max_updates = %lld:", (long long)options.max_updates);
+        CHECK(strstr(error.message, named) != NULL, "\"%s\" is not in \"%s\"", named, error.message);
+        CHECK(r.updates <= options.max_updates * 1.01, "%lld of %lld", (long long)r.updates,
+              (long long)options.max_updates); /* looked at after a step, so the last one may pass it */
+        CHECK(r.error_ex < last_error && (i != 3 || r.elements < 400), "%lld elements, %g", (long long)r.elements,
+              r.error_ex);
+        CHECK_NEAR(r.ex, ex, r.error_ex + 1e-6, "%lld elements", (long long)r.elements);
+        last_error = r.error_ex;
+        restitute_solver_destroy(solver);
+    }
+}
+
 static void arguments_are_checked(void **state)
 {
     restitute_solver *solver = make(cvode_to(1e-3));
@@ -132,10 +164,10 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
     CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
 }
 
-/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. */
+/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are more samples than steps. */
 static void history_ends_with_the_pair(void **state)
 {
-    enum { samples = 50 };
+    enum { samples = 500 };
     static double a[8][samples];
     restitute_solver *solver = make(cvode_to(1e-5));
     const double psi[] = {0, 0.7, 1.8, 9};
@@ -151,7 +183,7 @@ static void history_ends_with_the_pair(void **state)
         h.time = a[0], h.indentation = a[1], h.contact_radius = a[2], h.stick_radius = a[3];
         h.normal_force = a[4], h.tangential_force = a[5], h.normal_velocity = a[6], h.tangential_velocity = a[7];
         CHECK(restitute_solve(solver, &impact, &result, NULL, &h, &error) == 0, "%s", error.message);
-        CHECK(h.count == samples, "%zu", h.count);
+        CHECK(h.count == samples && result.steps < samples / 2, "%zu of %lld steps", h.count, (long long)result.steps);
         for (int k = 0; k < samples; k++) {
             CHECK_NEAR(a[0][k], k * result.contact_time / (samples - 1), 1e-5, "sample %d", k);
             CHECK(a[3][k] <= a[2][k] && a[4][k] >= -1e-6, "sample %d: %g of %g, force %g", k, a[3][k], a[2][k],
@@ -174,6 +206,12 @@ static void sinking_spheres_are_told(void **state)
     const struct solution s = solve_impact(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
     CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
     CHECK(s.result.ez == 0 && s.result.ex == 0 && isinf(s.result.contact_time), "%g %g", s.result.ez, s.result.ex);
+    /* a rebound slower than a hundredth of the tolerance is not told from none */
+    CHECK_NEAR(s.result.error_ez, 1e-6, 1e-15, "the threshold");
+    CHECK(s.result.error_ex >= 1e-6 && s.result.error_ex < 1e-4, "%g", s.result.error_ex);
+    restitute_solver *solver = make(cvode_to(1e-4));
+    refused(solver, impact_on(maxwell, 0.4, 0.5), RESTITUTE_ERROR_DOMAIN, "euler or sync");
+    restitute_solver_destroy(solver);
     restitute_material_destroy(maxwell);
 }
 
@@ -198,6 +236,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failures_touch_nothing),
+        cmocka_unit_test(max_updates_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),
         cmocka_unit_test(scenes_leave_out_what_they_do_not_need),

@@ -33,7 +33,31 @@ awk -F, 'NR > 2 && $1 < before { exit 1 } NR > 1 { before = $1 }' e.csv || fail 
 near "$(awk -F, '$2 == "gross-slip-end" { print $5 }' e.csv)" "$(awk 'BEGIN { print (2 * 1.1667 - 2) / (2 * 1.1667 - 1) }')" 1e-3
 expect 0 history $scene --velocity 1 --angle 30 --events e.csv --output h.csv
 has e.csv time_s position_m normal_velocity_m_s
-has h.csv.meta.json '"cvode"'
+has h.csv.meta.json '"cvode"' '"contact_radius_m": "m"'
+has e.csv.meta.json '"cvode"' '"position_m": "m"' '"tangential_velocity_m_s": "m/s"'
+expect 0 history $numbers --events - --output other.csv # the log on standard output, without a record
+has out gross-slip-end
+absent ./-.meta.json
+
+# As many rows as are wanted, though there are fewer steps.
+expect 0 history $numbers --method cvode --samples 500
+[ "$(wc -l <out)" = 501 ] || fail "$(wc -l <out) lines"
+
+# Places that are one are refused, by whatever name, before anything is written.
+refused '--events and --output are the same file' history $numbers --events x.csv --output x.csv
+refused '--events and --output are the same file' history $numbers --events ./x.csv --output "$work/x.csv"
+refused '--figure and --output are the same file' history $numbers --figure x.svg --output x.svg
+refused 'standard output: at most one' history $numbers --events -
+refused 'standard output: at most one' history $numbers --events - --output -
+absent x.csv x.svg
+
+# What a file holds is said by its name, in capitals or not.
+for name in e.txt e.h5x e .csvx; do
+    refused 'must end in .csv, .h5 or .hdf5' history $numbers --events $name --output h.csv
+    absent $name
+done
+expect 0 history $numbers --events capitals.CSV --output h.csv
+has capitals.CSV gross-slip-end
 
 if ! "$RESTITUTE" history $numbers --events e.h5 --output h.csv 2>err; then
     has err 'HDF5 is not in this build'
@@ -43,7 +67,18 @@ elif command -v h5dump >/dev/null; then
     has dump gross-slip-end contact-end
     h5dump -a /events/time_T/unit e.h5 >dump
     has dump '"T"'
+    has e.h5.meta.json '"cvode"'
+    for name in capitals.HDF5 capitals.H5; do
+        expect 0 history $numbers --events $name --output h.csv
+        h5dump -d /events/event $name >dump
+        has dump gross-slip-end
+    done
 fi
+
+# What max_updates allows is given with a remark, and nothing if that is nothing.
+expect 0 pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-updates 5000000 --format csv
+has out 'the estimated error is above the requested tolerance'
+refused 'max_updates = 1000:' pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-updates 1000
 
 refused 'the method sync logs none' history $numbers --method sync --events e.csv
 refused 'no/such' history $numbers --events no/such/e.csv

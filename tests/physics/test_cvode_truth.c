@@ -108,7 +108,7 @@ static void prony_with_dashpot_agrees_with_sync(void **state)
 /* gamma = 1e-6: relaxation within 1e-12 or 1e-3 of the scale of time. The normal problem is that of sync, without elements, and for
  * the weak damping that of the limit of THEORY 4.7, 1 - 1.891706 theta (theta = 1.5e-6, the next term is of the order of its
  * square). */
-static void stiff_corner_agrees_with_the_reduced_problem(void **state)
+static void stiff_corner_agrees_with_sync(void **state)
 {
     const double delta1[] = {1e-6, 1e3};
     (void)state;
@@ -161,7 +161,7 @@ int main(void)
         cmocka_unit_test(prony_rows_are_met),
         cmocka_unit_test(polyisobutylene_is_met),
         cmocka_unit_test(prony_with_dashpot_agrees_with_sync),
-        cmocka_unit_test(stiff_corner_agrees_with_the_reduced_problem),
+        cmocka_unit_test(stiff_corner_agrees_with_sync),
         cmocka_unit_test(families_agree),
         cmocka_unit_test(energy_is_accounted_for),
     };

@@ -61,7 +61,7 @@ static void elastic_impact_is_that_of_hertz(void **state)
         const struct track *t = &sync_track;
         const double h = 1.6 * r.time_step, value = 3e-8 + 0.4 * pow(h, 4), slope = 3e-8 + 0.6 * pow(h, 3);
         CHECK_NEAR(r.contact_time, 2.9432751843, 1e-9 + 2 * pow((double)n, -4), "%d levels", (int)n);
-        CHECK(t->count == (size_t)r.steps + 1, "%zu samples", t->count);
+        CHECK(t->count == most, "%zu samples", t->count); /* between levels too */
         for (size_t i = 0; i < t->count; i++) {
             const double left = 1 - t->vz[i] * t->vz[i];
             CHECK_NEAR(pow(fmax(0, t->depth[i]), 2.5), left, value, "%d levels, sample %zu", (int)n, i);

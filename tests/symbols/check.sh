@@ -3,6 +3,7 @@
 # Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh LIBRARY [PROGRAM]
 #   - it defines nothing but restitute_*
 #   - it calls nothing of a Fortran run-time library
+#   - it neither prints nor ends the program: it needs no function that does so, and no standard stream
 #   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
 #     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads
 # NM, READELF and WITH_OPENMP come from the environment.
@@ -24,6 +25,12 @@ foreign=$(echo "$defined" | grep -v -e '^restitute_' -e '^__' || true)
 undefined=$("$NM" -D --undefined-only "$library" | awk '{ print $NF }')
 fortran=$(echo "$undefined" | grep -E '^(_gfortran|_FortranA|for_)|quad' || true)
 [ -z "$fortran" ] || complain "$library calls the Fortran run-time library:" $fortran
+
+plain=$(echo "$undefined" | sed 's/@.*//')
+loud=$(echo "$plain" | grep -E '^((__)?v?printf(_chk)?|puts|putchar|perror|psignal|v?warnx?|v?errx?|stdout|stderr)$' || true)
+[ -z "$loud" ] || complain "$library prints:" $loud
+deadly=$(echo "$plain" | grep -E '^(abort|_?exit|_Exit|quick_exit|__assert_fail)$' || true)
+[ -z "$deadly" ] || complain "$library ends the program:" $deadly
 
 for file in "$@"; do
     needed=$("$READELF" --dynamic "$file" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')

@@ -10,7 +10,7 @@ if sh "$(dirname -- "$0")/check.sh" "$1" >complaints 2>&1; then
     exit 1
 fi
 for complaint in "other names than restitute_\*: leaky_name" "calls the Fortran run-time library: _gfortran" \
-    "needs a Fortran run-time library: libgfortran"; do
+    "needs a Fortran run-time library: libgfortran" "prints: puts" "ends the program: abort"; do
     grep "$complaint" complaints || { cat complaints; echo "no complaint '$complaint'" >&2; exit 1; }
 done
 [ "$openmp" = OFF ] || grep "needs OpenMP in a build without it: lib" complaints || { cat complaints; exit 1; }

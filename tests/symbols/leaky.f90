@@ -1,7 +1,18 @@
-! A library that exports a foreign name and calls the Fortran run-time library: the check must find both.
+! A library that exports a foreign name, calls the Fortran run-time library, prints and ends the program: the check must find all of it.
 ! SPDX-License-Identifier: BSD-3-Clause
 subroutine leaky_name(value) bind(c, name="leaky_name")
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_null_char
+  implicit none
   real(c_double), intent(in), value :: value
+  interface
+    function puts(text) bind(c, name="puts") result(written)
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int) :: written
+    end function puts
+    subroutine end_program() bind(c, name="abort")
+    end subroutine end_program
+  end interface
   print *, value
+  if (puts("value"//c_null_char) < 0) call end_program()
 end subroutine leaky_name

@@ -1,0 +1,17 @@
+/* Text attributes of fixed length.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "hdf5_text.h"
+
+#include <string.h>
+
+bool hdf5_write_text(hid_t place, const char *name, const char *text)
+{
+    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(text) + 1);
+    const hid_t attribute = H5Acreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    if (attribute >= 0) H5Aclose(attribute);
+    H5Tclose(type);
+    H5Sclose(space);
+    return good;
+}
