@@ -195,7 +195,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
     outcome->shear_velocity = now->velocity + change * part_taken;
     outcome->error_ex = share_of_change * fabs(change) / problem->psi + usual / (n * n * n) + rounding_of_level * n +
-                        fmax(normal->error, 2 * normal->taken_off);
+                        fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
     if (problem->chi > turning_back) outcome->error_ex += usual_error_then / (n * n);
     outcome->spacing = sqrt(normal->depth) / n;
     outcome->step = outcome->contact_time / (2 * n);
@@ -243,9 +243,9 @@ static int64_t multiple_of(int64_t unit, double count)
 
 /* The counts that the median impact needs for its estimates to meet the tolerance (docs/accuracy.md). The tangential oscillation
  * in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
-static double normal_levels_to_start(double wanted)
+static double normal_levels_to_start(double wanted, double chi)
 {
-    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted, -0.25)));
+    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / fmax(1, chi * 6 / 7), -0.25)));
 }
 
 double rst_sync_levels_to_start(const struct rst_problem *problem)
@@ -291,6 +291,7 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                     restitute_error *error)
 {
     char limit[64] = "rounding adds up";
+    if (2 * outcome->elements > rst_sync_most_levels) snprintf(limit, sizeof limit, "%d levels", rst_sync_most_levels);
     if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
     if (problem->elements > 0)
         snprintf(limit, sizeof limit, "elements = %lld", (long long)problem->elements);
@@ -313,7 +314,7 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         const int64_t levels = multiple_of(4, fmax(least_told, (double)problem->elements));
         return rst_sync_normal(problem, workspace, levels / (levels % 8 ? 2 : 4), levels, wanted, normal, error);
     }
-    double start = normal_levels_to_start(wanted);
+    double start = normal_levels_to_start(wanted, problem->chi);
     if (sticks && rst_sync_is_graded(problem)) start = fmax(start, rst_sync_levels_to_start(problem));
     const int64_t levels = multiple_of(8, start);
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
@@ -400,7 +401,9 @@ static struct resolution first_resolution(const struct rst_problem *problem, con
     const int told = problem->elements > 0;
     const double needed = told ? (double)normal->levels : rst_sync_levels_to_start(problem);
     struct resolution r = {.ratio = 1, .levels = normal->levels};
-    if (!rst_sync_is_graded(problem)) r.ratio = (int64_t)ceil(needed / (double)normal->levels);
+    if (!rst_sync_is_graded(problem))
+        r.ratio = (int64_t)ceil(fmin(needed, rst_sync_most_levels) / (double)normal->levels);
+    if (r.ratio > 1 && r.ratio * normal->levels > rst_sync_most_levels) r.ratio--;
     while (!told && r.ratio > 1 && too_many(problem, r.ratio * normal->levels))
         r.ratio /= 2;
     r.levels = r.ratio * normal->levels;
@@ -430,7 +433,7 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
         if (half_alone) continue;
         note_shear(problem, normal, &before, &now, outcome);
         /* what the normal problem is off by does not fall any more */
-        const int in_vain = fmax(normal->error, 2 * normal->taken_off) > enough;
+        const int in_vain = fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) > enough;
         if (problem->elements > 0 || in_vain || fmax(outcome->error_ez, outcome->error_ex) <= enough) break;
         status = double_levels(problem, workspace, normal, &resolution, error);
         if (status || normal->levels == 0) return status;
@@ -512,7 +515,7 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
     const struct rst_problem usual = {.chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
     struct store store;
     const int64_t levels = multiple_of(2, 4 * rst_sync_levels_to_start(&usual));
-    const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance));
+    const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, usual.chi));
     return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
            rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
 }

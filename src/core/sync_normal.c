@@ -16,7 +16,8 @@ static const double part_taken = 1.0 / 15;
  * small (docs/accuracy.md). */
 static const double share_of_difference = 0.5, usual_error = 2.5, share_of_change = 0.6, usual_error_of_two = 5;
 
-/* The levels have what extrapolation takes off; it is to be this part of the error that is wanted. */
+/* The levels have what extrapolation takes off; it is to be this part of the error that is wanted, and less for spheres that turn
+ * easily, which swing sqrt(2 chi) times as often as the contact lasts. */
 static const double left_in_levels = 0.1;
 
 /* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
@@ -45,7 +46,7 @@ static size_t doubles(size_t size, size_t count)
  * Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
 struct question {
-    double g_inf, eta, n_terms, closeness, first, last, wanted, allowed;
+    double g_inf, eta, n_terms, closeness, first, last, wanted, left, allowed;
     double g[most_terms_known], tau[most_terms_known];
 };
 
@@ -59,15 +60,8 @@ struct memo {
 static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
 {
     const struct rst_solid *s = &problem->solid;
-    struct question q = {s->g_inf,
-                         s->eta,
-                         (double)s->n_terms,
-                         rst_sync_closeness(problem),
-                         (double)first,
-                         (double)last,
-                         wanted,
-                         (double)problem->max_updates,
-                         {0},
+    struct question q = {s->g_inf,     s->eta, (double)s->n_terms,    rst_sync_closeness(problem),  (double)first,
+                         (double)last, wanted, fmax(1, problem->chi * 6 / 7), (double)problem->max_updates, {0},
                          {0}};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
         q.g[k] = s->g[k];
@@ -171,12 +165,13 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
         normal->velocity = extrapolated;
         normal->contact_time = end->time + part_taken * (end->time - series->time);
         normal->depth = normal->level[normal->levels].depth;
-        normal->error = series->count > 1
-                            ? share_of_difference * fabs(extrapolated - series->extrapolated) + usual_error * pow(n, -4.5)
-                            : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
+        normal->error = series->count > 1 ? share_of_difference * fabs(extrapolated - series->extrapolated) +
+                                                usual_error * pow(n, -4.5)
+                                          : share_of_change * fabs(change) + usual_error_of_two * pow(n, -4);
         normal->error += 1.5 * rst_sync_closeness(problem);
         normal->taken_off = part_taken * fabs(change);
-        normal->reached = normal->error <= wanted && normal->taken_off <= left_in_levels * wanted;
+        normal->reached =
+            normal->error <= wanted && normal->taken_off <= left_in_levels * wanted / fmax(1, problem->chi * 6 / 7);
     }
     *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
 }

@@ -361,6 +361,22 @@ static void what_sinks_does_not_stop_what_friction_cannot(void **state)
     restitute_material_destroy(solid);
 }
 
+/* A sphere that turns easily swings sqrt(2 chi) times as often as the contact lasts, through a force that is to be known as much
+ * better. */
+static void large_chi_keeps_its_estimate(void **state)
+{
+    const double chis[] = {30, 300, 1000};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const restitute_impact impact = impact_of(chis[i], 2, 1, 1);
+        const restitute_result fine = solve_impact(sync_to(1e-6), impact).result;
+        for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
+            const restitute_result r = solve_impact(sync_to(tolerance), impact).result;
+            CHECK_NEAR(r.ex, fine.ex, r.error_ex + fine.error_ex, "chi %g at %g", chis[i], tolerance);
+        }
+    }
+}
+
 /* A sphere that is easily turned: its tangential oscillation is sqrt(2 chi) times as fast as the normal one, up to forty-five
  * times. The default method needs a second for the last ones. */
 static void extreme_chi_works(void **state)
@@ -427,6 +443,7 @@ int main(void)
         cmocka_unit_test(maxwell_body_with_a_short_time_never_rebounds),
         cmocka_unit_test(what_sinks_does_not_stop_what_friction_cannot),
         cmocka_unit_test(extreme_chi_works),
+        cmocka_unit_test(large_chi_keeps_its_estimate),
         cmocka_unit_test(polyisobutylene_agrees_with_euler_at_all_speeds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
