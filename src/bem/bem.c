@@ -339,7 +339,8 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
     const int64_t wanted = (int64_t)s->history->count * steps / intervals; /* the step of the next sample */
     if (s->recorder && bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
     if (s->history->count == s->history->capacity || run->steps < wanted) return;
-    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step */
+    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step; from there on it flew */
+        q.depth -= q.velocity * (q.time - s->outcome->contact_time);
         q.time = s->outcome->contact_time;
         q.contact = q.stick = q.force = q.shear_force = 0;
     }

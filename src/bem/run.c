@@ -180,6 +180,12 @@ static int rests(const struct bem_stepper *s)
            normal_mass_factor * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
+/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact too. */
+static int leaves(const struct bem_stepper *s)
+{
+    return !s->setup->problem->solid.can_sink || s->motion.velocity <= -s->setup->rest_speed;
+}
+
 /* From sums to parts of the energies that came in; u_x = 1.5 U. */
 static void scale_work(const struct bem_setup *setup, struct bem_work *work)
 {
@@ -208,7 +214,7 @@ static void follow(struct bem_stepper *s, struct bem_observer *observer)
         if (unstable(s)) run->end = BEM_UNSETTLED;
         if (rests(s)) run->end = BEM_SUNK;
         if (s->motion.force <= 0 && run->max_force > 0 && run->end == BEM_TOO_LONG) {
-            run->end = BEM_REBOUND;
+            run->end = leaves(s) ? BEM_REBOUND : BEM_SUNK;
             run->contact_time = end_of_contact(setup->step, force_before, last_force, last_time);
         }
         if (run->end != BEM_TOO_LONG) return;

@@ -176,6 +176,31 @@ static void history_and_snapshots(void **state)
     assert_null(restitute_bem_recorder_method(NULL));
 }
 
+/* At the contact time an elastic sphere is where it touched first and flies as the result says: the three columns of the last row
+ * are of one instant, though the last step ends later. */
+static void history_ends_with_the_contact(void **state)
+{
+    enum { rows = 21 };
+    double time[rows], depth[rows], velocity[rows];
+    restitute_solver *solver;
+    restitute_result result;
+    restitute_history history;
+    const restitute_options options = options_of(60, 0.1);
+    const restitute_impact impact = impact_of(7.0 / 6, 0.5, 0, INFINITY);
+    (void)state;
+    assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
+    restitute_result_init(&result);
+    restitute_history_init(&history);
+    history.capacity = rows, history.time = time, history.indentation = depth, history.normal_velocity = velocity;
+    assert_int_equal(restitute_solve(solver, &impact, &result, NULL, &history, NULL), RESTITUTE_OK);
+    assert_int_equal(history.count, rows);
+    CHECK_NEAR(time[rows - 1], result.contact_time, 0, "time of the last row");
+    /* a step is 0.0147: a depth of the step's end would be off by up to that */
+    CHECK_NEAR(depth[rows - 1], 0, 1e-3, "indentation of the last row");
+    CHECK_NEAR(velocity[rows - 1], -1, 1e-5, "velocity of the last row"); /* elastic: exact to the iterations */
+    restitute_solver_destroy(solver);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(names),
@@ -183,6 +208,7 @@ int main(void)
                                        cmocka_unit_test(tolerance_is_met_or_told),
                                        cmocka_unit_test(repeats_its_bits),
                                        cmocka_unit_test(scene),
-                                       cmocka_unit_test(history_and_snapshots)};
+                                       cmocka_unit_test(history_and_snapshots),
+                                       cmocka_unit_test(history_ends_with_the_contact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

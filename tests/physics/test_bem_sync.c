@@ -67,6 +67,29 @@ static void prony_and_flow(void **state)
     restitute_material_destroy(rebounds);
 }
 
+/* Fluids into which the sphere sinks for good. Its force fades until the iterations leave no cell in contact, at speeds around the
+ * threshold of rest, 1e-5 at this tolerance: that is no rebound. */
+static void sinks_where_sync_does(void **state)
+{
+    static const struct {
+        double tau, g;
+        int64_t elements;
+    } fluids[] = {{0.15, 1, 60}, {0.15, 1, 29}, {0.107005, 1, 29}, {0.0532, 1, 29}, {0.023, 1, 29}};
+    (void)state;
+    for (size_t i = 0; i < sizeof fluids / sizeof *fluids; i++) {
+        restitute_material *fluid = solid_of(0, 0, 1, &fluids[i].tau, &fluids[i].g);
+        const restitute_impact impact = impact_on(fluid, 7.0 / 6, 0.6);
+        restitute_options options = bem_options(fluids[i].elements);
+        options.tolerance = 1e-3;
+        const struct solution bem = solve_impact(options, impact), sync = solve_impact(sync_to(1e-5), impact);
+        CHECK(sync.status == RESTITUTE_NO_REBOUND && bem.status == RESTITUTE_NO_REBOUND, "fluid %zu: %d, sync %d", i,
+              bem.status, sync.status);
+        CHECK(bem.result.ez == 0 && isinf(bem.result.contact_time), "fluid %zu: ez %g, contact time %g", i,
+              bem.result.ez, bem.result.contact_time);
+        restitute_material_destroy(fluid);
+    }
+}
+
 /* Without slip the traction is singular at the rim. */
 static void no_slip(void **state)
 {
@@ -116,8 +139,12 @@ static void ledger(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastic_and_standard), cmocka_unit_test(prony_and_flow),  cmocka_unit_test(no_slip),
-        cmocka_unit_test(both_directions),      cmocka_unit_test(slip_to_the_end), cmocka_unit_test(ledger)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard),
+                                       cmocka_unit_test(prony_and_flow),
+                                       cmocka_unit_test(sinks_where_sync_does),
+                                       cmocka_unit_test(no_slip),
+                                       cmocka_unit_test(both_directions),
+                                       cmocka_unit_test(slip_to_the_end),
+                                       cmocka_unit_test(ledger)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
