@@ -26,6 +26,9 @@ static const double usual_elements = 60, usual_steps = 200;
 /* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for chi up to 4. */
 static const double usual_chi = 4;
 
+/* No run has so many: it keeps the number an integer, whatever step is asked for. */
+static const double most_steps = 1e15;
+
 enum { first_elements = 15, most_elements = 2000, most_tries = 8 };
 
 /* The grid is wider than the contact by this and some cells. */
@@ -84,7 +87,7 @@ static struct bem_setup setup_of(struct impact *impact, double elements, double 
                               .spacing = spacing > 0 ? spacing : box->radius / elements,
                               .step = step,
                               .rest_speed = rest_speed(impact->problem),
-                              .most_steps = (int64_t)ceil(20 * duration / step) + 100};
+                              .most_steps = (int64_t)fmin(most_steps, ceil(20 * duration / step)) + 100};
 }
 
 /* One run, again in a larger box if the contact outgrows it. */

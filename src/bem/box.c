@@ -47,7 +47,7 @@ int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, str
         bem_solid_step(step, variant.explicit_euler, solid);
         bem_run(&setup, memory, NULL, &run);
         if (run.end == BEM_NO_MEMORY) return run.end;
-        box->radius = sqrt(run.max_area / 3.14159265358979);
+        box->radius = sqrt(run.max_area / 3.14159265358979323846);
         if (run.end == BEM_UNSETTLED) {
             step /= 4; /* unstable */
         } else if (run.end == BEM_OUTGREW) {

@@ -73,7 +73,8 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
     memset(x + m * ld, 0, (size_t)((ld - m) * ld) * sizeof *x);
 }
 
-/* Choose the part of the grid for the next step, at least `least` wide. While contact grows, memory is kept of all of it. */
+/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the grid: where contact
+ * will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
@@ -89,11 +90,7 @@ static int choose_part(struct bem_stepper *s, int64_t least)
         for (int i = 0; i < 4; i++)
             clear_beyond(s->f.m, m, fields[i]);
     }
-    if (is_elastic(s->solid) || (shrinks && !s->setup->keep_ledger)) {
-        s->all = s->near;
-    } else {
-        s->all = bem_memory_transform(s->memory, s->f.m);
-    }
+    s->all = is_elastic(s->solid) ? s->near : bem_memory_transform(s->memory, s->f.m);
     if (m > m_before && is_elastic(s->solid) && s->run->steps > 0 && !s->setup->normal_only) {
         look_back(s, s->f.p_before, s->f.tau_before, &s->before, s->f.gap_before, s->f.s_before);
         look_back(s, s->f.p, s->f.tau, &s->motion, s->f.gap, s->f.s);

@@ -48,6 +48,8 @@ static void refusals(void **state)
     options.time_step = 3;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
     assert_non_null(strstr(error.message, "steps of 3 T"));
+    options.time_step = 1e-300; /* more steps than an integer counts */
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     options.time_step = 1e-12;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     assert_non_null(strstr(error.message, "max_updates = 10000000000"));
@@ -96,6 +98,28 @@ static void repeats_its_bits(void **state)
         restitute_result_init(&results[i]);
     assert_int_equal(restitute_solve_many(&options, 4, impacts, results, NULL, 2, NULL), RESTITUTE_OK);
     assert_memory_equal(&first, &results[2], sizeof first);
+}
+
+/* A ledger, which looks at what is left in the solid, changes no bit of the result, nor what it cost. */
+static void a_ledger_changes_nothing(void **state)
+{
+    const restitute_options options = options_of(29, 0.1);
+    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 1, 1), impact_of(2, 0.3, 3, 0.3),
+                                        impact_of(1, 0.5, 0, INFINITY)};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        restitute_solver *solver;
+        restitute_result with, without;
+        restitute_ledger ledger;
+        restitute_result_init(&with);
+        restitute_result_init(&without);
+        restitute_ledger_init(&ledger);
+        assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
+        assert_int_equal(restitute_solve(solver, &impacts[i], &with, &ledger, NULL, NULL), RESTITUTE_OK);
+        assert_int_equal(restitute_solve(solver, &impacts[i], &without, NULL, NULL, NULL), RESTITUTE_OK);
+        assert_memory_equal(&with, &without, sizeof with);
+        restitute_solver_destroy(solver);
+    }
 }
 
 /* A scene in SI units is the same impact as its numbers. */
@@ -207,6 +231,7 @@ int main(void)
                                        cmocka_unit_test(refusals),
                                        cmocka_unit_test(tolerance_is_met_or_told),
                                        cmocka_unit_test(repeats_its_bits),
+                                       cmocka_unit_test(a_ledger_changes_nothing),
                                        cmocka_unit_test(scene),
                                        cmocka_unit_test(history_and_snapshots),
                                        cmocka_unit_test(history_ends_with_the_contact)};
