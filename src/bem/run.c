@@ -224,7 +224,7 @@ void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct be
 {
     struct bem_stepper s = {.setup = setup, .solid = setup->solid, .memory = memory, .run = run};
     const int both = setup->variant.both_directions && !setup->normal_only;
-    *run = (struct bem_run){.end = BEM_NO_MEMORY};
+    *run = (struct bem_run){.end = BEM_NO_MEMORY, .step = setup->step, .ringing = setup->solid->ringing};
     if (bem_memory_fields(memory, setup->m, setup->solid->n_terms, both, &s.f)) return;
     if (setup->keep_ledger && !bem_memory_transform(memory, setup->m)) return;
     run->end = BEM_TOO_LONG;
