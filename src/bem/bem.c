@@ -9,17 +9,17 @@
 #include "method.h"
 
 /* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
-static const double grid_error_ez = 0.002, grid_error_ex = 0.03;
+static const double grid_error_ez = 0.002, grid_error_ex = 0.04;
 
 /* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
 static const double largest_chi = 10, thin_slip = 0.1;
 
 /* Where next to nothing slips the traction is all but singular at the rim, and there is an error of first order in the cells besides. */
-static const double singular = 0.8, singular_slip = 0.01;
+static const double singular = 0.6, singular_slip = 0.01;
 
 /* A solid with next to no instantaneous compliance rings from step to step (solid.h): e_z is off by up to this if nothing damps it,
  * and by no more than usual if 1 - ringing is above the limit (docs/bem.md). */
-static const double most_ringing_error = 0.06, damped_enough = 0.005;
+static const double most_ringing_error = 0.1, damped_enough = 0.005;
 
 /* Refining waits for an estimate that falls, be it by this. */
 static const double falls_to = 0.9;
