@@ -95,11 +95,21 @@ static struct bem_setup setup_of(struct impact *impact, double elements, double 
                               .most_steps = (int64_t)fmin(most_steps, ceil(20 * duration / step)) + 100};
 }
 
-/* Explicit steps may have to be much smaller than those that are chosen for their accuracy. */
-static int may_halve(const struct impact *impact)
+/* Convolutions of a step, usually. */
+static const double convolutions_per_step = 12;
+
+static double updates_of(double steps, int64_t m)
 {
+    return steps * convolutions_per_step * 4 * (double)(m * m);
+}
+
+/* Explicit steps may have to be much smaller than those that are chosen for their accuracy. */
+static int may_halve(const struct impact *impact, const struct bem_setup *setup)
+{
+    const double next = updates_of(2 * duration_of(impact) / setup->step, setup->m);
     return impact->method->variant.explicit_euler && !(impact->problem->time_step > 0) &&
-           impact->halved < 1 << most_halvings && impact->updates < impact->problem->max_updates;
+           impact->halved < 1 << most_halvings &&
+           (double)impact->updates + next <= (double)impact->problem->max_updates;
 }
 
 /* One run, again in a larger box if the contact outgrows it, or with smaller steps if it may. */
@@ -115,7 +125,7 @@ static enum bem_end run_once(struct impact *impact, double elements, double step
         impact->updates += run->updates;
         if (run->end == BEM_OUTGREW && ++outgrown < most_tries)
             impact->box.radius *= 1.1;
-        else if (run->end == BEM_UNSETTLED && may_halve(impact))
+        else if (run->end == BEM_UNSETTLED && may_halve(impact, setup))
             impact->halved *= 2;
         else
             return run->end;
@@ -258,14 +268,10 @@ static int too_long_a_step(const struct impact *impact, double step, restitute_e
                       step * p->time_unit, p->unit_name, duration * p->time_unit, p->unit_name);
 }
 
-/* Convolutions of a step, usually. */
-static const double convolutions_per_step = 12;
-
 static int too_many_steps(struct impact *impact, double elements, double step, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
-    const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
-    const double updates = duration / step * convolutions_per_step * 4 * m * m;
+    const double updates = updates_of(duration_of(impact) / step, setup_of(impact, elements, step, 0).m);
     if (updates <= (double)p->max_updates) return RESTITUTE_OK;
     return rst_report(
         error, RESTITUTE_ERROR_TOO_MUCH_WORK,
