@@ -4,7 +4,8 @@
 !> with the transforms' product 1. With a_k = 1/tau_k the retardation rates x are the zeros of the secular equation
 !>   G_inf + sum_k g_k x/(x - a_k) = 0:
 !> one between 0 and the smallest a if G_inf > 0 (else a flow term stands for it) and one between each two neighbouring a; the
-!> left side falls in each interval, so bisection finds them. J_k = 1/(x_k sum_i g_i a_i/(a_i - x_k)^2).
+!> left side falls in each interval, so bisection finds them. J_k = 1/sum_i g_i (a_i/x_k) (x_k/(a_i - x_k))^2, all of order 1
+!> where rates are extreme.
 module rst_bem_creep
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -53,7 +54,7 @@ contains
     integer(ip), intent(in) :: n
     real(dp), intent(in) :: g_inf, g(n), tau(n), below, above
     real(dp), intent(out) :: compliance, lambda
-    real(dp) :: origin, sign_of, near, far, middle, value
+    real(dp) :: origin, sign_of, near, far, middle, rate, value
     integer(ip) :: i
     middle = (above - below)/2
     origin = merge(above, below, secular(g_inf, n, g, tau, below, middle) > 0)
@@ -72,12 +73,13 @@ contains
         far = middle
       end if
     end do
-    lambda = 1/(origin + sign_of*middle)
+    rate = origin + sign_of*middle
+    lambda = 1/rate
     value = 0
     do i = 1, n
-      value = value + g(i)/tau(i)/((1/tau(i) - origin) - sign_of*middle)**2
+      value = value + g(i)*((1/tau(i))/rate)*(rate/((1/tau(i) - origin) - sign_of*middle))**2
     end do
-    compliance = lambda/value
+    compliance = 1/value
   end subroutine find_root
 
   !> The left side of the secular equation at x = origin + distance.

@@ -71,7 +71,7 @@ contains
     end do
   end subroutine remember
 
-  !> What K p shall be in contact: (D - r^2/2 + h)/C; p times `scale` extrapolated from the last two as a start.
+  !> What K p shall be in contact: (D - r^2/2 + h)/C.
   pure subroutine normal_target(ld, m, spacing, depth, c, h, target) bind(c, name="rst_bem_normal_target")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), value :: spacing, depth, c

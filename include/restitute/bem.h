@@ -17,13 +17,23 @@
  *
  *  - options.elements: cells over the largest contact radius, 4 to 2000; the grid is about 2.1 times as many cells wide: 29,
  *    60 and 122 give 64 x 64, 128 x 128 and 256 x 256 cells. 0: chosen by the tolerance.
- *  - options.time_step: as elsewhere; 0 with given elements: a 200th of the contact time.
- *  - options.tolerance: grids to 2048 x 2048 are tried, a time limit is given by options.max_updates, here in cells times
- *    convolutions. 1e-3 takes some hundredths of a second, 1e-4 some seconds.
+ *  - options.time_step: as elsewhere, below half the contact time; 0 with given elements: a 200th of the contact time, with
+ *    `bem-paper` as small a part of it as is stable.
+ *  - options.tolerance: cells and steps are doubled, from 15 cells over the radius, until the estimate meets it. The limit is
+ *    options.max_updates, here cells times convolutions: it is not passed, and a grid that would is not begun, so the default of 1e10 ends at 120
+ *    or 240 cells. 1e-3 takes 0.06 s where much of the contact slips (psi from 0.5 on), 0.3 s at psi = 0.01, 2 s without slip, and
+ *    20 s in the corner of chi = 4 and next to no slip; 1e-4 takes 3 s with psi from 0.5 on and is out of reach below.
  *  - The result is extrapolated from two runs, the second with half the cells and twice the step; the estimates are what that changed, and a part for the grid (docs/bem.md).
+ *  - A sphere that sinks in for good has NO_REBOUND, ez = 0 and an infinite contact time: it is slower than the larger of 1e-5 and a hundredth of
+ *    the tolerance, and the solid has no equilibrium modulus.
+ *  - A solid whose instantaneous compliance is next to nothing, below a 200th of what a step relaxes (a standard solid with gamma/delta1 below
+ *    3e-5 or so), makes the steps ring: e_z is off by up to 0.1, the estimate says so, and smaller steps help slowly. Take `sync`.
  *  - Poisson's ratio enters by chi and psi alone, as in the other methods; the kernel is that of nu = 1/2.
  *  - A solid without instantaneous modulus (Kelvin-Voigt, or any parallel viscosity) is refused with ERROR_DOMAIN: its pressure
  *    would be infinite at the rim of a contact that grows. Give a Prony term with a short relaxation time instead.
+ *  - Threads: solvers in several threads are safe beside each other; a solver works in one. They plan transforms, now and then, in any call
+ *    of restitute_solve, and FFTW's planner is one for the process: a program that itself makes or destroys FFTW plans in another thread meanwhile
+ *    must call fftw_make_planner_thread_safe() (libfftw3_threads) before the first of either. That covers the plans of this component too.
  *  - In the ledger, the viscous parts are the work on the surface less what else it went to.
  *
  *  SPDX-License-Identifier: BSD-3-Clause (this file and the component's source)

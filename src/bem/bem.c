@@ -8,17 +8,21 @@
 #include "box.h"
 #include "method.h"
 
-/* Runs are of second order in the step: a third of the change to twice the step is its error, and is taken off. */
-static const double taken = 1.0 / 3;
-
 /* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
-static const double grid_error_ez = 0.002, grid_error_ex = 0.03;
+static const double grid_error_ez = 0.002, grid_error_ex = 0.04;
 
 /* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
 static const double largest_chi = 10, thin_slip = 0.1;
 
-/* Without slip the traction is singular at the rim, and the grid errors are larger by this. */
-static const double no_slip_factor = 5;
+/* Where next to nothing slips the traction is all but singular at the rim, and there is an error of first order in the cells besides. */
+static const double singular = 0.6, singular_slip = 0.01;
+
+/* A solid with next to no instantaneous compliance rings from step to step (solid.h): e_z is off by up to this if nothing damps it,
+ * and by no more than usual if 1 - ringing is above the limit (docs/bem.md). */
+static const double most_ringing_error = 0.1, damped_enough = 0.005;
+
+/* Refining waits for an estimate that falls, be it by this. */
+static const double falls_to = 0.9;
 
 /* Steps of an impact with 60 cells over the radius, when they are chosen; of one with any number, when that is given. */
 static const double usual_elements = 60, usual_steps = 200;
@@ -26,7 +30,10 @@ static const double usual_elements = 60, usual_steps = 200;
 /* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for chi up to 4. */
 static const double usual_chi = 4;
 
-enum { first_elements = 15, most_elements = 2000, most_tries = 8 };
+/* No run has so many: it keeps the number an integer, whatever step is asked for. */
+static const double most_steps = 1e15;
+
+enum { first_elements = 15, most_elements = 2000, most_tries = 8, most_halvings = 12 };
 
 /* The grid is wider than the contact by this and some cells. */
 static const double margin = 1.03, margin_cells = 1.5;
@@ -45,6 +52,7 @@ struct impact {
     struct bem_box box;
     int keep_ledger;
     int64_t updates;
+    int halved; /* steps are so many times smaller than wanted, to be stable */
 };
 
 /* Widths whose transforms are fast: products of 2, 3 and 5. */
@@ -84,30 +92,51 @@ static struct bem_setup setup_of(struct impact *impact, double elements, double 
                               .spacing = spacing > 0 ? spacing : box->radius / elements,
                               .step = step,
                               .rest_speed = rest_speed(impact->problem),
-                              .most_steps = (int64_t)ceil(20 * duration / step) + 100};
+                              .most_steps = (int64_t)fmin(most_steps, ceil(20 * duration / step)) + 100};
 }
 
-/* One run, again in a larger box if the contact outgrows it. */
+/* Convolutions of a step, usually. */
+static const double convolutions_per_step = 12;
+
+static double updates_of(double steps, int64_t m)
+{
+    return steps * convolutions_per_step * 4 * (double)(m * m);
+}
+
+/* Explicit steps may have to be much smaller than those that are chosen for their accuracy. */
+static int may_halve(const struct impact *impact, const struct bem_setup *setup)
+{
+    const double next = updates_of(2 * duration_of(impact) / setup->step, setup->m);
+    return impact->method->variant.explicit_euler && !(impact->problem->time_step > 0) &&
+           impact->halved < 1 << most_halvings &&
+           (double)impact->updates + next <= (double)impact->problem->max_updates;
+}
+
+/* One run, again in a larger box if the contact outgrows it, or with smaller steps if it may. */
 static enum bem_end run_once(struct impact *impact, double elements, double step, int keep_ledger,
                              struct bem_setup *setup, struct bem_run *run)
 {
-    for (int i = 0; i < most_tries; i++) {
-        *setup = setup_of(impact, elements, step, 0);
+    int outgrown = 0;
+    for (;;) {
+        *setup = setup_of(impact, elements, step / impact->halved, 0);
         setup->keep_ledger = keep_ledger;
-        bem_solid_step(step, impact->method->variant.explicit_euler, &impact->solid);
+        bem_solid_step(setup->step, impact->method->variant.explicit_euler, &impact->solid);
         bem_run(setup, impact->memory, NULL, run);
         impact->updates += run->updates;
-        if (run->end != BEM_OUTGREW) break;
-        impact->box.radius *= 1.1;
+        if (run->end == BEM_OUTGREW && ++outgrown < most_tries)
+            impact->box.radius *= 1.1;
+        else if (run->end == BEM_UNSETTLED && may_halve(impact, setup))
+            impact->halved *= 2;
+        else
+            return run->end;
     }
-    return run->end;
 }
 
 static int begin(const struct rst_problem *problem, struct rst_workspace *workspace, struct impact *impact,
                  restitute_error *error)
 {
     const size_t n = (size_t)problem->solid.n_terms + 1;
-    *impact = (struct impact){.problem = problem, .method = (const struct bem_method *)problem->method};
+    *impact = (struct impact){.problem = problem, .method = (const struct bem_method *)problem->method, .halved = 1};
     if (problem->solid.eta > 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "the solid has a parallel dashpot and so no instantaneous modulus: the method bem cannot do "
@@ -120,16 +149,18 @@ static int begin(const struct rst_problem *problem, struct rst_workspace *worksp
     if (!terms) return out_of_memory(error);
     impact->solid =
         (struct bem_solid){.compliance = terms, .lambda = terms + n, .decay = terms + 2 * n, .gain = terms + 3 * n};
+    double shortest, longest;
     bem_solid_creep(&problem->solid, &impact->solid);
+    bem_guess_times(&problem->solid, &shortest, &longest);
+    bem_solid_prune(shortest, longest, &impact->solid);
     return RESTITUTE_OK;
 }
 
 static int find_box(struct impact *impact, restitute_error *error)
 {
-    const enum bem_end end =
-        bem_find_box(impact->problem, &impact->solid, impact->method->variant, impact->memory, &impact->box);
+    const enum bem_end end = bem_find_box(impact->problem, &impact->solid, impact->memory, &impact->box);
     if (end == BEM_REBOUND) {
-        bem_solid_prune(impact->box.sinks ? impact->box.sink_time : impact->box.time, &impact->solid);
+        bem_solid_prune(duration_of(impact), duration_of(impact), &impact->solid);
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
@@ -166,22 +197,28 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                                             .left_x = w->left_shear};
 }
 
-/* The finer of two runs, extrapolated, with the error that its neighbour tells. */
-static void compare(const struct impact *impact, const struct bem_run *coarse, double elements,
-                    struct rst_outcome *outcome)
+static double ringing_error(const struct bem_run *run)
 {
-    const double psi = impact->problem->psi;
-    const double grid = pow(elements, -1.5) * (impact->problem->mode == RST_NO_SLIP ? no_slip_factor : 1);
-    const double harder = fmin(largest_chi, fmax(1, impact->problem->chi)) * (1 + thin_slip / (thin_slip + psi));
-    double part = taken;
-    if (impact->method->variant.explicit_euler) part = 1; /* of first order */
+    return most_ringing_error * fmax(0, 1 - (1 - run->ringing) / damped_enough);
+}
+
+/* The finer of two runs, extrapolated, with the error that its neighbour tells. */
+static void compare(const struct impact *impact, const struct bem_run *coarse, const struct bem_run *run,
+                    double elements, struct rst_outcome *outcome)
+{
+    const double psi = impact->problem->psi, slip = impact->problem->mode == RST_NO_SLIP ? 0 : psi;
+    const double grid = pow(elements, -1.5), ratio = coarse->step / outcome->step;
+    const double harder = fmin(largest_chi, fmax(1, impact->problem->chi));
+    const double tangential =
+        (1 + thin_slip / (thin_slip + slip)) * grid + singular * singular_slip / (singular_slip + slip) / elements;
+    const double part = 1 / ((impact->method->variant.explicit_euler ? ratio : ratio * ratio) - 1); /* by the order */
     const double change = outcome->sunk ? 0 : part * (outcome->velocity - coarse->last.velocity);
     const double shear_change = part * (outcome->shear_velocity - coarse->last.shear_velocity);
-    outcome->error_ez = fabs(change) + grid_error_ez * grid;
+    outcome->error_ez = fabs(change) + grid_error_ez * grid + ringing_error(run);
     if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
-    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * grid * harder + outcome->error_ez;
+    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * tangential * harder + outcome->error_ez;
     outcome->shear_velocity += shear_change;
 }
 
@@ -221,14 +258,20 @@ static double steps_wanted(const struct impact *impact, double elements)
     return usual_steps * faster * elements / usual_elements;
 }
 
-/* Convolutions of a step, usually. */
-static const double convolutions_per_step = 12;
+static int too_long_a_step(const struct impact *impact, double step, restitute_error *error)
+{
+    const struct rst_problem *p = impact->problem;
+    const double duration = duration_of(impact);
+    if (2 * step < duration) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
+                      "time_step = %.6g %s: must be below half the time of contact, which is about %.3g %s",
+                      step * p->time_unit, p->unit_name, duration * p->time_unit, p->unit_name);
+}
 
 static int too_many_steps(struct impact *impact, double elements, double step, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
-    const double m = (double)setup_of(impact, elements, step, 0).m, duration = duration_of(impact);
-    const double updates = duration / step * convolutions_per_step * 4 * m * m;
+    const double updates = updates_of(duration_of(impact) / step, setup_of(impact, elements, step, 0).m);
     if (updates <= (double)p->max_updates) return RESTITUTE_OK;
     return rst_report(
         error, RESTITUTE_ERROR_TOO_MUCH_WORK,
@@ -245,14 +288,15 @@ static int solve_as_told(struct impact *impact, struct rst_outcome *outcome, res
     const double step = p->time_step > 0 ? p->time_step : duration / steps_wanted(impact, usual_elements);
     struct bem_setup setup, beside;
     struct bem_run run, coarse;
-    const int status = too_many_steps(impact, elements, step, error);
+    int status = too_long_a_step(impact, step, error);
+    if (!status) status = too_many_steps(impact, elements, step, error);
     if (status) return status;
     const enum bem_end end_of_coarse = run_once(impact, elements / 2, 2 * step, 0, &beside, &coarse);
     const enum bem_end end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
     if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, error);
     fill(impact, &setup, elements, &run, outcome);
     if (end_of_coarse == end)
-        compare(impact, &coarse, elements, outcome);
+        compare(impact, &coarse, &run, elements, outcome);
     else
         outcome->error_ez = outcome->error_ex = 1; /* nothing is known but |e| <= 1 */
     return met(impact, outcome) ? RESTITUTE_OK : not_reached(impact, outcome, error);
@@ -271,7 +315,7 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
     struct bem_run run, coarse = {.end = BEM_UNSETTLED};
     int found = 0;
     enum bem_end end = BEM_UNSETTLED;
-    double step = 0;
+    double step = 0, last_worst = 0;
     for (double elements = first_elements; elements <= most_elements; elements *= 2) {
         step = duration / steps_wanted(impact, elements);
         const int64_t before = impact->updates;
@@ -279,9 +323,12 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
         if (end == BEM_NO_MEMORY) break;
         if ((end == BEM_REBOUND || end == BEM_SUNK) && coarse.end == end) {
             fill(impact, &setup, elements, &run, outcome);
-            compare(impact, &coarse, elements, outcome);
-            found = 1;
+            compare(impact, &coarse, &run, elements, outcome);
             if (met(impact, outcome)) return RESTITUTE_OK;
+            const double worst = fmax(outcome->error_ez, outcome->error_ex);
+            if (found && ringing_error(&run) > 0 && worst > falls_to * last_worst) break; /* it would take years */
+            last_worst = worst;
+            found = 1;
         }
         coarse = run;
         if (too_much(impact, impact->updates - before)) break;
@@ -339,7 +386,8 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
     const int64_t wanted = (int64_t)s->history->count * steps / intervals; /* the step of the next sample */
     if (s->recorder && bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
     if (s->history->count == s->history->capacity || run->steps < wanted) return;
-    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step */
+    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step; from there on it flew */
+        q.depth -= q.velocity * (q.time - s->outcome->contact_time);
         q.time = s->outcome->contact_time;
         q.contact = q.stick = q.force = q.shear_force = 0;
     }
@@ -356,7 +404,7 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     struct sampler sampler = {
         .observer = {.see = see}, .outcome = outcome, .history = history, .recorder = impact.method->recorder};
     impact.box.time = outcome->followed_time;
-    bem_solid_prune(outcome->followed_time, &impact.solid);
+    bem_solid_prune(outcome->followed_time, outcome->followed_time, &impact.solid);
     bem_solid_step(outcome->step, impact.method->variant.explicit_euler, &impact.solid);
     const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
     history->count = 0;

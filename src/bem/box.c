@@ -10,6 +10,10 @@ static const int64_t coarse = 16, coarse_steps = 40;
 
 /* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again. */
 static const double generous = 1.15, least_part = 0.6;
+
+/* The guess of the time is far less wrong than this. */
+static const double far_off = 1e6;
+
 enum { most_tries = 60, most_iterations = 60 };
 
 static double guess_depth(const struct rst_solid *solid)
@@ -28,8 +32,16 @@ static void settle_time(const struct bem_run *run, struct bem_box *box)
     box->time = box->sinks ? INFINITY : run->contact_time;
 }
 
-int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_variant variant,
-                 struct bem_memory *memory, struct bem_box *box)
+void bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest)
+{
+    const double time = 2.94 * guess_depth(solid);
+    *shortest = time / far_off;
+    *longest = time * far_off;
+}
+
+/* By the steps of second order, whatever the variant: explicit ones may need so many that no search ends. */
+int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
+                 struct bem_box *box)
 {
     const double depth = guess_depth(&problem->solid);
     double side = generous * sqrt(depth), step = 2.94 * depth / (double)coarse_steps;
@@ -37,17 +49,16 @@ int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, str
         struct bem_run run;
         const struct bem_setup setup = {.problem = problem,
                                         .solid = solid,
-                                        .variant = variant,
                                         .normal_only = 1,
                                         .m = coarse,
                                         .spacing = side / (double)coarse,
                                         .step = step,
                                         .rest_speed = 1e-4,
                                         .most_steps = 30 * coarse_steps};
-        bem_solid_step(step, variant.explicit_euler, solid);
+        bem_solid_step(step, 0, solid);
         bem_run(&setup, memory, NULL, &run);
         if (run.end == BEM_NO_MEMORY) return run.end;
-        box->radius = sqrt(run.max_area / 3.14159265358979);
+        box->radius = sqrt(run.max_area / 3.14159265358979323846);
         if (run.end == BEM_UNSETTLED) {
             step /= 4; /* unstable */
         } else if (run.end == BEM_OUTGREW) {

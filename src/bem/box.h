@@ -11,8 +11,11 @@ struct bem_box {
     double sink_time; /* until it rests */
 };
 
-/* BEM_REBOUND, or why there is no answer; negative: out of memory. */
-int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_variant variant,
-                 struct bem_memory *memory, struct bem_box *box);
+/* BEM_REBOUND, or why there is no answer; BEM_NO_MEMORY: out of memory. */
+int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
+                 struct bem_box *box);
+
+/* Times between which that of the impact certainly lies. */
+void bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest);
 
 #endif

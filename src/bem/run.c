@@ -73,7 +73,8 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
     memset(x + m * ld, 0, (size_t)((ld - m) * ld) * sizeof *x);
 }
 
-/* Choose the part of the grid for the next step, at least `least` wide. While contact grows, memory is kept of all of it. */
+/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the grid: where contact
+ * will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
@@ -89,11 +90,7 @@ static int choose_part(struct bem_stepper *s, int64_t least)
         for (int i = 0; i < 4; i++)
             clear_beyond(s->f.m, m, fields[i]);
     }
-    if (is_elastic(s->solid) || (shrinks && !s->setup->keep_ledger)) {
-        s->all = s->near;
-    } else {
-        s->all = bem_memory_transform(s->memory, s->f.m);
-    }
+    s->all = is_elastic(s->solid) ? s->near : bem_memory_transform(s->memory, s->f.m);
     if (m > m_before && is_elastic(s->solid) && s->run->steps > 0 && !s->setup->normal_only) {
         look_back(s, s->f.p_before, s->f.tau_before, &s->before, s->f.gap_before, s->f.s_before);
         look_back(s, s->f.p, s->f.tau, &s->motion, s->f.gap, s->f.s);
@@ -180,6 +177,12 @@ static int rests(const struct bem_stepper *s)
            normal_mass_factor * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
+/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact too. */
+static int leaves(const struct bem_stepper *s)
+{
+    return !s->setup->problem->solid.can_sink || s->motion.velocity <= -s->setup->rest_speed;
+}
+
 /* From sums to parts of the energies that came in; u_x = 1.5 U. */
 static void scale_work(const struct bem_setup *setup, struct bem_work *work)
 {
@@ -208,7 +211,7 @@ static void follow(struct bem_stepper *s, struct bem_observer *observer)
         if (unstable(s)) run->end = BEM_UNSETTLED;
         if (rests(s)) run->end = BEM_SUNK;
         if (s->motion.force <= 0 && run->max_force > 0 && run->end == BEM_TOO_LONG) {
-            run->end = BEM_REBOUND;
+            run->end = leaves(s) ? BEM_REBOUND : BEM_SUNK;
             run->contact_time = end_of_contact(setup->step, force_before, last_force, last_time);
         }
         if (run->end != BEM_TOO_LONG) return;
@@ -221,7 +224,7 @@ void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct be
 {
     struct bem_stepper s = {.setup = setup, .solid = setup->solid, .memory = memory, .run = run};
     const int both = setup->variant.both_directions && !setup->normal_only;
-    *run = (struct bem_run){.end = BEM_NO_MEMORY};
+    *run = (struct bem_run){.end = BEM_NO_MEMORY, .step = setup->step, .ringing = setup->solid->ringing};
     if (bem_memory_fields(memory, setup->m, setup->solid->n_terms, both, &s.f)) return;
     if (setup->keep_ledger && !bem_memory_transform(memory, setup->m)) return;
     run->end = BEM_TOO_LONG;

@@ -48,7 +48,8 @@ struct bem_work {
 struct bem_run {
     enum bem_end end;
     struct bem_motion last;
-    double contact_time;
+    double step, contact_time;
+    double ringing; /* of the solid in these steps, solid.h */
     double max_depth, max_force, max_area;
     struct bem_work work;
     int64_t steps, iterations, convolutions, updates; /* updates: convolutions times cells */

@@ -1,6 +1,7 @@
 /* The recursion over time in its clean form. With E_k = exp(-h/lambda_k), phi_k = (1 - E_k) lambda_k/h, f changing linearly in the step:
  *   b_k' = E_k b_k + J_k phi_k (f' - f),   u' = J_inf f' - sum b_k'.
- * The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
+ * Its own oscillation, with u = 0, is f' = -r f; for terms slow beside the step r = (h/2 sum J_k/lambda_k - J_0)/(h/2 sum J_k/lambda_k + J_0),
+ * near 1 where the instantaneous compliance is next to nothing, as in the trapezoidal rule. The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solid.h"
 
@@ -18,17 +19,19 @@ void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep
  * far above it at most J_k t/lambda_k. Both are let go where they are below this part of the compliance. */
 static const double negligible = 1e-6;
 
-void bem_solid_prune(double duration, struct bem_solid *s)
+void bem_solid_prune(double shortest, double longest, struct bem_solid *s)
 {
-    double compliance = s->instantaneous + s->flow * duration;
+    double compliance = s->instantaneous + s->flow * shortest;
     int64_t kept = 0;
     for (int64_t k = 0; k < s->n_terms; k++)
-        compliance += s->compliance[k] * -expm1(-duration / s->lambda[k]);
+        compliance += s->compliance[k] * -expm1(-shortest / s->lambda[k]);
     for (int64_t k = 0; k < s->n_terms; k++) {
-        const double share = negligible * compliance / s->compliance[k], ratio = s->lambda[k] / duration;
-        if (ratio < 1 && ratio < share)
+        const double share = negligible * compliance / s->compliance[k];
+        const int fast = s->lambda[k] < shortest && s->lambda[k] / shortest < share;
+        const int slow = s->lambda[k] >= longest && longest / s->lambda[k] <= share;
+        if (fast) {
             s->instantaneous += s->compliance[k];
-        else if (ratio < 1 || 1 / ratio > share) {
+        } else if (!slow) {
             s->compliance[kept] = s->compliance[k];
             s->lambda[kept++] = s->lambda[k];
         }
@@ -41,6 +44,7 @@ void bem_solid_step(double h, int jumps, struct bem_solid *s)
     s->half_flow = s->flow * h / 2;
     s->c = s->instantaneous + s->half_flow;
     s->held = s->half_flow;
+    double slow = s->half_flow; /* what terms that are slow beside the step give to c */
     for (int64_t k = 0; k < s->n_terms; k++) {
         const double x = h / s->lambda[k];
         const double phi = jumps || x < 1e-9 ? 1 : -expm1(-x) / x;
@@ -49,7 +53,9 @@ void bem_solid_step(double h, int jumps, struct bem_solid *s)
         s->held += s->gain[k];
         /* J_k - gain_k, without the difference of two large numbers when the term is slow */
         s->c += jumps ? 0 : s->compliance[k] * (x < 1e-4 ? x / 2 - x * x / 6 : 1 - phi);
+        slow += s->compliance[k] * (x < 1e-4 ? x / 2 - x * x / 6 : 1 - phi) * exp(-x * x);
     }
+    s->ringing = jumps ? 0 : slow / s->c;
 }
 
 double bem_solid_modulus(const struct rst_solid *relaxation, double t)

@@ -13,14 +13,15 @@ struct bem_solid {
     int64_t n_terms;
     double *compliance, *lambda;
     double *decay, *gain;      /* of a step: b_k = decay_k b_k + gain_k df */
+    double ringing;            /* of a step: 1 - J_0/c if terms are slow beside it, 0 if they are fast */
     double c, held, half_flow; /* u = c f - sum decay_k b_k + held f_before + drift */
 };
 
 /* The arrays of `creep` hold at least the terms of the solid, and at least 1. */
 void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep);
 
-/* Leave out terms that an impact of this duration cannot tell from a spring or from nothing. */
-void bem_solid_prune(double duration, struct bem_solid *creep);
+/* Leave out terms that no impact of a duration from `shortest` to `longest` can tell from a spring or from nothing. */
+void bem_solid_prune(double shortest, double longest, struct bem_solid *creep);
 
 /* For steps of h in which f changes linearly, or (jumps) at their beginning, as in the paper. */
 void bem_solid_step(double h, int jumps, struct bem_solid *creep);

@@ -156,7 +156,9 @@ static double energy_of_terms(struct bem_stepper *s, enum bem_kind kind, const d
 
 void bem_find_left(struct bem_stepper *s)
 {
+    const int64_t updates = s->run->updates; /* those of the impact alone, with a ledger or without */
     s->near = s->all = bem_memory_transform(s->memory, s->f.m); /* there since the run began */
     s->run->work.left_normal = energy_of_terms(s, BEM_NORMAL, s->f.b_z, s->f.p_new);
     if (!s->setup->normal_only) s->run->work.left_shear = energy_of_terms(s, BEM_SHEAR, s->f.b_x, s->f.tau_new);
+    s->run->updates = updates;
 }

@@ -7,41 +7,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "random.h"
 #include "timing.h"
 
 static const char *const solid_names[DRAWN_SOLIDS] = {"elastic", "standard", "prony"};
 
-/* SplitMix64. */
-static double draw_in(uint64_t *state, double low, double high)
-{
-    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    z ^= z >> 31;
-    return low + (high - low) * (double)(z >> 11) * 0x1p-53;
-}
-
-static double draw_log(uint64_t *state, double low, double high)
-{
-    return exp(draw_in(state, log(low), log(high)));
-}
-
 void bench_draw_impact(unsigned seed, long index, struct bench_draw *draw)
 {
     uint64_t state = (uint64_t)seed * UINT64_C(0xd1342543de82ef95) + (uint64_t)index * UINT64_C(0x2545f4914f6cdd1d);
-    const double lot = draw_in(&state, 0, 1);
+    const double lot = random_in(&state, 0, 1);
     *draw = (struct bench_draw){.kind = lot < 1.0 / 6 ? DRAWN_ELASTIC : lot < 2.0 / 3 ? DRAWN_STANDARD : DRAWN_PRONY};
-    draw->chi = draw_log(&state, 1.0 / 3, 4);
-    draw->psi = draw_log(&state, 0.05, 10);
+    draw->chi = random_log(&state, 1.0 / 3, 4);
+    draw->psi = random_log(&state, 0.05, 10);
     if (draw->kind == DRAWN_STANDARD) {
-        draw->delta1 = draw_log(&state, 1e-3, 100);
-        draw->gamma = draw_log(&state, 1e-3, 200);
+        draw->delta1 = random_log(&state, 1e-3, 100);
+        draw->gamma = random_log(&state, 1e-3, 200);
     } else if (draw->kind == DRAWN_PRONY) {
-        draw->n_terms = 2 + (int)draw_in(&state, 0, BENCH_MOST_TERMS - 1);
-        draw->g_inf = draw_in(&state, 0, 1) < 0.2 ? 0 : 1; /* some flow, and some of these never rebound */
+        draw->n_terms = 2 + (int)random_in(&state, 0, BENCH_MOST_TERMS - 1);
+        draw->g_inf = random_in(&state, 0, 1) < 0.2 ? 0 : 1; /* some flow, and some of these never rebound */
         for (int k = 0; k < draw->n_terms; k++) {
-            draw->tau[k] = draw_log(&state, 1e-3, 100);
-            draw->g[k] = draw_log(&state, 0.05, 5);
+            draw->tau[k] = random_log(&state, 1e-3, 100);
+            draw->g[k] = random_log(&state, 0.05, 5);
         }
     }
 }
@@ -148,6 +134,12 @@ static int failed(const struct bench_bem_row *r)
     return r->status_sync < 0 || r->status_bem < 0;
 }
 
+/* One finds a rebound and the other none. */
+static int ends_differently(const struct bench_bem_row *r)
+{
+    return !failed(r) && (r->status_sync == RESTITUTE_NO_REBOUND) != (r->status_bem == RESTITUTE_NO_REBOUND);
+}
+
 /* Median, 95 of 100 and largest absolute difference of the rows of a solid (DRAWN_SOLIDS: of all). */
 static void print_line(const struct bench_bem_row *rows, size_t n, int kind, double *ez, double *ex, FILE *stream)
 {
@@ -187,8 +179,15 @@ void bench_print_bem(const struct bench_bem_row *rows, size_t n, double limit, F
     }
     free(ez);
     free(ex);
+    size_t different = 0;
+    for (size_t i = 0; i < n; i++)
+        different += ends_differently(&rows[i]) ? 1 : 0;
+    fprintf(stream, "  rebound in one and none in the other: %zu\n", different);
     for (size_t i = 0; i < n; i++) {
         const struct bench_bem_row *r = &rows[i];
+        if (ends_differently(r))
+            fprintf(stream, "  set %ld ends differently: sync: %s; bem: %s\n", r->index,
+                    restitute_status_text(r->status_sync), restitute_status_text(r->status_bem));
         const double dz = r->ez_bem - r->ez_sync, dx = r->ex_bem - r->ex_sync;
         if (failed(r))
             fprintf(stream, "  set %ld failed: sync: %s; bem: %s\n", r->index, restitute_status_text(r->status_sync),

@@ -240,7 +240,11 @@ static int omissions_run(const struct bench_settings *settings)
 static bool check_places(const struct bench_settings *settings, struct reason *why)
 {
     if (settings->output) {
-        char *path = path_with_suffix(settings->output, "-runs.csv");
+        static const char *const suffixes[] = {[MODE_PRECISION] = "-runs.csv",
+                                               [MODE_OMISSIONS] = "-omissions.csv",
+                                               [MODE_STABILITY] = "-stability.csv",
+                                               [MODE_BEM] = "-bem.csv"};
+        char *path = path_with_suffix(settings->output, suffixes[settings->mode]);
         const bool good =
             *settings->output && strcmp(settings->output, "-") != 0
                 ? output_check(path, "--output", why)

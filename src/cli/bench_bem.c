@@ -93,23 +93,50 @@ static bool join(struct campaign *c, struct reason *why)
     return good;
 }
 
+/* The rows that are there already, into a new file that takes the place of the old one when it is whole. */
+static bool renew_partial(const struct campaign *c, struct reason *why)
+{
+    struct output output;
+    if (!output_open(c->partial_path, &output, why)) return false;
+    char line[128];
+    settings_line(c, line, sizeof line);
+    fputs(line, output.stream);
+    for (long i = 0; i < plan_of(c)->sets; i++)
+        if (c->done[i]) bench_write_bem_row(&c->rows[i], output.stream);
+    return output_finish(&output, why);
+}
+
+static bool not_written(const struct campaign *c, struct reason *why)
+{
+    return refuse(why, "%.200s: cannot be written: %s", c->partial_path, strerror(errno));
+}
+
 static bool open_partial(struct campaign *c, struct reason *why)
 {
     struct stat status;
-    char line[128];
     if (!c->settings->output) return true;
     c->partial_path = path_with_suffix(c->settings->output, "-bem.csv.partial");
     if (!c->settings->resume && stat(c->partial_path, &status) == 0)
         return refuse(why, "%.200s is left from an interrupted run: continue it with --resume, or remove it",
                       c->partial_path);
     if (!read_rows(c, c->partial_path, "--resume", false, why)) return false;
-    c->partial = fopen(c->partial_path, "w");
-    if (!c->partial) return refuse(why, "%.200s: cannot be written: %s", c->partial_path, strerror(errno));
-    settings_line(c, line, sizeof line);
-    fputs(line, c->partial);
-    for (long i = 0; i < plan_of(c)->sets; i++)
-        if (c->done[i]) bench_write_bem_row(&c->rows[i], c->partial);
-    return true;
+    if (!renew_partial(c, why)) return false;
+    c->partial = fopen(c->partial_path, "a");
+    return c->partial || not_written(c, why);
+}
+
+/* Nonzero: the row is not on its way to the disk. */
+static int append(const struct campaign *c, long index)
+{
+    bench_write_bem_row(&c->rows[index], c->partial);
+    return fflush(c->partial) != 0 || ferror(c->partial);
+}
+
+static bool close_partial(struct campaign *c, struct reason *why)
+{
+    FILE *stream = c->partial;
+    c->partial = NULL;
+    return !stream || fclose(stream) == 0 || not_written(c, why);
 }
 
 static bool make_solvers(struct campaign *c, struct reason *why)
@@ -140,10 +167,7 @@ static bool run_all(struct campaign *c, struct reason *why)
         if (bench_bem_run(c->sync, c->bem, i, &draw, &c->rows[i]))
             return refuse(why, "set %ld: its solid cannot be made", i);
         c->done[i] = true;
-        if (c->partial) {
-            bench_write_bem_row(&c->rows[i], c->partial);
-            fflush(c->partial);
-        }
+        if (c->partial && append(c, i)) return not_written(c, why);
     }
     bench_progress(NULL);
     return true;
@@ -176,7 +200,7 @@ int bench_bem_campaign(const struct bench_settings *settings)
     c.rows = allocate((size_t)settings->campaign.sets, sizeof *c.rows);
     c.done = allocate((size_t)settings->campaign.sets, sizeof *c.done);
     const bool good = make_solvers(&c, &why) && join(&c, &why) && open_partial(&c, &why) && run_all(&c, &why) &&
-                      (bench_interrupted() || report(&c, &why));
+                      close_partial(&c, &why) && (bench_interrupted() || report(&c, &why));
     restitute_solver_destroy(c.sync);
     restitute_solver_destroy(c.bem);
     if (c.partial) fclose(c.partial);

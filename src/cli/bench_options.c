@@ -179,6 +179,8 @@ static bool take_campaign(char **text, struct bench_settings *settings, struct r
         !read_whole("seed", text[TEXT_SEED], 0, 4294967295.0, &seed, why) ||
         !read_shard(text[TEXT_SHARD], campaign, why))
         return false;
+    if (campaign->shard > sets)
+        return refuse(why, "--shard = \"%.64s\": is empty, the impacts are %g", text[TEXT_SHARD], sets);
     if ((int)grid % 2) return refuse(why, "--grid = %g: must be even", grid);
     campaign->sets = (long)sets;
     campaign->grid = (int)grid;

@@ -47,7 +47,12 @@ static void refusals(void **state)
     restitute_options options = options_of(0, 1e-3);
     options.time_step = 3;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
-    assert_non_null(strstr(error.message, "steps of 3 T"));
+    assert_non_null(strstr(error.message, "time_step = 3 T: must be below half the time of contact"));
+    options.time_step = 1e300;
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
+    assert_non_null(strstr(error.message, "time_step = 1e+300 T: must be below"));
+    options.time_step = 1e-300; /* more steps than an integer counts */
+    error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     options.time_step = 1e-12;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     assert_non_null(strstr(error.message, "max_updates = 10000000000"));
@@ -96,6 +101,28 @@ static void repeats_its_bits(void **state)
         restitute_result_init(&results[i]);
     assert_int_equal(restitute_solve_many(&options, 4, impacts, results, NULL, 2, NULL), RESTITUTE_OK);
     assert_memory_equal(&first, &results[2], sizeof first);
+}
+
+/* A ledger, which looks at what is left in the solid, changes no bit of the result, nor what it cost. */
+static void a_ledger_changes_nothing(void **state)
+{
+    const restitute_options options = options_of(29, 0.1);
+    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 1, 1), impact_of(2, 0.3, 3, 0.3),
+                                        impact_of(1, 0.5, 0, INFINITY)};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        restitute_solver *solver;
+        restitute_result with, without;
+        restitute_ledger ledger;
+        restitute_result_init(&with);
+        restitute_result_init(&without);
+        restitute_ledger_init(&ledger);
+        assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
+        assert_int_equal(restitute_solve(solver, &impacts[i], &with, &ledger, NULL, NULL), RESTITUTE_OK);
+        assert_int_equal(restitute_solve(solver, &impacts[i], &without, NULL, NULL, NULL), RESTITUTE_OK);
+        assert_memory_equal(&with, &without, sizeof with);
+        restitute_solver_destroy(solver);
+    }
 }
 
 /* A scene in SI units is the same impact as its numbers. */
@@ -176,13 +203,40 @@ static void history_and_snapshots(void **state)
     assert_null(restitute_bem_recorder_method(NULL));
 }
 
+/* At the contact time an elastic sphere is where it touched first and flies as the result says: the three columns of the last row
+ * are of one instant, though the last step ends later. */
+static void history_ends_with_the_contact(void **state)
+{
+    enum { rows = 21 };
+    double time[rows], depth[rows], velocity[rows];
+    restitute_solver *solver;
+    restitute_result result;
+    restitute_history history;
+    const restitute_options options = options_of(60, 0.1);
+    const restitute_impact impact = impact_of(7.0 / 6, 0.5, 0, INFINITY);
+    (void)state;
+    assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
+    restitute_result_init(&result);
+    restitute_history_init(&history);
+    history.capacity = rows, history.time = time, history.indentation = depth, history.normal_velocity = velocity;
+    assert_int_equal(restitute_solve(solver, &impact, &result, NULL, &history, NULL), RESTITUTE_OK);
+    assert_int_equal(history.count, rows);
+    CHECK_NEAR(time[rows - 1], result.contact_time, 0, "time of the last row");
+    /* a step is 0.0147: a depth of the step's end would be off by up to that */
+    CHECK_NEAR(depth[rows - 1], 0, 1e-3, "indentation of the last row");
+    CHECK_NEAR(velocity[rows - 1], -1, 1e-5, "velocity of the last row"); /* elastic: exact to the iterations */
+    restitute_solver_destroy(solver);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(names),
                                        cmocka_unit_test(refusals),
                                        cmocka_unit_test(tolerance_is_met_or_told),
                                        cmocka_unit_test(repeats_its_bits),
+                                       cmocka_unit_test(a_ledger_changes_nothing),
                                        cmocka_unit_test(scene),
-                                       cmocka_unit_test(history_and_snapshots)};
+                                       cmocka_unit_test(history_and_snapshots),
+                                       cmocka_unit_test(history_ends_with_the_contact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,17 +10,15 @@
 
 #include <restitute/restitute.h>
 
+#include "../support/random.h"
+
 static const double reference_tolerance = 1e-8;
 
 static uint64_t state;
 
-/* splitmix64, uniform in [0, 1) */
 static double uniform(void)
 {
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return random_in(&state, 0, 1);
 }
 
 static double log_uniform(double low, double high)
@@ -104,7 +102,8 @@ int main(int argc, char **argv)
         compare(&impact, &result, &finer, tested.tolerance, out, &summary);
         fflush(out);
         if ((n + 1) % 50 == 0 || n + 1 == cases)
-            fprintf(stderr, "%ld of %ld: worst ez %.2e, ex %.2e; %d above %g; %d above their estimate, at most %.1f times\n",
+            fprintf(stderr,
+                    "%ld of %ld: worst ez %.2e, ex %.2e; %d above %g; %d above their estimate, at most %.1f times\n",
                     n + 1, cases, summary.worst_ez, summary.worst_ex, summary.above, tested.tolerance,
                     summary.underestimated, summary.worst_ratio);
     }

@@ -44,6 +44,7 @@ rows() {
 }
 expect 0 bench --bem-campaign 5 --grid 32 --output whole --figure whole.svg
 has out 'all           5        0'
+has out 'rebound in one and none in the other: 0'
 [ -s whole.svg ] && [ "$(rows whole-bem.csv | wc -l)" -eq 6 ] || fail "not five rows and a figure"
 absent whole-bem.csv.partial
 awk -F, '/^[0-9]/ { if ($13 > 0.01 || $13 < -0.01 || $14 > 0.01 || $14 < -0.01) exit 1 }' whole-bem.csv || fail "far from sync"
@@ -60,6 +61,14 @@ head -4 whole-bem.csv >other-bem.csv.partial
 refused 'is of a run with other settings' bench --bem-campaign 5 --grid 32 --seed 3 --output other --resume
 refused 'no-such.csv' bench --bem-campaign 5 --grid 32 --join no-such.csv
 
+# A resumed run keeps what there is until it has more: with no room for a new file the old one stays.
+(head -4 whole-bem.csv && printf '4,pro') >kept-bem.csv.partial
+cp kept-bem.csv.partial kept
+(ulimit -f 0; "$RESTITUTE" bench --bem-campaign 5 --grid 32 --output kept --resume >out 2>err) && fail "wrote without room"
+cmp kept kept-bem.csv.partial || fail "an interrupted run was lost"
+
+refused 'no/such/x-bem.csv' bench --bem-campaign 5 --output no/such/x
+refused '--shard = "5/7": is empty' bench --bem-campaign 2 --shard 5/7
 refused '--shard = "3/2"' bench --bem-campaign 5 --shard 3/2
 refused '--shard = "1"' bench --bem-campaign 5 --shard 1
 refused '--bem-campaign = "0"' bench --bem-campaign 0

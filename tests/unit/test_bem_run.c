@@ -82,34 +82,70 @@ static void lee_radok_loading(void **state)
     CHECK(checked > 30, "%d steps were looked at", checked);
 }
 
-/* Velocities after of three steps, each a quarter of the one before, at one grid. */
-static void check_order(struct bem_variant variant, int standard_solid, double least_z, double least_x, double most_x)
+/* The slope of log y over log x. */
+static double slope(int n, const double *x, const double *y)
 {
-    const struct rst_problem problem = problem_of(0.5, standard_solid);
-    const double radius = standard_solid ? 0.95 : 1;
-    double v[3], w[3];
-    for (int i = 0; i < 3; i++) {
-        const struct bem_run run = run_of(&problem, variant, 24, radius, 0.06 / (1 << 2 * i), NULL);
-        v[i] = run.last.velocity, w[i] = run.last.shear_velocity;
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (int i = 0; i < n; i++) {
+        const double u = log(x[i]), v = log(y[i]);
+        sx += u, sy += v, sxx += u * u, sxy += u * v;
     }
-    const double order_z = 0.5 * log2(fabs((v[0] - v[1]) / (v[1] - v[2])));
-    const double order_x = 0.5 * log2(fabs((w[0] - w[1]) / (w[1] - w[2])));
-    CHECK(!standard_solid || order_z > least_z, "order in ez: %g", order_z); /* elastic: ez is exact to rounding */
-    CHECK(order_x > least_x && order_x < most_x, "order in ex: %g", order_x);
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/* ex: cells enter one by one, which is not smooth; the order is 1.3 from 50 to 200 to 800 steps and 2 beyond (docs/bem.md). */
-static void second_order_in_the_step(void **state)
+struct orders {
+    double z, x;
+};
+
+/* Squared errors of the velocities after with 26 to 210 steps, against a reference with 1680, are added up over grids of several widths:
+ * cells come and go one at a time, which makes those of a single grid noisy. */
+static struct orders orders_in_the_step(struct bem_variant variant, int standard_solid, double psi)
 {
-    (void)state;
-    check_order((struct bem_variant){0}, 0, 0, 1.2, 4);
-    check_order((struct bem_variant){0}, 1, 1.8, 1.2, 4);
+    enum { steps = 4, finest = 64 };
+    const struct rst_problem problem = problem_of(psi, standard_solid);
+    const double radius = standard_solid ? 0.95 : 1;
+    double h[steps], squares_z[steps] = {0}, squares_x[steps] = {0};
+    for (int m = 16; m <= 28; m += 4) {
+        const struct bem_run best = run_of(&problem, variant, m, radius, 0.08 / finest, NULL);
+        for (int i = 0; i < steps; i++) {
+            h[i] = 0.08 / (1 << i);
+            const struct bem_run run = run_of(&problem, variant, m, radius, h[i], NULL);
+            squares_z[i] += pow(run.last.velocity - best.last.velocity, 2);
+            squares_x[i] += pow(run.last.shear_velocity - best.last.shear_velocity, 2);
+        }
+    }
+    return (struct orders){0.5 * slope(steps, h, squares_z), 0.5 * slope(steps, h, squares_x)};
 }
 
+/* Measured 2.06 over seven grids (an elastic sphere keeps its energy, and there is no error to speak of). Single steps between neighbours
+ * differ by 0.3, four grids average that out to 0.1. */
+static void normal_velocity_is_of_second_order_in_the_step(void **state)
+{
+    const struct orders damped = orders_in_the_step((struct bem_variant){0}, 1, 0.5);
+    (void)state;
+    CHECK(damped.z > 1.8 && damped.z < 2.3, "%g", damped.z);
+}
+
+/* Cells enter and begin to slip one at a time, which is not smooth: less than second order with this many steps, more than the first of
+ * the paper's. Measured 1.33 elastic and 1.35 damped. */
+static void shear_velocity_is_between_the_orders(void **state)
+{
+    const struct orders elastic = orders_in_the_step((struct bem_variant){0}, 0, 0.5);
+    const struct orders damped = orders_in_the_step((struct bem_variant){0}, 1, 0.5);
+    (void)state;
+    CHECK(elastic.x > 1.15 && elastic.x < 1.6, "elastic: %g", elastic.x);
+    CHECK(damped.x > 1.15 && damped.x < 1.6, "standard solid: %g", damped.x);
+}
+
+/* Measured 1.06 to 1.07: 1, and 0.06 because the reference has an eighth of the smallest step and so an eighth of its error. */
 static void the_papers_steps_are_of_first_order(void **state)
 {
+    const struct bem_variant paper = {.explicit_euler = 1, .stick_sets = 1};
+    const struct orders sticks = orders_in_the_step(paper, 1, 0.5), slips = orders_in_the_step(paper, 1, 3);
     (void)state;
-    check_order((struct bem_variant){.explicit_euler = 1, .stick_sets = 1}, 1, 0.7, -1, 1.2);
+    CHECK(sticks.z > 0.95 && sticks.z < 1.15, "normal: %g", sticks.z);
+    CHECK(sticks.x > 0.95 && sticks.x < 1.15, "shear, partial slip: %g", sticks.x);
+    CHECK(slips.x > 0.95 && slips.x < 1.15, "shear, gross slip: %g", slips.x);
 }
 
 /* Shrinking stick sets and bounds are two ways to one traction. */
@@ -123,23 +159,36 @@ static void stick_sets_agree_with_bounds(void **state)
                "U' after"); /* the sets do not let a cell stick again */
 }
 
-/* Against the largest force of a fine grid, whole cells make noise. */
+/* The order in the cells, from 8 to 64 over the side of the box, against 128. The largest depth is the smoothest of what a run gives:
+ * measured 1.98; whole cells at the rim cost 3/2 in single steps of it, two on the average. Velocities stay within the estimates of the method. */
 static void converges_with_the_grid(void **state)
 {
+    enum { grids = 4 };
     const struct rst_problem problem = problem_of(0.5, 1);
-    double force[3];
-    const int64_t m[] = {8, 24, 72};
+    double error[grids], spacing[grids + 1], depth[grids + 1], v[grids + 1], w[grids + 1];
     (void)state;
-    for (int i = 0; i < 3; i++)
-        force[i] = run_of(&problem, (struct bem_variant){0}, m[i], 0.95, 0.02, NULL).max_force;
-    CHECK(fabs(force[1] - force[2]) < 0.5 * fabs(force[0] - force[2]), "forces %.8g %.8g %.8g", force[0], force[1],
-          force[2]);
-    CHECK(fabs(force[1] - force[2]) < 1e-3 * force[2], "forces %.8g %.8g", force[1], force[2]);
+    for (int i = 0; i <= grids; i++) {
+        const int64_t m = 8 << i;
+        const struct bem_run run = run_of(&problem, (struct bem_variant){0}, m, 0.95, 0.02, NULL);
+        spacing[i] = 1.0 / (double)m;
+        depth[i] = run.max_depth, v[i] = run.last.velocity, w[i] = run.last.shear_velocity / problem.psi;
+    }
+    for (int i = 0; i < grids; i++)
+        error[i] = fabs(depth[i] - depth[grids]);
+    const double order = slope(grids, spacing, error);
+    CHECK(order > 1.5 && order < 2.4, "%g", order);
+    for (int i = 0; i < grids; i++) { /* grid_error_ez and _ex of bem.c, with its factor for chi = 7/6, psi = 0.5 */
+        const double grid = pow(spacing[i], 1.5);
+        CHECK_NEAR(v[i], v[grids], 0.002 * 8 * grid, "normal velocity on grid %d", i);
+        CHECK_NEAR(w[i], w[grids], 0.04 * 7 / 6 * (1 + 0.1 / 0.6) * grid, "shear velocity on grid %d", i);
+    }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lee_radok_loading), cmocka_unit_test(second_order_in_the_step),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lee_radok_loading),
+                                       cmocka_unit_test(normal_velocity_is_of_second_order_in_the_step),
+                                       cmocka_unit_test(shear_velocity_is_between_the_orders),
                                        cmocka_unit_test(the_papers_steps_are_of_first_order),
                                        cmocka_unit_test(stick_sets_agree_with_bounds),
                                        cmocka_unit_test(converges_with_the_grid)};
