@@ -28,7 +28,7 @@ if ! grep -q 'HDF5 is not in this build' err; then
 fi
 absent f.h5.tmp
 refused 'needs --method bem' history --psi 0.7 --fields f.h5
-refused 'must end in .h5, .svg or .png' history --psi 0.7 --method bem --fields f.csv
+refused 'must end in .h5, .hdf5, .svg or .png' history --psi 0.7 --method bem --fields f.csv
 refused 'no instantaneous modulus' pair --psi 0.7 --delta1 1 --gamma 0 --method bem
 expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 --velocity 1 --angle 30 \
     --method bem --tolerance 0.01 --format csv
