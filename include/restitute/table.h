@@ -198,7 +198,8 @@ typedef struct restitute_table_info {
     double error_ez, error_ex;  /**< verified: largest difference at the points checked, and what the solver leaves open */
     int64_t impacts;            /**< solved for the table, those of the checks included */
     int64_t checks;             /**< points at which it was compared with a solved impact */
-    int64_t nodes[4];           /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis */
+    int64_t nodes[4];           /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis. Of a table with
+                                   axes of delta1 and gamma: cells, values in a cell (16), then as before */
     size_t bytes;               /**< of memory that the table takes */
     char version[32];           /**< of the library that built it */
 } restitute_table_info;
@@ -283,8 +284,14 @@ typedef struct restitute_table_data {
     int64_t chi_cells;               /**< even cells of chi, with a cubic each; 0: one node */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
     int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
-    const double *ez;                /**< [speed][gamma] */
-    const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1) */
+    const double *ez;                /**< [speed][gamma]; with cells: [cell][4 nodes of delta1][4 of gamma] */
+    const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1); with cells: NULL */
+
+    int64_t cells; /**< 0; > 0: a table with axes of delta1 and gamma, divided by patches. Then `parts` is 1, 1, and
+                      nodes[0], nodes[1] are the number of cells and 16 */
+    const int64_t *patches; /**< [octave of delta1][octave of gamma][3]: the first cell, k, l: 2^k by 2^l cells in [0, 5], those along gamma
+                               one after the other */
+    const float *ex_cells; /**< [cell][psi][chi][4 nodes of delta1][4 of gamma]: what `ex` is in other tables */
 } restitute_table_data;
 
 RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);
@@ -304,7 +311,7 @@ RESTITUTE_API int restitute_table_from_data(const restitute_table_data *data, re
                                             restitute_error *error);
 
 /** The places of an axis's nodes: 0 speed (m/s) or delta1, 1 gamma, 2 chi, 3 psi, where those beyond psi = 1 are given as 1 + y.
- *  @param places  restitute_table_data.nodes[axis] values
+ *  @param places  restitute_table_data.nodes[axis] values; along axes 0 and 1 of a table with cells nodes[0] nodes[1] values, [cell][16]
  *  @return OK, ERROR_NULL, ERROR_DOMAIN */
 RESTITUTE_API int restitute_table_nodes(const restitute_table *table, int axis, double *places);
 

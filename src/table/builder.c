@@ -1,6 +1,6 @@
 /* The machine of builder.h: it solves what a stage asks for, and goes to the next when all of it is there.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "grid.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 /* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that those that
  * are interpolated may take all of the tolerance; those of the checks have theirs added to the difference. Where checks fail for
  * no other reason, the first is lessened (docs/table.md). */
-static const double part_for_filling = 1, part_for_checks = 0.5;
+static const double part_for_filling = 1, part_for_checks = 0.5, part_for_grid_checks = 0.2;
 
 /* Times that points are added after a check. */
 static const int most_rounds = 12;
@@ -56,9 +56,20 @@ static void seams_around(const double range[2], double *low, double *high)
     memcpy(high, &bits, sizeof bits);
 }
 
+/* The same of whole octaves. */
+static void octaves_around(const double range[2], double *low, double *high)
+{
+    int exponent;
+    const double fraction = frexp(range[1], &exponent);
+    *high = ldexp(1, fraction > 0.5 ? exponent : exponent - 1);
+    frexp(range[0], &exponent);
+    *low = ldexp(1, exponent - 1);
+}
+
 static void set_axes(struct restitute_table_builder *b)
 {
     const struct rst_family *f = &b->family;
+    const int patches = f->range[0][0] < f->range[0][1] && f->range[1][0] < f->range[1][1];
     for (int a = 0; a < 3; a++) {
         b->active[a] = f->range[a][0] < f->range[a][1];
         b->low[a] = f->range[a][0];
@@ -66,7 +77,7 @@ static void set_axes(struct restitute_table_builder *b)
         if (a == RST_CHI) continue;
         b->seam_low[a] = b->seam_high[a] = f->range[a][0];
         if (!b->active[a]) continue;
-        seams_around(f->range[a], &b->seam_low[a], &b->seam_high[a]);
+        (patches ? octaves_around : seams_around)(f->range[a], &b->seam_low[a], &b->seam_high[a]);
         b->low[a] = log(b->seam_low[a]);
         b->high[a] = log(b->seam_high[a]);
     }
@@ -116,7 +127,9 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     if (!status) {
         set_axes(b);
         set_probes(b);
-        if (rst_plan_probes(b)) status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+        const int patches = b->active[RST_SPEED] && b->active[RST_GAMMA];
+        if (patches ? rst_grid_create(b) : rst_plan_probes(b))
+            status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status) {
         restitute_table_builder_destroy(b);
@@ -135,6 +148,7 @@ void restitute_table_builder_destroy(restitute_table_builder *builder)
     free(builder->solved);
     free(builder->journal);
     rst_memo_clear(&builder->memo);
+    rst_grid_free(builder->grid);
     free(builder);
 }
 
@@ -144,8 +158,18 @@ struct place {
     double speed, gamma, chi, psi;
 };
 
+/* In the build of a table of patches the numbers themselves are kept. */
+static struct place place_in_grid(const struct restitute_table_builder *b, const struct rst_point *p)
+{
+    struct place at = {.speed = p->u[0], .gamma = p->u[1], .chi = p->u[2], .psi = p->s};
+    if (p->slips)
+        at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, b->grid->column[p->column].ez) - 1);
+    return at;
+}
+
 static struct place place_of(const struct restitute_table_builder *b, const struct rst_point *p)
 {
+    if (b->grid) return place_in_grid(b, p);
     struct place at = {.speed = rst_builder_number(b, RST_SPEED, p->u[0]),
                        .gamma = rst_builder_number(b, RST_GAMMA, p->u[1]),
                        .chi = rst_builder_number(b, RST_CHI, p->u[2]),
@@ -215,8 +239,8 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    options.tolerance =
-        fmax(1e-8, b->stage == RST_CHECKING ? part_for_checks * b->options.tolerance : b->filling_tolerance);
+    const double for_checks = (b->grid ? part_for_grid_checks : part_for_checks) * b->options.tolerance;
+    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
     const size_t n = (size_t)p->count;
     return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
                      : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
@@ -415,6 +439,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
 
 static int next_stage(struct restitute_table_builder *b, restitute_error *error)
 {
+    if (b->grid) return rst_grid_next(b, error);
     if (b->part == 0) {
         begin_part(b, 1);
         return RESTITUTE_OK;
@@ -515,7 +540,7 @@ int64_t restitute_table_builder_expected(const restitute_table_builder *builder)
     if (builder->part == 0)
         for (int64_t i = 0; i < builder->next; i++)
             ahead += builder->point[i].slips && !builder->point[i].known;
-    if (builder->stage == RST_PROBING) return builder->used + ahead;
+    if (builder->stage == RST_PROBING || builder->grid) return builder->used + ahead;
     return builder->used + ahead + (builder->stage == RST_FILLING ? points_of_checks(builder) : 0);
 }
 

@@ -41,13 +41,14 @@ int rst_panels_halve(struct rst_panels *p, int panel);
 struct rst_point {
     double u[3];
     double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
-    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
+    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does. grid.h: the column */
+    int64_t slot;   /* grid.h: where in the column, or which check */
     int slips;
     int known; /* solved in an earlier round */
 };
 
 /* What came of it. */
-struct rst_solved {
+struct rst_solved { /* as in the journal */
     double ez, ex, error_ez, error_ex;
 };
 
@@ -87,6 +88,7 @@ struct restitute_table_builder {
     int failing[2][rst_most_panels];       /* panels in which a check failed */
     double filling_tolerance;
     struct rst_memo memo;
+    struct rst_grid *grid; /* NULL: no table of patches */
     double worst_ez, worst_ex;
 };
 
@@ -94,6 +96,10 @@ struct restitute_table_builder {
 double rst_builder_number(const struct restitute_table_builder *b, enum rst_axis axis, double u);
 
 double rst_y_of_t(double t);
+
+/* Append a point to be solved (plan.c), or forget all points; nonzero: out of memory. */
+int rst_plan_add(struct restitute_table_builder *b, struct rst_point point);
+void rst_plan_begin(struct restitute_table_builder *b);
 
 /* Points of a stage (plan.c); nonzero: out of memory. */
 int rst_plan_probes(struct restitute_table_builder *b);

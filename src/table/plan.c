@@ -8,7 +8,7 @@
 /* Most points of a line of probes: one that needs more is cut into panels. */
 static const int64_t most_points = 33;
 
-static int add_point(struct restitute_table_builder *b, struct rst_point point)
+int rst_plan_add(struct restitute_table_builder *b, struct rst_point point)
 {
     if (b->points == b->capacity) {
         const int64_t capacity = b->capacity ? 2 * b->capacity : 1024;
@@ -24,7 +24,7 @@ static int add_point(struct restitute_table_builder *b, struct rst_point point)
     return 0;
 }
 
-static void begin(struct restitute_table_builder *b)
+void rst_plan_begin(struct restitute_table_builder *b)
 {
     b->points = b->next = 0;
     b->part = 0;
@@ -66,7 +66,7 @@ static int probe_outer(struct restitute_table_builder *b, enum rst_axis axis, do
                 struct rst_point p = {.s = kind == 2 ? 0.5 : kind, .slips = kind == 2, .column = first + j};
                 memcpy(p.u, c.u[i], sizeof p.u);
                 p.u[axis] = x[j];
-                if (add_point(b, p)) return 1;
+                if (rst_plan_add(b, p)) return 1;
             }
         }
     }
@@ -87,7 +87,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
             for (int64_t j = side; j < n - side; j++) {
                 struct rst_point p = {.s = x[j], .slips = side, .column = first};
                 memcpy(p.u, c.u[i], sizeof p.u);
-                if (add_point(b, p)) return 1;
+                if (rst_plan_add(b, p)) return 1;
             }
         }
     }
@@ -97,7 +97,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
 int rst_plan_probes(struct restitute_table_builder *b)
 {
     double x[rst_most_points];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < 3; axis++)
         if (b->active[axis] && probe_outer(b, (enum rst_axis)axis, x)) return 1;
     if (b->active[RST_STICK] && probe_psi(b, x)) return 1;
@@ -202,11 +202,11 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
     const int64_t n = b->n[RST_STICK], m = b->active[RST_SLIP] ? b->n[RST_SLIP] : 0, first = b->points;
     for (int64_t j = 0; j < n; j++) {
         struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = stick[j]};
-        if (add_point(b, p)) return 1;
+        if (rst_plan_add(b, p)) return 1;
     }
     for (int64_t j = 1; j < m - 1; j++) {
         struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = slip[j], .slips = 1, .column = first + n - 1};
-        if (add_point(b, p)) return 1;
+        if (rst_plan_add(b, p)) return 1;
     }
     return 0;
 }
@@ -214,7 +214,7 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
 int rst_plan_filling(struct restitute_table_builder *b)
 {
     double x[rst_axes][rst_most_points];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
         rst_panels_nodes(&b->panels[axis], x[axis]);
     for (int64_t i = 0; i < b->n[0]; i++)
@@ -230,7 +230,7 @@ int rst_plan_checks(struct restitute_table_builder *b)
 {
     double x[rst_axes][rst_most_points];
     int64_t n[rst_axes];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
         n[axis] = rst_panels_half_ways(&b->panels[axis], x[axis]);
     if (!b->active[RST_STICK]) x[RST_STICK][0] = 0;
@@ -241,7 +241,7 @@ int rst_plan_checks(struct restitute_table_builder *b)
                     for (int64_t l = 0; l < n[RST_STICK + side]; l++) {
                         const struct rst_point p = {
                             .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .slips = side, .column = -1};
-                        if (add_point(b, p)) return 1;
+                        if (rst_plan_add(b, p)) return 1;
                     }
     return 0;
 }
