@@ -11,6 +11,9 @@
  * no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_grid_checks = 0.2;
 
+/* For columns, whose last coefficients tell how many points they need: the solver's errors must not be taken for them. */
+static const double part_for_columns = 0.4;
+
 /* Times that points are added after a check. */
 static const int most_rounds = 12;
 
@@ -122,12 +125,12 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     struct restitute_table_builder *b = calloc(1, sizeof *b);
     if (!b) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->options = *options;
-    b->filling_tolerance = part_for_filling * options->tolerance;
     status = rst_family_set(family, &b->family, error);
     if (!status) {
         set_axes(b);
         set_probes(b);
         const int patches = b->active[RST_SPEED] && b->active[RST_GAMMA];
+        b->filling_tolerance = (patches ? part_for_columns : part_for_filling) * options->tolerance;
         if (patches ? rst_grid_create(b) : rst_plan_probes(b))
             status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }

@@ -6,10 +6,11 @@
 #include "interpolation.h"
 
 /* The most points that a direction may have. */
-static const int64_t most[rst_inners] = {17, 33, 65};
+static const int64_t most[rst_inners] = {25, 33, 65};
 
-/* Parts of the goal that the last coefficients of a direction may be worth: they fall fast along chi. */
-static const double part[rst_inners] = {2, 1, 1.6};
+/* Parts of the goal that the last coefficients of a direction may be worth. Along chi, where a higher derivative of ex jumps near chi = 1.6 for
+ * nearly elastic solids, those that follow are the most. */
+static const double part[rst_inners] = {0.5, 1, 1.4};
 
 static int64_t stick_size(const int64_t n[rst_inners])
 {
@@ -167,6 +168,6 @@ int rst_columns_lengthen(struct restitute_table_builder *b, int *any)
 
 int rst_columns_start(struct restitute_table_builder *b, struct rst_column *c)
 {
-    const int64_t n[rst_inners] = {b->active[RST_CHI] ? 5 : 1, 5, b->active[RST_SLIP] ? 9 : 0};
+    const int64_t n[rst_inners] = {b->active[RST_CHI] ? 7 : 1, 5, b->active[RST_SLIP] ? 9 : 0};
     return stretch(c, n);
 }

@@ -1,7 +1,7 @@
 /* The build of a table of patches (table_form.h): one with axes of delta1 and of gamma.
  *
  *   filling    At every node of delta1 and gamma that a cell needs there is a column: impacts at products of Chebyshev points of chi,
- *              of psi and of the slip side. Their numbers, 2^k + 1, are doubled where the last coefficients are large, column by
+ *              of psi and of the slip side. Their numbers, less one, are doubled where the last coefficients are large, column by
  *              column, and old points are among the new.
  *   checking   The table is compared with impacts in every new cell: half way between nodes along delta1, or along gamma, at places of
  *              chi and psi that all columns have, which tells along which of the two a patch must be halved; and in its middle at any

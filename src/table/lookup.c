@@ -120,63 +120,81 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
         pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
 }
 
-/* Sum over the psi and chi of a cell: first over these, all nodes of delta1 and gamma side by side. */
-static inline double sum_cell(const restitute_table *t, const float *v, const double w[4], const double x[4], int m,
-                              const double nodes[rst_cell_nodes])
+/* Four numbers that are added at once. */
+#if defined(__GNUC__)
+typedef float four __attribute__((__vector_size__(16)));
+#else
+#error "lookup.c needs the vector types of gcc and clang"
+#endif
+
+/* Cell, and weights along delta1 and gamma. */
+struct cell_place {
+    int64_t cell;
+    double speed[4], gamma[4];
+};
+
+static inline void find_cell(const restitute_table *t, double speed, double gamma, struct cell_place *p)
 {
-    float sum[rst_cell_nodes] = {0};
-    for (int k = 0; k < 4; k++)
-        for (int l = 0; l < m; l++) {
-            const float weight = (float)(w[k] * x[l]), *block = v + (k * t->n_chi + l) * rst_cell_nodes;
-            for (int i = 0; i < rst_cell_nodes; i++)
-                sum[i] += weight * block[i];
-        }
-    double total = 0;
-    for (int i = 0; i < rst_cell_nodes; i++)
-        total += nodes[i] * (double)sum[i];
-    return total;
+    double s[2];
+    p->cell = rst_cell_find(t, speed, gamma, s);
+    rst_cubic_weights(s[0], p->speed);
+    rst_cubic_weights(s[1], p->gamma);
 }
 
-static double tangential_in_cell(const restitute_table *t, int64_t cell, const double nodes[rst_cell_nodes], double chi,
-                                 int64_t node, double s)
+static inline double rebound_in_cell(const restitute_table *t, const struct cell_place *p)
 {
-    double w[4], x[4] = {1}, chi_s;
-    const float *v = t->ex_cells + (cell * t->n_psi + node) * t->n_chi * rst_cell_nodes;
-    rst_cubic_weights(s, w);
-    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, nodes);
-    v += rst_chi_find(t, chi, &chi_s) * rst_cell_nodes;
-    rst_cubic_weights(chi_s, x);
-    return sum_cell(t, v, w, x, 4, nodes);
-}
-
-static inline double rebound_in_cell(const restitute_table *t, int64_t cell, const double nodes[rst_cell_nodes])
-{
-    const double *v = t->ez + cell * rst_cell_nodes;
+    const double *v = t->ez + p->cell * rst_cell_nodes, *g = p->gamma;
     double sum = 0;
-    for (int i = 0; i < rst_cell_nodes; i++)
-        sum += nodes[i] * v[i];
+    for (int i = 0; i < 4; i++, v += 4)
+        sum += p->speed[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
     return clamp(sum, 0, 1);
 }
 
-static inline int64_t find_cell(const restitute_table *t, double speed, double gamma, double nodes[rst_cell_nodes])
+/* First over psi and chi, all nodes of delta1 and gamma side by side. */
+static inline double sum_cell(const restitute_table *t, const float *v, const double w[4], const double x[4], int m,
+                              const struct cell_place *p)
 {
-    double s[2], a[4], b[4];
-    const int64_t cell = rst_cell_find(t, speed, gamma, s);
-    rst_cubic_weights(s[0], a);
-    rst_cubic_weights(s[1], b);
-    for (int i = 0; i < rst_cell_nodes; i++)
-        nodes[i] = a[i / 4] * b[i % 4];
-    return cell;
+    four sum[4] = {{0}, {0}, {0}, {0}};
+    for (int k = 0; k < 4; k++)
+        for (int l = 0; l < m; l++) {
+            const float one = (float)(w[k] * x[l]);
+            const four weight = {one, one, one, one};
+            const four *row = (const four *)(const void *)(v + (k * t->n_chi + l) * rst_cell_nodes);
+            for (int i = 0; i < 4; i++)
+                sum[i] += weight * row[i];
+        }
+    const double *g = p->gamma;
+    double total = 0;
+    for (int i = 0; i < 4; i++)
+        total += p->speed[i] * ((g[0] * (double)sum[i][0] + g[1] * (double)sum[i][1]) +
+                                (g[2] * (double)sum[i][2] + g[3] * (double)sum[i][3]));
+    return total;
+}
+
+static inline double tangential_in_cell(const restitute_table *t, const struct cell_place *p, double chi, int64_t node,
+                                        double s)
+{
+    double w[4], x[4] = {1}, chi_s;
+    const float *v = t->ex_cells + (p->cell * t->n_psi + node) * t->n_chi * rst_cell_nodes;
+    rst_cubic_weights(s, w);
+    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, p);
+    v += rst_chi_find(t, chi, &chi_s) * rst_cell_nodes;
+    rst_cubic_weights(chi_s, x);
+    return sum_cell(t, v, w, x, 4, p);
 }
 
 /* A table of patches. */
+#if defined(__GNUC__)
+__attribute__((__noinline__))
+#endif
 static void evaluate_cells(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
                            restitute_table_value *pair)
 {
-    double nodes[rst_cell_nodes], s, quotient;
-    const int64_t cell = find_cell(t, speed, gamma, nodes);
+    struct cell_place p;
+    double s, quotient;
+    find_cell(t, speed, gamma, &p);
     chi = chi_in_table(t, chi);
-    const double ez = rebound_in_cell(t, cell, nodes), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
+    const double ez = rebound_in_cell(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     pair->ez = ez;
     if (sliding > critical * v_n) {
         pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
@@ -184,7 +202,7 @@ static void evaluate_cells(const restitute_table *t, double speed, double gamma,
     }
     const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient);
     const double closed = (sliding > v_n) * (full * quotient - 1);
-    pair->ex = clamp(tangential_in_cell(t, cell, nodes, chi, node, s) + closed, -1, 1);
+    pair->ex = clamp(tangential_in_cell(t, &p, chi, node, s) + closed, -1, 1);
 }
 
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
@@ -228,9 +246,9 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
 {
     struct place p;
     if (table->n_cells > 0) {
-        double nodes[rst_cell_nodes];
-        const int64_t cell = find_cell(table, speed, gamma, nodes);
-        return rebound_in_cell(table, cell, nodes);
+        struct cell_place place;
+        find_cell(table, speed, gamma, &place);
+        return rebound_in_cell(table, &place);
     }
     find_place(table, speed, gamma, &p);
     return rebound(table, &p);

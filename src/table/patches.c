@@ -7,8 +7,8 @@
 #include "interpolation.h"
 
 /* Part of the tolerance that cells of psi or chi may cost, and the most of them. */
-static const double part_for_cells = 0.2;
-enum { most_cells = 24, most_nodes = most_cells * rst_cubic + 1 };
+static const double part_for_cells = 0.4;
+enum { most_cells = 24, most_nodes = most_cells * rst_cubic + 1, most_column_points = 65 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -87,39 +87,37 @@ static double column_error(const struct rst_column *c, enum side side, int64_t m
     return c->n[RST_BY_SLIP] > 0 ? fmax(stick, largest(1, n, c->n[RST_BY_SLIP], slip, m, row)) : stick;
 }
 
-/* Whether so many cells do for all columns. */
-static int cells_do(const struct rst_grid *g, enum side side, int64_t cells, double tolerance, int *enough)
+/* Raise the number of cells until it does for all columns, of n points. Those that a smaller number did for are not asked again. */
+static int raise_cells(const struct rst_grid *g, enum side side, int64_t n, double tolerance, int64_t *cells)
 {
     const int direction = side < SLIP_SIDE ? (int)side : RST_BY_SLIP;
     struct places p;
     double *row = NULL;
-    int64_t rows_for = 0;
-    set_places(side, cells, &p);
-    *enough = 1;
-    /* by numbers of points, for which the rows are the same */
-    for (int64_t n = 2; n <= 65 && *enough; n = 2 * n - 1)
-        for (int64_t i = 0; i < g->columns && *enough; i++) {
-            if (g->column[i].n[direction] != n) continue;
-            if (rows_for != n) {
-                free(row);
+    for (int64_t i = 0; i < g->columns; i++) {
+        if (g->column[i].n[direction] != n) continue;
+        for (;;) {
+            if (!row) {
+                set_places(side, *cells, &p);
                 if (difference_rows(&p, n, &row)) return 1;
-                rows_for = n;
             }
-            *enough = column_error(&g->column[i], side, p.nodes - 1, row) <= tolerance;
+            if (*cells == most_cells || column_error(&g->column[i], side, p.nodes - 1, row) <= tolerance) break;
+            free(row);
+            row = NULL;
+            *cells += 1;
         }
+    }
     free(row);
     return 0;
 }
 
 static int choose_cells(const struct restitute_table_builder *b, enum side side, int64_t *cells)
 {
-    for (*cells = 1; *cells < most_cells; *cells += 1) {
-        int enough, turned = 1;
-        const double tolerance = part_for_cells * b->options.tolerance;
-        if (cells_do(b->grid, side, *cells, tolerance, &enough)) return 1;
-        if (side == SLIP_SIDE && enough && cells_do(b->grid, TURNED_SIDE, *cells, tolerance, &turned)) return 1;
-        if (enough && turned) break;
-    }
+    const double tolerance = part_for_cells * b->options.tolerance;
+    *cells = 1;
+    for (int64_t n = 2; n <= most_column_points; n++)
+        if (raise_cells(b->grid, side, n, tolerance, cells) ||
+            (side == SLIP_SIDE && raise_cells(b->grid, TURNED_SIDE, n, tolerance, cells)))
+            return 1;
     return 0;
 }
 
@@ -131,7 +129,7 @@ static double *spread(const struct rst_grid *g, const restitute_table *t)
     const int64_t inner = t->n_psi * t->n_chi;
     double *all = malloc((size_t)(g->columns * inner) * sizeof *all);
     double *by_chi = malloc((size_t)(t->n_psi * most_nodes) * sizeof *by_chi);
-    double row[65 * most_nodes], over_psi[65 * 4 * most_nodes];
+    double row[most_column_points * most_nodes], over_psi[most_column_points * 4 * most_nodes];
     struct places p;
     for (int64_t i = 0; i < g->columns && all && by_chi; i++) {
         const struct rst_column *c = &g->column[i];
