@@ -18,9 +18,11 @@
  *
  *  What is tabulated (THEORY 9): ez over the speed; ex over the speed and psi, in one panel [0, 1] that starts sticking
  *  and one [1, psi_c] that starts slipping. From psi_c on the contact slips to the end and ex is its closed form (27);
- *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding, and
- *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: at points half way between those that it was built from, and at the
- *  middles of its cells, it is compared with impacts solved afresh, and the largest difference is kept
+ *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding (that of single precision in a table with axes of
+ *  delta1 and gamma), and
+ *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: half way between the points that it was built from, and in
+ *  the middles of its cells (of 64 of them; of all in a table with axes of delta1 and gamma), it is compared with impacts solved afresh,
+ *  and the largest difference is kept
  *  with it (@ref restitute_table_info).
  *
  *  Limits

@@ -204,6 +204,7 @@ struct piece {
     restitute_impact *impacts;
     restitute_scene *scenes;
     restitute_result *results;
+    int *statuses;
 };
 
 static void piece_free(struct piece *p)
@@ -212,17 +213,19 @@ static void piece_free(struct piece *p)
     free(p->impacts);
     free(p->scenes);
     free(p->results);
+    free(p->statuses);
 }
 
 static int piece_allocate(const struct restitute_table_builder *b, int64_t count, struct piece *p)
 {
     const size_t n = (size_t)count;
-    *p = (struct piece){.index = malloc(n * sizeof *p->index), .results = malloc(n * sizeof *p->results)};
+    *p = (struct piece){.index = malloc(n * sizeof *p->index), .results = malloc(n * sizeof *p->results),
+                        .statuses = malloc(n * sizeof *p->statuses)};
     if (b->family.of_contact)
         p->scenes = malloc(n * sizeof *p->scenes);
     else
         p->impacts = malloc(n * sizeof *p->impacts);
-    return !p->index || !p->results || (!p->scenes && !p->impacts);
+    return !p->index || !p->results || !p->statuses || (!p->scenes && !p->impacts);
 }
 
 static void piece_add(const struct restitute_table_builder *b, int64_t index, struct piece *p)
@@ -237,6 +240,26 @@ static void piece_add(const struct restitute_table_builder *b, int64_t index, st
         rst_family_impact(&b->family, at.speed, at.gamma, at.chi, at.psi, &p->impacts[i]);
 }
 
+/* An impact that the solver gives up is tried again with larger tolerances: its estimated error says then what it is worth. What is
+ * refused in the end is named. */
+static int solve_again(const struct restitute_table_builder *b, const struct piece *p, int64_t i,
+                       restitute_options options, restitute_error *error)
+{
+    static const double looser = 4, loosest = 0.02;
+    int status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+    restitute_error why = {.message = ""};
+    while (status == RESTITUTE_ERROR_TOO_MUCH_WORK && options.tolerance * looser <= loosest) {
+        options.tolerance *= looser;
+        status = p->scenes
+                     ? restitute_solve_scenes(&options, 1, &p->scenes[i], &p->results[i], NULL, 1, &why)
+                     : restitute_solve_many(&options, 1, &p->impacts[i], &p->results[i], NULL, 1, &why);
+    }
+    if (status >= 0) return status;
+    const struct place at = place_of(b, &b->point[p->index[i]]);
+    return rst_table_report(error, status, "%s = %.17g, gamma = %.17g, chi = %.17g, psi = %.17g: %.120s",
+                            p->scenes ? "speed (m/s)" : "delta1", at.speed, at.gamma, at.chi, at.psi, why.message);
+}
+
 static int piece_solve(const struct restitute_table_builder *b, struct piece *p, restitute_error *error)
 {
     restitute_options options;
@@ -245,8 +268,14 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     const double for_checks = (b->grid ? part_for_grid_checks : part_for_checks) * b->options.tolerance;
     options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
     const size_t n = (size_t)p->count;
-    return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
-                     : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
+    int status =
+        p->scenes
+            ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)
+            : restitute_solve_many(&options, n, p->impacts, p->results, p->statuses, b->options.threads, error);
+    if (status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+    for (int64_t i = 0; i < p->count; i++)
+        if (p->statuses[i] < 0 && (status = solve_again(b, p, i, options, error)) < 0) return status;
+    return RESTITUTE_OK;
 }
 
 /* Solve up to `most` points of this part, from next on; those of the other part are passed over. */
@@ -379,7 +408,7 @@ static int64_t points_of_checks(const struct restitute_table_builder *b)
     for (int a = 0; a < 3; a++)
         outer *= b->active[a] ? b->n[a] - 1 : 1;
     const int64_t stick = b->active[RST_STICK] ? b->n[RST_STICK] - 1 : 1;
-    return outer * (stick + (b->active[RST_SLIP] ? b->n[RST_SLIP] - 1 : 0));
+    return outer * (stick + (b->active[RST_SLIP] ? b->n[RST_SLIP] - 1 : 0)) + rst_most_cell_checks;
 }
 
 static int begin_filling(struct restitute_table_builder *b, restitute_error *error)

@@ -168,6 +168,6 @@ int rst_columns_lengthen(struct restitute_table_builder *b, int *any)
 
 int rst_columns_start(struct restitute_table_builder *b, struct rst_column *c)
 {
-    const int64_t n[rst_inners] = {b->active[RST_CHI] ? 7 : 1, 5, b->active[RST_SLIP] ? 9 : 0};
+    const int64_t n[rst_inners] = {b->active[RST_CHI] ? 7 : 1, 5, b->active[RST_SLIP] ? 17 : 0};
     return stretch(c, n);
 }

@@ -247,7 +247,7 @@ static void raise_goals(struct rst_grid *g, int64_t p)
     for (i[0] = 0; i[0] <= rst_cubic << k[0]; i[0]++)
         for (i[1] = 0; i[1] <= rst_cubic << k[1]; i[1]++)
             if (rst_grid_coarser(g, p, i, &along) < 0)
-                rst_grid_column(g, rst_grid_at(octave[0], k[0], i[0]), rst_grid_at(octave[1], k[1], i[1]))->goal *= 0.3;
+                rst_grid_column(g, rst_grid_at(octave[0], k[0], i[0]), rst_grid_at(octave[1], k[1], i[1]))->goal *= 0.6;
 }
 
 /* Divide patches where checks along an axis fail; where only others do, their columns get more points, or both. */

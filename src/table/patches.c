@@ -10,8 +10,6 @@
 static const double part_for_cells = 0.4;
 enum { most_cells = 24, most_nodes = most_cells * rst_cubic + 1, most_column_points = 65 };
 
-static const double pi = 3.14159265358979323846;
-
 /* Nodes of cells, and the middles between them, as places in [0, 1] of the Chebyshev points. */
 struct places {
     int64_t nodes;
@@ -21,17 +19,10 @@ struct places {
 /* Half of the slip side, towards y = 0 or, turned, towards y = 1. */
 enum side { CHI_SIDE, STICK_SIDE, SLIP_SIDE, TURNED_SIDE };
 
-/* t with y = (1 - cos(pi t))/2 where r(y), or r(1 - y), is r. */
-static double t_of_root(double r, int turned)
-{
-    const double t = 2 / pi * asin(sqrt(rst_slip_y(r)));
-    return turned ? 1 - t : t;
-}
-
 static double place_of(enum side side, int64_t cells, double i)
 {
     if (side < SLIP_SIDE) return i / (double)(cells * rst_cubic);
-    return t_of_root(i * rst_slip_node(cells, 1), side == TURNED_SIDE);
+    return rst_t_of_root(i * rst_slip_node(cells, 1), side == TURNED_SIDE);
 }
 
 static void set_places(enum side side, int64_t cells, struct places *p)

@@ -226,6 +226,53 @@ int rst_plan_filling(struct restitute_table_builder *b)
     return 0;
 }
 
+/* The middle of a cell along speed or gamma, as a coordinate in [0, 1]. */
+static double middle_of_octaves(const struct restitute_table_builder *b, enum rst_axis axis, const struct rst_octaves *o,
+                                int64_t cell)
+{
+    if (o->cells == 0) return 0.5;
+    const double middle =
+        0.5 * (rst_octaves_node(o, cell * rst_cubic) + rst_octaves_node(o, (cell + 1) * rst_cubic));
+    return (log(middle) - b->low[axis]) / (b->high[axis] - b->low[axis]);
+}
+
+/* The middle of a cell of psi: those of the stick side, then those of both halves of the slip side. */
+static void middle_of_psi(const restitute_table *t, int64_t cell, struct rst_point *p)
+{
+    p->slips = cell >= t->stick_cells && t->stick_cells > 0;
+    if (!p->slips) {
+        p->s = t->stick_cells > 0 ? ((double)cell + 0.5) / (double)t->stick_cells : 0;
+        return;
+    }
+    const int turned = cell >= t->stick_cells + t->slip_cells;
+    const int64_t own = cell - t->stick_cells - (turned ? t->slip_cells : 0);
+    const double low = rst_slip_node(t->slip_cells, own * rst_cubic);
+    p->s = rst_t_of_root(0.5 * (low + rst_slip_node(t->slip_cells, (own + 1) * rst_cubic)), turned);
+}
+
+/* The middles of some of the table's cells, spread over all of them by the golden section. */
+static int check_cells(struct restitute_table_builder *b)
+{
+    const restitute_table *t = b->draft;
+    const double golden = 0.61803398874989485;
+    const int64_t n[4] = {t->speed.cells > 0 ? t->speed.cells : 1, t->gamma.cells > 0 ? t->gamma.cells : 1,
+                          t->chi_cells > 0 ? t->chi_cells : 1,
+                          t->stick_cells > 0 ? t->stick_cells + 2 * t->slip_cells : 1};
+    const int64_t all = n[0] * n[1] * n[2] * n[3], count = all < rst_most_cell_checks ? all : rst_most_cell_checks;
+    for (int64_t i = 0; i < count; i++) {
+        int64_t cell = count == all ? i : (int64_t)(fmod((double)(i + 1) * golden, 1) * (double)all);
+        struct rst_point p = {.column = -1};
+        middle_of_psi(t, cell % n[3], &p);
+        cell /= n[3];
+        p.u[RST_CHI] = ((double)(cell % n[2]) + 0.5) / (double)n[2];
+        cell /= n[2];
+        p.u[RST_GAMMA] = middle_of_octaves(b, RST_GAMMA, &t->gamma, cell % n[1]);
+        p.u[RST_SPEED] = middle_of_octaves(b, RST_SPEED, &t->speed, cell / n[1]);
+        if (rst_plan_add(b, p)) return 1;
+    }
+    return 0;
+}
+
 int rst_plan_checks(struct restitute_table_builder *b)
 {
     double x[rst_axes][rst_most_points];
@@ -243,5 +290,5 @@ int rst_plan_checks(struct restitute_table_builder *b)
                             .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .slips = side, .column = -1};
                         if (rst_plan_add(b, p)) return 1;
                     }
-    return 0;
+    return check_cells(b);
 }
