@@ -269,7 +269,8 @@ int table_export_run(const struct table_settings *settings)
     restitute_table_to_data(table, &data, NULL);
     for (int axis = 0; axis < 4; axis++) {
         const int64_t inner = axis < 2 && data.cells > 0 ? data.nodes[1] : 1; /* see restitute_table_nodes */
-        place[axis] = allocate((size_t)(data.nodes[axis < 2 && data.cells > 0 ? 0 : axis] * inner), sizeof *place[axis]);
+        place[axis] =
+            allocate((size_t)(data.nodes[axis < 2 && data.cells > 0 ? 0 : axis] * inner), sizeof *place[axis]);
         restitute_table_nodes(table, axis, place[axis]);
     }
     bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&

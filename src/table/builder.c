@@ -165,8 +165,7 @@ struct place {
 static struct place place_in_grid(const struct restitute_table_builder *b, const struct rst_point *p)
 {
     struct place at = {.speed = p->u[0], .gamma = p->u[1], .chi = p->u[2], .psi = p->s};
-    if (p->slips)
-        at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, b->grid->column[p->column].ez) - 1);
+    if (p->slips) at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, b->grid->column[p->column].ez) - 1);
     return at;
 }
 
@@ -219,7 +218,8 @@ static void piece_free(struct piece *p)
 static int piece_allocate(const struct restitute_table_builder *b, int64_t count, struct piece *p)
 {
     const size_t n = (size_t)count;
-    *p = (struct piece){.index = malloc(n * sizeof *p->index), .results = malloc(n * sizeof *p->results),
+    *p = (struct piece){.index = malloc(n * sizeof *p->index),
+                        .results = malloc(n * sizeof *p->results),
                         .statuses = malloc(n * sizeof *p->statuses)};
     if (b->family.of_contact)
         p->scenes = malloc(n * sizeof *p->scenes);
@@ -250,9 +250,8 @@ static int solve_again(const struct restitute_table_builder *b, const struct pie
     restitute_error why = {.message = ""};
     while (status == RESTITUTE_ERROR_TOO_MUCH_WORK && options.tolerance * looser <= loosest) {
         options.tolerance *= looser;
-        status = p->scenes
-                     ? restitute_solve_scenes(&options, 1, &p->scenes[i], &p->results[i], NULL, 1, &why)
-                     : restitute_solve_many(&options, 1, &p->impacts[i], &p->results[i], NULL, 1, &why);
+        status = p->scenes ? restitute_solve_scenes(&options, 1, &p->scenes[i], &p->results[i], NULL, 1, &why)
+                           : restitute_solve_many(&options, 1, &p->impacts[i], &p->results[i], NULL, 1, &why);
     }
     if (status >= 0) return status;
     const struct place at = place_of(b, &b->point[p->index[i]]);
@@ -269,9 +268,8 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
     const size_t n = (size_t)p->count;
     int status =
-        p->scenes
-            ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)
-            : restitute_solve_many(&options, n, p->impacts, p->results, p->statuses, b->options.threads, error);
+        p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)
+                  : restitute_solve_many(&options, n, p->impacts, p->results, p->statuses, b->options.threads, error);
     if (status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
     for (int64_t i = 0; i < p->count; i++)
         if (p->statuses[i] < 0 && (status = solve_again(b, p, i, options, error)) < 0) return status;

@@ -125,7 +125,7 @@ static int stretch(struct rst_column *c, const int64_t n[rst_inners])
         double *to = value + (side ? stick_size(n) : 0);
         for (int64_t i = 0; i < c->n[0]; i++)
             for (int64_t j = 0; j < old; j++)
-                to[i * by_chi * new + j * by] = from[i * old + j];
+                to[i * by_chi * new + j *by] = from[i * old + j];
     }
     free(c->value);
     c->value = value;
@@ -138,8 +138,7 @@ static int lengthen(struct rst_column *c, int *longer)
     const double *slip = c->value + stick_size(c->n);
     const int64_t *n = c->n;
     double missed[rst_inners] = {0};
-    if (n[0] > 1)
-        missed[0] = fmax(neglected(1, n[0], n[1], c->value), n[2] > 0 ? neglected(1, n[0], n[2], slip) : 0);
+    if (n[0] > 1) missed[0] = fmax(neglected(1, n[0], n[1], c->value), n[2] > 0 ? neglected(1, n[0], n[2], slip) : 0);
     missed[1] = neglected(n[0], n[1], 1, c->value);
     if (n[2] > 0) missed[2] = neglected(n[0], n[2], 1, slip);
     int64_t wanted[rst_inners];

@@ -86,7 +86,8 @@ static void cell_nodes(const restitute_table *t, int axis, double *place)
         for (int64_t cell = 0; cell < INT64_C(1) << (k[0] + k[1]); cell++) {
             const int64_t first = rst_cubic * (axis ? cell % (INT64_C(1) << k[1]) : cell >> k[1]);
             for (int64_t m = 0; m < rst_cell_nodes; m++)
-                *place++ = rst_patch_node(axis ? &t->gamma : &t->speed, octave, k[axis], first + (axis ? m % 4 : m / 4));
+                *place++ =
+                    rst_patch_node(axis ? &t->gamma : &t->speed, octave, k[axis], first + (axis ? m % 4 : m / 4));
         }
     }
 }
@@ -263,7 +264,8 @@ int restitute_table_from_data(const restitute_table_data *data, restitute_table 
     if (!status) status = set_form(data, &form, error);
     if (status) return status;
     const int cells = form.n_cells > 0;
-    if (!data->ez || (cells ? !data->ex_cells || !data->patches : !data->ex) || (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
+    if (!data->ez || (cells ? !data->ex_cells || !data->patches : !data->ex) ||
+        (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
         return rst_table_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
     const size_t n_ez = (size_t)form.n_speed * (size_t)form.n_gamma;
     const size_t n_ex = n_ez * (size_t)form.n_psi * (size_t)form.n_chi;

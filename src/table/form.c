@@ -119,7 +119,8 @@ restitute_table *rst_table_allocate(const restitute_table *form)
     if (form->n_cells == 0) return table;
     table->patch = (struct rst_patch *)(void *)table->ex;
     char *values = (char *)(table->patch + patches);
-    table->ex_cells = (float *)(void *)(values + (line - (uintptr_t)values % line) % line); /* a node's cells: one line */
+    table->ex_cells =
+        (float *)(void *)(values + (line - (uintptr_t)values % line) % line); /* a node's cells: one line */
     table->ex = NULL;
     return table;
 }

@@ -85,10 +85,12 @@ static int balance(struct rst_grid *g)
     return any;
 }
 
-static int new_column(struct restitute_table_builder *b, const int64_t octave[2], const int64_t k[2], const int64_t i[2])
+static int new_column(struct restitute_table_builder *b, const int64_t octave[2], const int64_t k[2],
+                      const int64_t i[2])
 {
     struct rst_grid *g = b->grid;
-    int32_t *at = &g->column_at[rst_grid_at(octave[0], k[0], i[0]) * g->lattice[1] + rst_grid_at(octave[1], k[1], i[1])];
+    int32_t *at =
+        &g->column_at[rst_grid_at(octave[0], k[0], i[0]) * g->lattice[1] + rst_grid_at(octave[1], k[1], i[1])];
     if (*at) return 0;
     if (g->columns == INT32_MAX) return 1;
     if (g->columns == g->column_capacity) {
@@ -184,7 +186,8 @@ static int check_cell(struct restitute_table_builder *b, int64_t p, int64_t i, i
     const int64_t octave[2] = {p / g->axis[1].cells, p % g->axis[1].cells}, *k = g->region[p].k, cell[2] = {i, j};
     double node[2], half[2], middle[2];
     for (int a = 0; a < 2; a++) {
-        const int64_t first = rst_cubic * cell[a], end = (i + j) % 2 ? 0 : 2; /* the cubic is worst in the outer intervals */
+        const int64_t first = rst_cubic * cell[a],
+                      end = (i + j) % 2 ? 0 : 2; /* the cubic is worst in the outer intervals */
         node[a] = rst_patch_node(&g->axis[a], octave[a], k[a], first + 1 + (i + j) % 2);
         half[a] = 0.5 * (rst_patch_node(&g->axis[a], octave[a], k[a], first + end) +
                          rst_patch_node(&g->axis[a], octave[a], k[a], first + end + 1));
@@ -290,10 +293,11 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
         b->stage = RST_FINISHED;
         return RESTITUTE_OK;
     }
-    return rst_table_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                            "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
-                            "or narrow the ranges",
-                            (long long)b->options.max_impacts, (long long)b->used);
+    return rst_table_report(
+        error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
+        "or narrow the ranges",
+        (long long)b->options.max_impacts, (long long)b->used);
 }
 
 static int after_filling(struct restitute_table_builder *b, restitute_error *error)

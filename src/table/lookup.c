@@ -187,8 +187,9 @@ static inline double tangential_in_cell(const restitute_table *t, const struct c
 #if defined(__GNUC__)
 __attribute__((__noinline__))
 #endif
-static void evaluate_cells(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
-                           restitute_table_value *pair)
+static void
+evaluate_cells(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
+               restitute_table_value *pair)
 {
     struct cell_place p;
     double s, quotient;

@@ -227,12 +227,11 @@ int rst_plan_filling(struct restitute_table_builder *b)
 }
 
 /* The middle of a cell along speed or gamma, as a coordinate in [0, 1]. */
-static double middle_of_octaves(const struct restitute_table_builder *b, enum rst_axis axis, const struct rst_octaves *o,
-                                int64_t cell)
+static double middle_of_octaves(const struct restitute_table_builder *b, enum rst_axis axis,
+                                const struct rst_octaves *o, int64_t cell)
 {
     if (o->cells == 0) return 0.5;
-    const double middle =
-        0.5 * (rst_octaves_node(o, cell * rst_cubic) + rst_octaves_node(o, (cell + 1) * rst_cubic));
+    const double middle = 0.5 * (rst_octaves_node(o, cell * rst_cubic) + rst_octaves_node(o, (cell + 1) * rst_cubic));
     return (log(middle) - b->low[axis]) / (b->high[axis] - b->low[axis]);
 }
 

@@ -73,7 +73,8 @@ struct restitute_table {
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
 
-    int64_t n_cells; /* > 0: patches; then speed and gamma have octaves, n_speed is n_cells, n_gamma the nodes of a cell */
+    int64_t
+        n_cells; /* > 0: patches; then speed and gamma have octaves, n_speed is n_cells, n_gamma the nodes of a cell */
     struct rst_patch *patch; /* [octave of delta1][octave of gamma] */
     float *ex_cells;         /* [cell][psi][chi][node]; ez is [cell][node] */
     size_t block_size;       /* doubles in `block` */

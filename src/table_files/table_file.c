@@ -12,8 +12,9 @@ static const char title[] = "table";
 /* Members that are attributes of the root. */
 #define NUMBERS(X)                                                                                                     \
     X(tolerance)                                                                                                       \
-    X(error_ez) X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius)      \
-        X(mass) X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(error_ez)                                                                                                        \
+    X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass)          \
+        X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells) X(cells)
 
 static const char units_of_attributes[] = "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; "
@@ -72,7 +73,8 @@ static int put_axes(hid_t f, const restitute_table *table, const restitute_table
     return failed;
 }
 
-static const char text_of_ex[] = "ex for psi <= 1, then ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone";
+static const char text_of_ex[] =
+    "ex for psi <= 1, then ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone";
 
 /* A table with cells: numbers of the patches as numbers, ex in single precision as in the table itself. */
 static int put_cells(hid_t f, const restitute_table_data *d)
@@ -185,8 +187,8 @@ static int sizes_agree(const restitute_table_data *d, const struct arrays *a)
 {
     int64_t nodes[4];
     if (restitute_table_data_nodes(d, nodes, NULL)) return 0;
-    if (d->cells > 0 && (double)a->count[SET_PATCHES] != 3 * round(log2(d->high[0] / d->low[0])) *
-                                                             round(log2(d->high[1] / d->low[1])))
+    if (d->cells > 0 &&
+        (double)a->count[SET_PATCHES] != 3 * round(log2(d->high[0] / d->low[0])) * round(log2(d->high[1] / d->low[1])))
         return 0;
     return a->count[SET_EZ] == nodes[0] * nodes[1] && a->count[SET_EX] == a->count[SET_EZ] * nodes[2] * nodes[3];
 }

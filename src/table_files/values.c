@@ -72,8 +72,8 @@ static int put_set(hid_t place, const char *name, int rank, const int64_t *size,
 static int describe_set(hid_t place, const char *name, const char *units, const char *description)
 {
     const hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
-    const int good = set >= 0 && rst_put_text(set, "units", units) == 0 &&
-                     rst_put_text(set, "description", description) == 0;
+    const int good =
+        set >= 0 && rst_put_text(set, "units", units) == 0 && rst_put_text(set, "description", description) == 0;
     return close_all(good, set, -1, -1);
 }
 
