@@ -21,7 +21,7 @@
  *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding (that of single precision in a table with axes of
  *  delta1 and gamma), and
  *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: half way between the points that it was built from, and in
- *  the middles of its cells (of 64 of them; of all in a table with axes of delta1 and gamma), it is compared with impacts solved afresh,
+ *  the middles of its cells (of 24 of them; of all in a table with axes of delta1 and gamma), it is compared with impacts solved afresh,
  *  and the largest difference is kept
  *  with it (@ref restitute_table_info).
  *

@@ -19,7 +19,7 @@
 enum rst_axis { RST_SPEED, RST_GAMMA, RST_CHI, RST_STICK, RST_SLIP, rst_axes };
 enum rst_stage { RST_PROBING, RST_FILLING, RST_CHECKING, RST_FINISHED };
 
-enum { rst_most_points = 1025, rst_most_panels = 128, rst_most_cell_checks = 64 };
+enum { rst_most_points = 1025, rst_most_panels = 128, rst_most_cell_checks = 24 };
 
 /* An axis in [0, 1], cut at its edges; each panel has n points, those at seams shared. */
 struct rst_panels {
