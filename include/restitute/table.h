@@ -18,9 +18,11 @@
  *
  *  What is tabulated (THEORY 9): ez over the speed; ex over the speed and psi, in one panel [0, 1] that starts sticking
  *  and one [1, psi_c] that starts slipping. From psi_c on the contact slips to the end and ex is its closed form (27);
- *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding, and
- *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: at points half way between those that it was built from, and at the
- *  middles of its cells, it is compared with impacts solved afresh, and the largest difference is kept
+ *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding (that of single precision in a table with axes of
+ *  delta1 and gamma), and
+ *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: half way between the points that it was built from, and in
+ *  the middles of its cells (of 24 of them; of all in a table with axes of delta1 and gamma), it is compared with impacts solved afresh,
+ *  and the largest difference is kept
  *  with it (@ref restitute_table_info).
  *
  *  Limits
@@ -71,9 +73,9 @@ RESTITUTE_API void restitute_table_family_init(restitute_table_family *family);
 
 /** How to build. */
 typedef struct restitute_table_options {
-    size_t struct_size;  /**< set by @ref restitute_table_options_init */
-    double tolerance;    /**< largest absolute error of ez and of ex, in [1e-7, 0.1]; default 1e-5 */
-    int threads;         /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all */
+    size_t struct_size; /**< set by @ref restitute_table_options_init */
+    double tolerance;   /**< largest absolute error of ez and of ex, in [1e-7, 0.1]; default 1e-5 */
+    int threads; /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all */
     int64_t max_impacts; /**< most impacts that may be solved, > 0; default 2e7. A build that reaches it gives its best
                             with TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if there is none yet */
 } restitute_table_options;
@@ -131,11 +133,11 @@ RESTITUTE_API int restitute_table_pair(const restitute_table *table, double norm
  *
  *  Filled by @ref restitute_table_contact_of; read-only and free to copy. */
 typedef struct restitute_table_contact {
-    size_t struct_size;    /**< set by @ref restitute_table_contact_init */
-    double speed_factor;   /**< speed in the table over speed of this contact (table of one contact) */
-    double psi_factor;     /**< psi v_n/|v_t| (22); 0: no slip, infinity: no friction */
-    double chi, gamma;     /**< (22), (23); used by tables of ranges */
-    double delta1;         /**< (23) at 1 m/s; it goes with the fifth root of the speed; used by tables of ranges */
+    size_t struct_size;  /**< set by @ref restitute_table_contact_init */
+    double speed_factor; /**< speed in the table over speed of this contact (table of one contact) */
+    double psi_factor;   /**< psi v_n/|v_t| (22); 0: no slip, infinity: no friction */
+    double chi, gamma;   /**< (22), (23); used by tables of ranges */
+    double delta1;       /**< (23) at 1 m/s; it goes with the fifth root of the speed; used by tables of ranges */
 } restitute_table_contact;
 
 /** Prepare as the table's own contact. */
@@ -195,12 +197,14 @@ typedef struct restitute_table_info {
     double friction;            /**< of the contact; NaN for a table of ranges */
     double radius, mass;        /**< m, kg: effective ones of the contact; NaN for a table of ranges */
     double tolerance;           /**< as requested */
-    double error_ez, error_ex;  /**< verified: largest difference at the points checked, and what the solver leaves open */
-    int64_t impacts;            /**< solved for the table, those of the checks included */
-    int64_t checks;             /**< points at which it was compared with a solved impact */
-    int64_t nodes[4];           /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis */
-    size_t bytes;               /**< of memory that the table takes */
-    char version[32];           /**< of the library that built it */
+    double error_ez,
+        error_ex;     /**< verified: largest difference at the points checked, and what the solver leaves open */
+    int64_t impacts;  /**< solved for the table, those of the checks included */
+    int64_t checks;   /**< points at which it was compared with a solved impact */
+    int64_t nodes[4]; /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis. Of a table with
+                                   axes of delta1 and gamma: cells, values in a cell (16), then as before */
+    size_t bytes;     /**< of memory that the table takes */
+    char version[32]; /**< of the library that built it */
 } restitute_table_info;
 
 RESTITUTE_API void restitute_table_info_init(restitute_table_info *info);
@@ -282,9 +286,17 @@ typedef struct restitute_table_data {
     double chi_low, chi_high;        /**< ends of chi */
     int64_t chi_cells;               /**< even cells of chi, with a cubic each; 0: one node */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
-    int64_t nodes[4];                /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
-    const double *ez;                /**< [speed][gamma] */
-    const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1) */
+    int64_t nodes[4]; /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
+    const double *ez; /**< [speed][gamma]; with cells: [cell][4 nodes of delta1][4 of gamma] */
+    const double *
+        ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1); with cells: NULL */
+
+    int64_t cells; /**< 0; > 0: a table with axes of delta1 and gamma, divided by patches. Then `parts` is 1, 1, and
+                      nodes[0], nodes[1] are the number of cells and 16 */
+    const int64_t *
+        patches; /**< [octave of delta1][octave of gamma][3]: the first cell, k, l: 2^k by 2^l cells in [0, 5], those along gamma
+                               one after the other */
+    const float *ex_cells; /**< [cell][psi][chi][4 nodes of delta1][4 of gamma]: what `ex` is in other tables */
 } restitute_table_data;
 
 RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);
@@ -296,7 +308,8 @@ RESTITUTE_API int restitute_table_to_data(const restitute_table *table, restitut
 
 /** The numbers of nodes that follow from axes, chi and cells.
  *  @return OK; ERROR_DOMAIN for numbers that no table has; ERROR_NULL, ERROR_STRUCT_SIZE */
-RESTITUTE_API int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4], restitute_error *error);
+RESTITUTE_API int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4],
+                                             restitute_error *error);
 
 /** A table from such numbers, copied: with the same bits it looks up the same.
  *  @return OK; ERROR_DOMAIN for numbers that no table has; ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY */
@@ -304,7 +317,7 @@ RESTITUTE_API int restitute_table_from_data(const restitute_table_data *data, re
                                             restitute_error *error);
 
 /** The places of an axis's nodes: 0 speed (m/s) or delta1, 1 gamma, 2 chi, 3 psi, where those beyond psi = 1 are given as 1 + y.
- *  @param places  restitute_table_data.nodes[axis] values
+ *  @param places  restitute_table_data.nodes[axis] values; along axes 0 and 1 of a table with cells nodes[0] nodes[1] values, [cell][16]
  *  @return OK, ERROR_NULL, ERROR_DOMAIN */
 RESTITUTE_API int restitute_table_nodes(const restitute_table *table, int axis, double *places);
 

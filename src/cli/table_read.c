@@ -43,9 +43,13 @@ static void print_info(const restitute_table_info *i)
     printf("%-16s %.2g (ez), %.2g (ex), verified at %lld points\n", "error", i->error_ez, i->error_ex,
            (long long)i->checks);
     printf("%-16s %lld\n", "impacts solved", (long long)i->impacts);
-    printf("%-16s %lld %s, %lld gamma, %lld chi, %lld psi; %.3g MB\n", "nodes", (long long)i->nodes[0],
-           i->of_contact ? "speed" : "delta1", (long long)i->nodes[1], (long long)i->nodes[2], (long long)i->nodes[3],
-           (double)i->bytes / 1e6);
+    const bool cells = !i->of_contact && i->delta1[0] < i->delta1[1] && i->gamma[0] < i->gamma[1];
+    printf("%-16s %lld %s, %lld %s, %lld chi, %lld psi; %.3g MB\n", "nodes", (long long)i->nodes[0],
+           cells           ? "cells"
+           : i->of_contact ? "speed"
+                           : "delta1",
+           (long long)i->nodes[1], cells ? "of delta1 and gamma in each" : "gamma", (long long)i->nodes[2],
+           (long long)i->nodes[3], (double)i->bytes / 1e6);
     printf("%-16s %s\n", "built by", i->version);
 }
 
@@ -226,26 +230,31 @@ static double psi_of(double place, double chi, double ez)
     return place <= 1 ? place : 1 + (place - 1) * (restitute_critical_psi(chi, fmin(1, fmax(0, ez))) - 1);
 }
 
+/* One node of all axes; `first` is the speed or delta1. */
+static void export_node(const restitute_table *table, const restitute_table_data *d, double first, double gamma,
+                        double chi, double psi, FILE *out)
+{
+    restitute_table_value pair;
+    if (d->of_contact)
+        restitute_table_pair(table, first, psi * first / (d->psi_factor > 0 ? d->psi_factor : 1), &pair);
+    else
+        restitute_table_numbers_pair(table, chi, psi, first, gamma, &pair);
+    fprintf(out, "%s,", number_text(first).text);
+    fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : gamma).text);
+    fprintf(out, "%s,", number_text(chi).text);
+    fprintf(out, "%s,", number_text(d->psi_factor > 1e300 ? INFINITY : psi).text);
+    fprintf(out, "%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
+}
+
 static void export_rows(const restitute_table *table, const restitute_table_data *d, double *const place[4], FILE *out)
 {
-    for (int64_t i = 0; i < d->nodes[0]; i++)
-        for (int64_t j = 0; j < d->nodes[1]; j++)
-            for (int64_t k = 0; k < d->nodes[2]; k++)
-                for (int64_t l = 0; l < d->nodes[3]; l++) {
-                    restitute_table_value pair;
-                    const double ez = d->ez[i * d->nodes[1] + j], chi = place[2][k];
-                    const double psi = psi_of(place[3][l], chi, ez), speed = place[0][i];
-                    if (d->of_contact)
-                        restitute_table_pair(table, speed, psi * speed / (d->psi_factor > 0 ? d->psi_factor : 1),
-                                             &pair);
-                    else
-                        restitute_table_numbers_pair(table, chi, psi, speed, place[1][j], &pair);
-                    fprintf(out, "%s,", number_text(speed).text);
-                    fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : place[1][j]).text);
-                    fprintf(out, "%s,", number_text(chi).text);
-                    fprintf(out, "%s,", number_text(d->psi_factor > 1e300 ? INFINITY : psi).text);
-                    fprintf(out, "%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
-                }
+    for (int64_t i = 0; i < d->nodes[0] * d->nodes[1]; i++) {
+        const double first = place[0][d->cells > 0 ? i : i / d->nodes[1]];
+        const double gamma = place[1][d->cells > 0 ? i : i % d->nodes[1]];
+        for (int64_t k = 0; k < d->nodes[2]; k++)
+            for (int64_t l = 0; l < d->nodes[3]; l++)
+                export_node(table, d, first, gamma, place[2][k], psi_of(place[3][l], place[2][k], d->ez[i]), out);
+    }
 }
 
 int table_export_run(const struct table_settings *settings)
@@ -259,7 +268,9 @@ int table_export_run(const struct table_settings *settings)
     restitute_table_data_init(&data);
     restitute_table_to_data(table, &data, NULL);
     for (int axis = 0; axis < 4; axis++) {
-        place[axis] = allocate((size_t)data.nodes[axis], sizeof *place[axis]);
+        const int64_t inner = axis < 2 && data.cells > 0 ? data.nodes[1] : 1; /* see restitute_table_nodes */
+        place[axis] =
+            allocate((size_t)(data.nodes[axis < 2 && data.cells > 0 ? 0 : axis] * inner), sizeof *place[axis]);
         restitute_table_nodes(table, axis, place[axis]);
     }
     bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&

@@ -1,6 +1,6 @@
 /* The machine of builder.h: it solves what a stage asks for, and goes to the next when all of it is there.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "grid.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -9,7 +9,10 @@
 /* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that those that
  * are interpolated may take all of the tolerance; those of the checks have theirs added to the difference. Where checks fail for
  * no other reason, the first is lessened (docs/table.md). */
-static const double part_for_filling = 1, part_for_checks = 0.5;
+static const double part_for_filling = 1, part_for_checks = 0.5, part_for_grid_checks = 0.2;
+
+/* For columns, whose last coefficients tell how many points they need: the solver's errors must not be taken for them. */
+static const double part_for_columns = 0.4;
 
 /* Times that points are added after a check. */
 static const int most_rounds = 12;
@@ -56,9 +59,20 @@ static void seams_around(const double range[2], double *low, double *high)
     memcpy(high, &bits, sizeof bits);
 }
 
+/* The same of whole octaves. */
+static void octaves_around(const double range[2], double *low, double *high)
+{
+    int exponent;
+    const double fraction = frexp(range[1], &exponent);
+    *high = ldexp(1, fraction > 0.5 ? exponent : exponent - 1);
+    frexp(range[0], &exponent);
+    *low = ldexp(1, exponent - 1);
+}
+
 static void set_axes(struct restitute_table_builder *b)
 {
     const struct rst_family *f = &b->family;
+    const int patches = f->range[0][0] < f->range[0][1] && f->range[1][0] < f->range[1][1];
     for (int a = 0; a < 3; a++) {
         b->active[a] = f->range[a][0] < f->range[a][1];
         b->low[a] = f->range[a][0];
@@ -66,7 +80,7 @@ static void set_axes(struct restitute_table_builder *b)
         if (a == RST_CHI) continue;
         b->seam_low[a] = b->seam_high[a] = f->range[a][0];
         if (!b->active[a]) continue;
-        seams_around(f->range[a], &b->seam_low[a], &b->seam_high[a]);
+        (patches ? octaves_around : seams_around)(f->range[a], &b->seam_low[a], &b->seam_high[a]);
         b->low[a] = log(b->seam_low[a]);
         b->high[a] = log(b->seam_high[a]);
     }
@@ -111,12 +125,14 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     struct restitute_table_builder *b = calloc(1, sizeof *b);
     if (!b) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->options = *options;
-    b->filling_tolerance = part_for_filling * options->tolerance;
     status = rst_family_set(family, &b->family, error);
     if (!status) {
         set_axes(b);
         set_probes(b);
-        if (rst_plan_probes(b)) status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+        const int patches = b->active[RST_SPEED] && b->active[RST_GAMMA];
+        b->filling_tolerance = (patches ? part_for_columns : part_for_filling) * options->tolerance;
+        if (patches ? rst_grid_create(b) : rst_plan_probes(b))
+            status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status) {
         restitute_table_builder_destroy(b);
@@ -135,6 +151,7 @@ void restitute_table_builder_destroy(restitute_table_builder *builder)
     free(builder->solved);
     free(builder->journal);
     rst_memo_clear(&builder->memo);
+    rst_grid_free(builder->grid);
     free(builder);
 }
 
@@ -144,8 +161,17 @@ struct place {
     double speed, gamma, chi, psi;
 };
 
+/* In the build of a table of patches the numbers themselves are kept. */
+static struct place place_in_grid(const struct restitute_table_builder *b, const struct rst_point *p)
+{
+    struct place at = {.speed = p->u[0], .gamma = p->u[1], .chi = p->u[2], .psi = p->s};
+    if (p->slips) at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, b->grid->column[p->column].ez) - 1);
+    return at;
+}
+
 static struct place place_of(const struct restitute_table_builder *b, const struct rst_point *p)
 {
+    if (b->grid) return place_in_grid(b, p);
     struct place at = {.speed = rst_builder_number(b, RST_SPEED, p->u[0]),
                        .gamma = rst_builder_number(b, RST_GAMMA, p->u[1]),
                        .chi = rst_builder_number(b, RST_CHI, p->u[2]),
@@ -177,6 +203,7 @@ struct piece {
     restitute_impact *impacts;
     restitute_scene *scenes;
     restitute_result *results;
+    int *statuses;
 };
 
 static void piece_free(struct piece *p)
@@ -185,17 +212,20 @@ static void piece_free(struct piece *p)
     free(p->impacts);
     free(p->scenes);
     free(p->results);
+    free(p->statuses);
 }
 
 static int piece_allocate(const struct restitute_table_builder *b, int64_t count, struct piece *p)
 {
     const size_t n = (size_t)count;
-    *p = (struct piece){.index = malloc(n * sizeof *p->index), .results = malloc(n * sizeof *p->results)};
+    *p = (struct piece){.index = malloc(n * sizeof *p->index),
+                        .results = malloc(n * sizeof *p->results),
+                        .statuses = malloc(n * sizeof *p->statuses)};
     if (b->family.of_contact)
         p->scenes = malloc(n * sizeof *p->scenes);
     else
         p->impacts = malloc(n * sizeof *p->impacts);
-    return !p->index || !p->results || (!p->scenes && !p->impacts);
+    return !p->index || !p->results || !p->statuses || (!p->scenes && !p->impacts);
 }
 
 static void piece_add(const struct restitute_table_builder *b, int64_t index, struct piece *p)
@@ -210,16 +240,54 @@ static void piece_add(const struct restitute_table_builder *b, int64_t index, st
         rst_family_impact(&b->family, at.speed, at.gamma, at.chi, at.psi, &p->impacts[i]);
 }
 
+/* One impact alone, psi times a factor. */
+static int solve_alone(const struct piece *p, int64_t i, double factor, const restitute_options *options,
+                       restitute_error *error)
+{
+    if (p->scenes) {
+        restitute_scene scene = p->scenes[i];
+        scene.tangential_speed *= factor;
+        return restitute_solve_scenes(options, 1, &scene, &p->results[i], NULL, 1, error);
+    }
+    restitute_impact impact = p->impacts[i];
+    impact.psi *= factor;
+    return restitute_solve_many(options, 1, &impact, &p->results[i], NULL, 1, error);
+}
+
+/* An impact that the solver gives up, such as some with psi = 2 chi, whose slip would end just where D' = 0 (THEORY 4.3), is solved a
+ * millionth beside, or else to larger tolerances; its estimated error says what it is worth. What is refused in the end is named. */
+static int solve_again(const struct restitute_table_builder *b, const struct piece *p, int64_t i,
+                       restitute_options options, restitute_error *error)
+{
+    static const double looser = 4, loosest = 0.02, beside = 1e-6;
+    restitute_error why = {.message = ""};
+    int status = solve_alone(p, i, 1 + beside, &options, &why);
+    if (status >= 0) p->results[i].error_ex += 2 * beside;
+    while (status == RESTITUTE_ERROR_TOO_MUCH_WORK && options.tolerance * looser <= loosest) {
+        options.tolerance *= looser;
+        status = solve_alone(p, i, 1, &options, &why);
+    }
+    if (status >= 0) return status;
+    const struct place at = place_of(b, &b->point[p->index[i]]);
+    return rst_table_report(error, status, "%s = %.17g, gamma = %.17g, chi = %.17g, psi = %.17g: %.120s",
+                            p->scenes ? "speed (m/s)" : "delta1", at.speed, at.gamma, at.chi, at.psi, why.message);
+}
+
 static int piece_solve(const struct restitute_table_builder *b, struct piece *p, restitute_error *error)
 {
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    options.tolerance =
-        fmax(1e-8, b->stage == RST_CHECKING ? part_for_checks * b->options.tolerance : b->filling_tolerance);
+    const double for_checks = (b->grid ? part_for_grid_checks : part_for_checks) * b->options.tolerance;
+    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
     const size_t n = (size_t)p->count;
-    return p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, NULL, b->options.threads, error)
-                     : restitute_solve_many(&options, n, p->impacts, p->results, NULL, b->options.threads, error);
+    int status =
+        p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)
+                  : restitute_solve_many(&options, n, p->impacts, p->results, p->statuses, b->options.threads, error);
+    if (status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+    for (int64_t i = 0; i < p->count; i++)
+        if (p->statuses[i] < 0 && (status = solve_again(b, p, i, options, error)) < 0) return status;
+    return RESTITUTE_OK;
 }
 
 /* Solve up to `most` points of this part, from next on; those of the other part are passed over. */
@@ -352,7 +420,7 @@ static int64_t points_of_checks(const struct restitute_table_builder *b)
     for (int a = 0; a < 3; a++)
         outer *= b->active[a] ? b->n[a] - 1 : 1;
     const int64_t stick = b->active[RST_STICK] ? b->n[RST_STICK] - 1 : 1;
-    return outer * (stick + (b->active[RST_SLIP] ? b->n[RST_SLIP] - 1 : 0));
+    return outer * (stick + (b->active[RST_SLIP] ? b->n[RST_SLIP] - 1 : 0)) + rst_most_cell_checks;
 }
 
 static int begin_filling(struct restitute_table_builder *b, restitute_error *error)
@@ -415,6 +483,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
 
 static int next_stage(struct restitute_table_builder *b, restitute_error *error)
 {
+    if (b->grid) return rst_grid_next(b, error);
     if (b->part == 0) {
         begin_part(b, 1);
         return RESTITUTE_OK;
@@ -515,7 +584,7 @@ int64_t restitute_table_builder_expected(const restitute_table_builder *builder)
     if (builder->part == 0)
         for (int64_t i = 0; i < builder->next; i++)
             ahead += builder->point[i].slips && !builder->point[i].known;
-    if (builder->stage == RST_PROBING) return builder->used + ahead;
+    if (builder->stage == RST_PROBING || builder->grid) return builder->used + ahead;
     return builder->used + ahead + (builder->stage == RST_FILLING ? points_of_checks(builder) : 0);
 }
 

@@ -4,7 +4,7 @@
  *              points each axis needs; a line that is not resolved is doubled
  *   filling    impacts at all products of these points
  *   checking   the table is made from them, finer and with local polynomials (table_form.h), and compared with impacts
- *              half way between the points in all axes; if the difference is too large: panels are halved or get more points,
+ *              half way between the points in all axes, and in the middles of some of its cells; if the difference is too large: panels are halved or get more points,
  *              and what is not yet known is filled in
  *
  * Every stage has two parts: first the impacts with psi <= 1, then those beyond, whose places depend on e_z through psi_c.
@@ -19,7 +19,7 @@
 enum rst_axis { RST_SPEED, RST_GAMMA, RST_CHI, RST_STICK, RST_SLIP, rst_axes };
 enum rst_stage { RST_PROBING, RST_FILLING, RST_CHECKING, RST_FINISHED };
 
-enum { rst_most_points = 1025, rst_most_panels = 128 };
+enum { rst_most_points = 1025, rst_most_panels = 128, rst_most_cell_checks = 24 };
 
 /* An axis in [0, 1], cut at its edges; each panel has n points, those at seams shared. */
 struct rst_panels {
@@ -41,13 +41,14 @@ int rst_panels_halve(struct rst_panels *p, int panel);
 struct rst_point {
     double u[3];
     double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
-    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
+    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does. grid.h: the column */
+    int64_t slot;   /* grid.h: where in the column, or which check */
     int slips;
     int known; /* solved in an earlier round */
 };
 
 /* What came of it. */
-struct rst_solved {
+struct rst_solved { /* as in the journal */
     double ez, ex, error_ez, error_ex;
 };
 
@@ -87,6 +88,7 @@ struct restitute_table_builder {
     int failing[2][rst_most_panels];       /* panels in which a check failed */
     double filling_tolerance;
     struct rst_memo memo;
+    struct rst_grid *grid; /* NULL: no table of patches */
     double worst_ez, worst_ex;
 };
 
@@ -94,6 +96,13 @@ struct restitute_table_builder {
 double rst_builder_number(const struct restitute_table_builder *b, enum rst_axis axis, double u);
 
 double rst_y_of_t(double t);
+
+/* t with y = (1 - cos(pi t))/2 where r(y), or turned r(1 - y), is r (draft.c). */
+double rst_t_of_root(double r, int turned);
+
+/* Append a point to be solved (plan.c), or forget all points; nonzero: out of memory. */
+int rst_plan_add(struct restitute_table_builder *b, struct rst_point point);
+void rst_plan_begin(struct restitute_table_builder *b);
 
 /* Points of a stage (plan.c); nonzero: out of memory. */
 int rst_plan_probes(struct restitute_table_builder *b);

@@ -66,7 +66,10 @@ int restitute_table_to_data(const restitute_table *table, restitute_table_data *
                                    .slip_cells = table->slip_cells,
                                    .nodes = {table->n_speed, table->n_gamma, table->n_chi, table->n_psi},
                                    .ez = table->ez,
-                                   .ex = table->ex};
+                                   .ex = table->ex,
+                                   .cells = table->n_cells,
+                                   .patches = table->n_cells > 0 ? &table->patch->first : NULL,
+                                   .ex_cells = table->ex_cells};
     memcpy(data->range, table->asked, sizeof data->range);
     memcpy(data->version, table->version, sizeof data->version);
     view_axis(&table->speed, 0, data);
@@ -74,10 +77,29 @@ int restitute_table_to_data(const restitute_table *table, restitute_table_data *
     return rst_table_done(error);
 }
 
+/* delta1 or gamma at the nodes of all cells. */
+static void cell_nodes(const restitute_table *t, int axis, double *place)
+{
+    const int64_t patches = t->speed.cells * t->gamma.cells;
+    for (int64_t p = 0; p < patches; p++) {
+        const int64_t octave = axis ? p % t->gamma.cells : p / t->gamma.cells, *k = t->patch[p].k;
+        for (int64_t cell = 0; cell < INT64_C(1) << (k[0] + k[1]); cell++) {
+            const int64_t first = rst_cubic * (axis ? cell % (INT64_C(1) << k[1]) : cell >> k[1]);
+            for (int64_t m = 0; m < rst_cell_nodes; m++)
+                *place++ =
+                    rst_patch_node(axis ? &t->gamma : &t->speed, octave, k[axis], first + (axis ? m % 4 : m / 4));
+        }
+    }
+}
+
 int restitute_table_nodes(const restitute_table *table, int axis, double *places)
 {
     if (!table || !places) return RESTITUTE_ERROR_NULL;
     if (axis < 0 || axis > 3) return RESTITUTE_ERROR_DOMAIN;
+    if (axis < 2 && table->n_cells > 0) {
+        cell_nodes(table, axis, places);
+        return RESTITUTE_OK;
+    }
     for (int64_t i = 0; axis < 2 && i < (axis ? table->n_gamma : table->n_speed); i++)
         places[i] = rst_octaves_node(axis ? &table->gamma : &table->speed, i);
     for (int64_t i = 0; axis == 2 && i < table->n_chi; i++)
@@ -127,12 +149,45 @@ static int set_axis(const restitute_table_data *d, int i, const char *name, stru
     return RESTITUTE_OK;
 }
 
+static int check_singles(const float *value, size_t n, float low, float high, const char *name, restitute_error *error)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(value[i] >= low && value[i] <= high)) return refuse(error, name);
+    return RESTITUTE_OK;
+}
+
 static int check_values(const double *value, size_t n, double low, double high, const char *name,
                         restitute_error *error)
 {
     for (size_t i = 0; i < n; i++)
         if (!(value[i] >= low && value[i] <= high)) return refuse(error, name);
     return RESTITUTE_OK;
+}
+
+/* Both axes of octaves: patches, and all of their values in cells. */
+static int set_cells(const restitute_table_data *d, restitute_table *form, restitute_error *error)
+{
+    const int64_t patches = form->speed.cells * form->gamma.cells;
+    if (patches == 0 && d->cells == 0) return RESTITUTE_OK;
+    const int octaves = patches > 0 && d->parts[0] == 1 && d->parts[1] == 1;
+    if (!octaves || d->of_contact || d->stick_cells == 0 || d->cells < patches ||
+        d->cells > patches << (2 * rst_finest_patch))
+        return refuse(error, "number of cells");
+    form->n_cells = d->cells;
+    return RESTITUTE_OK;
+}
+
+/* Numbered and divided as a table's are. */
+static int check_patches(const restitute_table_data *d, int64_t patches, restitute_error *error)
+{
+    int64_t cells = 0;
+    for (int64_t p = 0; p < patches; p++) {
+        const int64_t first = d->patches[3 * p], k = d->patches[3 * p + 1], l = d->patches[3 * p + 2];
+        if (first != cells || k < 0 || k > rst_finest_patch || l < 0 || l > rst_finest_patch)
+            return refuse(error, "patches");
+        cells += INT64_C(1) << (k + l);
+    }
+    return cells == d->cells ? RESTITUTE_OK : refuse(error, "patches");
 }
 
 static int set_form(const restitute_table_data *d, restitute_table *form, restitute_error *error)
@@ -154,6 +209,8 @@ static int set_form(const restitute_table_data *d, restitute_table *form, restit
     form->stick_cells = d->stick_cells;
     form->slip_cells = d->slip_cells;
     form->terms = d->terms;
+    status = set_cells(d, form, error);
+    if (status) return status;
     rst_table_count(form);
     /* without a slip side psi_c must be 1 for all chi */
     if (form->stick_cells > 0 && form->slip_cells == 0 && 2 * form->chi_high > 1) return refuse(error, "cells of psi");
@@ -206,20 +263,31 @@ int restitute_table_from_data(const restitute_table_data *data, restitute_table 
     int status = check_size(data, error);
     if (!status) status = set_form(data, &form, error);
     if (status) return status;
-    if (!data->ez || !data->ex || (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
+    const int cells = form.n_cells > 0;
+    if (!data->ez || (cells ? !data->ex_cells || !data->patches : !data->ex) ||
+        (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
         return rst_table_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
     const size_t n_ez = (size_t)form.n_speed * (size_t)form.n_gamma;
     const size_t n_ex = n_ez * (size_t)form.n_psi * (size_t)form.n_chi;
     if (data->of_contact && !(data->psi_factor >= 0)) return refuse(error, "psi_factor");
     /* interpolation may overshoot by the error; beyond psi = 1 the difference of two ex is kept */
     status = check_values(data->ez, n_ez, -0.5, 1.5, "ez", error);
-    if (!status) status = check_values(data->ex, n_ex, -1e4, 1e4, "ex", error);
+    const int64_t patches = form.speed.cells * form.gamma.cells;
+    if (!status && cells) status = check_patches(data, patches, error);
+    if (!status)
+        status = cells ? check_singles(data->ex_cells, n_ex, -1e4F, 1e4F, "ex_cells", error)
+                       : check_values(data->ex, n_ex, -1e4, 1e4, "ex", error);
     if (status) return status;
     set_numbers(data, &form);
     restitute_table *made = rst_table_allocate(&form);
     if (!made) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     memcpy(made->ez, data->ez, n_ez * sizeof *made->ez);
-    memcpy(made->ex, data->ex, n_ex * sizeof *made->ex);
+    if (cells) {
+        memcpy(made->patch, data->patches, (size_t)patches * sizeof *made->patch);
+        memcpy(made->ex_cells, data->ex_cells, n_ex * sizeof *made->ex_cells);
+    } else {
+        memcpy(made->ex, data->ex, n_ex * sizeof *made->ex);
+    }
     if (form.terms > 0) {
         memcpy(made->term, data->relaxation_time, (size_t)form.terms * sizeof *made->term);
         memcpy(made->term + form.terms, data->modulus, (size_t)form.terms * sizeof *made->term);

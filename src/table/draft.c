@@ -230,8 +230,7 @@ static int choose_even(const struct restitute_table_builder *b, const struct coa
     return 0;
 }
 
-/* t with y = (1 - cos(pi t))/2 where r(y), or r(1 - y), is r. */
-static double t_of_root(double r, int turned)
+double rst_t_of_root(double r, int turned)
 {
     const double t = 2 / pi * asin(sqrt(rst_slip_y(r)));
     return turned ? 1 - t : t;
@@ -244,8 +243,8 @@ static double slip_error(const struct restitute_table_builder *b, const struct c
     const int64_t n = cells * rst_cubic;
     for (int64_t i = 0; i <= n; i++) {
         const double here = rst_slip_node(cells, i);
-        place[i] = t_of_root(here, turned);
-        if (i < n) middle[i] = t_of_root(0.5 * (here + rst_slip_node(cells, i + 1)), turned);
+        place[i] = rst_t_of_root(here, turned);
+        if (i < n) middle[i] = rst_t_of_root(0.5 * (here + rst_slip_node(cells, i + 1)), turned);
     }
     return cell_error(b, c, RST_SLIP, n + 1, place, middle);
 }
@@ -292,7 +291,7 @@ static double *psi_rows(const struct restitute_table_builder *b, const restitute
         const double stick = t->stick_cells ? (double)i / (double)(t->stick_cells * rst_cubic) : 0;
         const int turned = i >= t->start[2];
         const int64_t from_start = i - (turned ? t->start[2] : t->start[1]);
-        const double place = slips ? t_of_root(rst_slip_node(t->slip_cells, from_start), turned) : stick;
+        const double place = slips ? rst_t_of_root(rst_slip_node(t->slip_cells, from_start), turned) : stick;
         rst_table_weights(slips ? r : l, 1, &place, one);
         memcpy(row + i * n + (slips ? l : 0), one, (size_t)(slips ? r : l) * sizeof *one);
     }

@@ -64,8 +64,7 @@ static int set_ranges(const restitute_table_family *given, struct rst_family *f,
     int status = check_range(given->chi, "chi", 1.0 / 3, 1000, 3001, error);
     if (!status && !(given->delta1[0] == 0 && given->delta1[1] == 0))
         status = check_range(given->delta1, "delta1", DBL_MIN, 1e6, 1e12, error);
-    if (!status && !kelvin_voigt && !no_gamma)
-        status = check_range(given->gamma, "gamma", DBL_MIN, 1e6, 1e12, error);
+    if (!status && !kelvin_voigt && !no_gamma) status = check_range(given->gamma, "gamma", DBL_MIN, 1e6, 1e12, error);
     if (status) return status;
     f->sliding = RST_SLIDES;
     f->friction = NAN;

@@ -58,6 +58,10 @@ void rst_table_count(restitute_table *form)
 {
     form->n_speed = form->speed.cells * rst_cubic + 1;
     form->n_gamma = form->gamma.cells * rst_cubic + 1;
+    if (form->n_cells > 0) {
+        form->n_speed = form->n_cells;
+        form->n_gamma = rst_cell_nodes;
+    }
     form->n_chi = form->chi_cells * rst_cubic + 1;
     form->start[0] = 0;
     form->start[1] = form->stick_cells * rst_cubic + 1;
@@ -76,18 +80,48 @@ double rst_chi_node(const restitute_table *form, int64_t i)
     return form->chi_low + (form->chi_high - form->chi_low) * ((double)i / (double)last);
 }
 
+int64_t rst_patches_number(struct rst_patch *patch, int64_t count)
+{
+    int64_t cells = 0;
+    for (int64_t i = 0; i < count; i++) {
+        patch[i].first = cells;
+        cells += INT64_C(1) << (patch[i].k[0] + patch[i].k[1]);
+    }
+    return cells;
+}
+
+double rst_patch_node(const struct rst_octaves *axis, int64_t octave, int64_t k, int64_t i)
+{
+    const double start = rst_octaves_node(axis, octave * rst_cubic);
+    return start + start * (double)i / (double)(rst_cubic << k);
+}
+
+/* Doubles that hold so many bytes. */
+static size_t doubles(size_t bytes)
+{
+    return (bytes + sizeof(double) - 1) / sizeof(double);
+}
+
 restitute_table *rst_table_allocate(const restitute_table *form)
 {
-    const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma;
-    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi;
-    const size_t size = n_ez + n_ex + 2 * (size_t)form->terms;
+    const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma, n_term = 2 * (size_t)form->terms;
+    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi, line = 64;
+    const size_t patches = form->n_cells > 0 ? (size_t)(form->speed.cells * form->gamma.cells) : 0;
+    const size_t n_values = form->n_cells > 0 ? doubles(n_ex * sizeof(float) + line) : n_ex;
+    const size_t size = n_ez + n_term + n_values + doubles(patches * sizeof(struct rst_patch));
     restitute_table *table = malloc(sizeof *table + size * sizeof(double));
     if (!table) return NULL;
     *table = *form;
     table->block_size = size;
     table->ez = table->block;
-    table->ex = table->block + n_ez;
-    table->term = table->block + n_ez + n_ex;
+    table->term = table->ez + n_ez;
+    table->ex = table->term + n_term;
+    if (form->n_cells == 0) return table;
+    table->patch = (struct rst_patch *)(void *)table->ex;
+    char *values = (char *)(table->patch + patches);
+    table->ex_cells =
+        (float *)(void *)(values + (line - (uintptr_t)values % line) % line); /* a node's cells: one line */
+    table->ex = NULL;
     return table;
 }
 

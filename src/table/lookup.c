@@ -39,16 +39,11 @@ static inline double clamp(double value, double low, double high)
 
 static inline double rebound(const restitute_table *t, const struct place *p)
 {
-    const double *v = t->ez + p->corner, *g = p->gamma;
+    const double *v = t->ez + p->corner;
     double sum = 0;
-    if (p->n_speed == 4 && p->n_gamma == 4) {
-        for (int i = 0; i < 4; i++, v += t->n_gamma)
-            sum += p->speed[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
-        return clamp(sum, 0, 1);
-    }
     for (int i = 0; i < p->n_speed; i++)
         for (int j = 0; j < p->n_gamma; j++)
-            sum += p->speed[i] * g[j] * v[i * t->n_gamma + j];
+            sum += p->speed[i] * p->gamma[j] * v[i * t->n_gamma + j];
     return clamp(sum, 0, 1);
 }
 
@@ -64,26 +59,7 @@ static inline double sum_two_axes(const restitute_table *t, const double w[4], i
     return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
 }
 
-/* All four axes: first over speed and gamma, whose sums go side by side. */
-static double sum_four_axes(const restitute_table *t, const struct place *p, const double *v, const double w[4],
-                            const double x[4])
-{
-    const int64_t n_chi = t->n_chi, row = t->n_psi * n_chi, stride = t->n_gamma * row;
-    double sum[16] = {0};
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            const double weight = p->speed[i] * p->gamma[j], *block = v + i * stride + j * row;
-            for (int k = 0; k < 4; k++)
-                for (int l = 0; l < 4; l++)
-                    sum[4 * k + l] += weight * block[k * n_chi + l];
-        }
-    double total = 0;
-    for (int k = 0; k < 4; k++)
-        total += w[k] * ((x[0] * sum[4 * k] + x[1] * sum[4 * k + 1]) + (x[2] * sum[4 * k + 2] + x[3] * sum[4 * k + 3]));
-    return total;
-}
-
-/* Some of them. */
+/* Any number of axes, of which one is neither delta1 nor gamma. */
 static double sum_some_axes(const restitute_table *t, const struct place *p, const double *v, const double *w, int n,
                             const double *x, int m)
 {
@@ -107,7 +83,6 @@ static double sum_general(const restitute_table *t, const struct place *p, doubl
         v += rst_chi_find(t, chi, &chi_s);
         rst_cubic_weights(chi_s, x);
     }
-    if (n == 4 && m == 4 && p->n_speed == 4 && p->n_gamma == 4) return sum_four_axes(t, p, v, w, x);
     return sum_some_axes(t, p, v, w, n, x, m);
 }
 
@@ -145,6 +120,92 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
         pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
 }
 
+/* Four numbers that are added at once. */
+#if defined(__GNUC__)
+typedef float four __attribute__((__vector_size__(16)));
+#else
+#error "lookup.c needs the vector types of gcc and clang"
+#endif
+
+/* Cell, and weights along delta1 and gamma. */
+struct cell_place {
+    int64_t cell;
+    double speed[4], gamma[4];
+};
+
+static inline void find_cell(const restitute_table *t, double speed, double gamma, struct cell_place *p)
+{
+    double s[2];
+    p->cell = rst_cell_find(t, speed, gamma, s);
+    rst_cubic_weights(s[0], p->speed);
+    rst_cubic_weights(s[1], p->gamma);
+}
+
+static inline double rebound_in_cell(const restitute_table *t, const struct cell_place *p)
+{
+    const double *v = t->ez + p->cell * rst_cell_nodes, *g = p->gamma;
+    double sum = 0;
+    for (int i = 0; i < 4; i++, v += 4)
+        sum += p->speed[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
+    return clamp(sum, 0, 1);
+}
+
+/* First over psi and chi, all nodes of delta1 and gamma side by side. */
+static inline double sum_cell(const restitute_table *t, const float *v, const double w[4], const double x[4], int m,
+                              const struct cell_place *p)
+{
+    four sum[4] = {{0}, {0}, {0}, {0}};
+    for (int k = 0; k < 4; k++)
+        for (int l = 0; l < m; l++) {
+            const float one = (float)(w[k] * x[l]);
+            const four weight = {one, one, one, one};
+            const four *row = (const four *)(const void *)(v + (k * t->n_chi + l) * rst_cell_nodes);
+            for (int i = 0; i < 4; i++)
+                sum[i] += weight * row[i];
+        }
+    const double *g = p->gamma;
+    double total = 0;
+    for (int i = 0; i < 4; i++)
+        total += p->speed[i] * ((g[0] * (double)sum[i][0] + g[1] * (double)sum[i][1]) +
+                                (g[2] * (double)sum[i][2] + g[3] * (double)sum[i][3]));
+    return total;
+}
+
+static inline double tangential_in_cell(const restitute_table *t, const struct cell_place *p, double chi, int64_t node,
+                                        double s)
+{
+    double w[4], x[4] = {1}, chi_s;
+    const float *v = t->ex_cells + (p->cell * t->n_psi + node) * t->n_chi * rst_cell_nodes;
+    rst_cubic_weights(s, w);
+    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, p);
+    v += rst_chi_find(t, chi, &chi_s) * rst_cell_nodes;
+    rst_cubic_weights(chi_s, x);
+    return sum_cell(t, v, w, x, 4, p);
+}
+
+/* A table of patches. */
+#if defined(__GNUC__)
+__attribute__((__noinline__))
+#endif
+static void
+evaluate_cells(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
+               restitute_table_value *pair)
+{
+    struct cell_place p;
+    double s, quotient;
+    find_cell(t, speed, gamma, &p);
+    chi = chi_in_table(t, chi);
+    const double ez = rebound_in_cell(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
+    pair->ez = ez;
+    if (sliding > critical * v_n) {
+        pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
+        return;
+    }
+    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient);
+    const double closed = (sliding > v_n) * (full * quotient - 1);
+    pair->ex = clamp(tangential_in_cell(t, &p, chi, node, s) + closed, -1, 1);
+}
+
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
 static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
                                      restitute_table_value *pair)
@@ -170,6 +231,8 @@ static inline void evaluate(const restitute_table *t, double speed, double gamma
 {
     if (t->two_axes)
         evaluate_two_axes(t, speed, sliding, v_n, pair);
+    else if (t->n_cells > 0)
+        evaluate_cells(t, speed, gamma, chi, sliding, v_n, pair);
     else
         evaluate_general(t, speed, gamma, chi, sliding, v_n, pair);
 }
@@ -183,6 +246,11 @@ void rst_table_evaluate(const restitute_table *table, double speed, double gamma
 double rst_table_rebound(const restitute_table *table, double speed, double gamma)
 {
     struct place p;
+    if (table->n_cells > 0) {
+        struct cell_place place;
+        find_cell(table, speed, gamma, &place);
+        return rebound_in_cell(table, &place);
+    }
     find_place(table, speed, gamma, &p);
     return rebound(table, &p);
 }

@@ -8,7 +8,7 @@
 /* Most points of a line of probes: one that needs more is cut into panels. */
 static const int64_t most_points = 33;
 
-static int add_point(struct restitute_table_builder *b, struct rst_point point)
+int rst_plan_add(struct restitute_table_builder *b, struct rst_point point)
 {
     if (b->points == b->capacity) {
         const int64_t capacity = b->capacity ? 2 * b->capacity : 1024;
@@ -24,7 +24,7 @@ static int add_point(struct restitute_table_builder *b, struct rst_point point)
     return 0;
 }
 
-static void begin(struct restitute_table_builder *b)
+void rst_plan_begin(struct restitute_table_builder *b)
 {
     b->points = b->next = 0;
     b->part = 0;
@@ -66,7 +66,7 @@ static int probe_outer(struct restitute_table_builder *b, enum rst_axis axis, do
                 struct rst_point p = {.s = kind == 2 ? 0.5 : kind, .slips = kind == 2, .column = first + j};
                 memcpy(p.u, c.u[i], sizeof p.u);
                 p.u[axis] = x[j];
-                if (add_point(b, p)) return 1;
+                if (rst_plan_add(b, p)) return 1;
             }
         }
     }
@@ -87,7 +87,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
             for (int64_t j = side; j < n - side; j++) {
                 struct rst_point p = {.s = x[j], .slips = side, .column = first};
                 memcpy(p.u, c.u[i], sizeof p.u);
-                if (add_point(b, p)) return 1;
+                if (rst_plan_add(b, p)) return 1;
             }
         }
     }
@@ -97,7 +97,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
 int rst_plan_probes(struct restitute_table_builder *b)
 {
     double x[rst_most_points];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < 3; axis++)
         if (b->active[axis] && probe_outer(b, (enum rst_axis)axis, x)) return 1;
     if (b->active[RST_STICK] && probe_psi(b, x)) return 1;
@@ -202,11 +202,11 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
     const int64_t n = b->n[RST_STICK], m = b->active[RST_SLIP] ? b->n[RST_SLIP] : 0, first = b->points;
     for (int64_t j = 0; j < n; j++) {
         struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = stick[j]};
-        if (add_point(b, p)) return 1;
+        if (rst_plan_add(b, p)) return 1;
     }
     for (int64_t j = 1; j < m - 1; j++) {
         struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = slip[j], .slips = 1, .column = first + n - 1};
-        if (add_point(b, p)) return 1;
+        if (rst_plan_add(b, p)) return 1;
     }
     return 0;
 }
@@ -214,7 +214,7 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
 int rst_plan_filling(struct restitute_table_builder *b)
 {
     double x[rst_axes][rst_most_points];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
         rst_panels_nodes(&b->panels[axis], x[axis]);
     for (int64_t i = 0; i < b->n[0]; i++)
@@ -226,11 +226,57 @@ int rst_plan_filling(struct restitute_table_builder *b)
     return 0;
 }
 
+/* The middle of a cell along speed or gamma, as a coordinate in [0, 1]. */
+static double middle_of_octaves(const struct restitute_table_builder *b, enum rst_axis axis,
+                                const struct rst_octaves *o, int64_t cell)
+{
+    if (o->cells == 0) return 0.5;
+    const double middle = 0.5 * (rst_octaves_node(o, cell * rst_cubic) + rst_octaves_node(o, (cell + 1) * rst_cubic));
+    return (log(middle) - b->low[axis]) / (b->high[axis] - b->low[axis]);
+}
+
+/* The middle of a cell of psi: those of the stick side, then those of both halves of the slip side. */
+static void middle_of_psi(const restitute_table *t, int64_t cell, struct rst_point *p)
+{
+    p->slips = cell >= t->stick_cells && t->stick_cells > 0;
+    if (!p->slips) {
+        p->s = t->stick_cells > 0 ? ((double)cell + 0.5) / (double)t->stick_cells : 0;
+        return;
+    }
+    const int turned = cell >= t->stick_cells + t->slip_cells;
+    const int64_t own = cell - t->stick_cells - (turned ? t->slip_cells : 0);
+    const double low = rst_slip_node(t->slip_cells, own * rst_cubic);
+    p->s = rst_t_of_root(0.5 * (low + rst_slip_node(t->slip_cells, (own + 1) * rst_cubic)), turned);
+}
+
+/* The middles of some of the table's cells, spread over all of them by the golden section. */
+static int check_cells(struct restitute_table_builder *b)
+{
+    const restitute_table *t = b->draft;
+    const double golden = 0.61803398874989485;
+    const int64_t n[4] = {t->speed.cells > 0 ? t->speed.cells : 1, t->gamma.cells > 0 ? t->gamma.cells : 1,
+                          t->chi_cells > 0 ? t->chi_cells : 1,
+                          t->stick_cells > 0 ? t->stick_cells + 2 * t->slip_cells : 1};
+    const int64_t all = n[0] * n[1] * n[2] * n[3], count = all < rst_most_cell_checks ? all : rst_most_cell_checks;
+    for (int64_t i = 0; i < count; i++) {
+        int64_t cell = count == all ? i : (int64_t)(fmod((double)(i + 1) * golden, 1) * (double)all);
+        struct rst_point p = {.column = -1};
+        middle_of_psi(t, cell % n[3], &p);
+        cell /= n[3];
+        p.u[RST_CHI] = ((double)(cell % n[2]) + 0.5) / (double)n[2];
+        cell /= n[2];
+        p.u[RST_GAMMA] = middle_of_octaves(b, RST_GAMMA, &t->gamma, cell % n[1]);
+        p.u[RST_SPEED] = middle_of_octaves(b, RST_SPEED, &t->speed, cell / n[1]);
+        if (rst_plan_add(b, p)) return 1;
+    }
+    return 0;
+}
+
 int rst_plan_checks(struct restitute_table_builder *b)
 {
     double x[rst_axes][rst_most_points];
     int64_t n[rst_axes];
-    begin(b);
+    rst_plan_begin(b);
     for (int axis = 0; axis < rst_axes; axis++)
         n[axis] = rst_panels_half_ways(&b->panels[axis], x[axis]);
     if (!b->active[RST_STICK]) x[RST_STICK][0] = 0;
@@ -241,7 +287,7 @@ int rst_plan_checks(struct restitute_table_builder *b)
                     for (int64_t l = 0; l < n[RST_STICK + side]; l++) {
                         const struct rst_point p = {
                             .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .slips = side, .column = -1};
-                        if (add_point(b, p)) return 1;
+                        if (rst_plan_add(b, p)) return 1;
                     }
-    return 0;
+    return check_cells(b);
 }

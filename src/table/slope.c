@@ -22,36 +22,83 @@ static void cubic_slopes(double s, double w[4], double dw[4])
     }
 }
 
-/* Place on an axis of octaves with derivatives by the number; they are 0 outside. */
-struct directions {
+/* Place along delta1 or the speed, or along gamma, with derivatives by the number; they are 0 outside. */
+struct direction {
     double w[4], dw[4];
     int64_t node;
     int n;
 };
 
-static struct directions find_direction(const struct rst_octaves *axis, double number)
+/* Both, and the cell in a table of patches. */
+struct directions {
+    struct direction speed, gamma;
+    int64_t cell;
+};
+
+static void set_weights(const struct rst_octaves *axis, double number, double s, double width, struct direction *d)
 {
-    struct directions d = {.w = {1}, .n = 1};
+    d->n = 4;
+    cubic_slopes(s, d->w, d->dw);
+    const int inside = number >= axis->low && number <= axis->high;
+    for (int i = 0; i < 4; i++)
+        d->dw[i] *= inside ? rst_cubic / width : 0;
+}
+
+static struct direction find_direction(const struct rst_octaves *axis, double number)
+{
+    struct direction d = {.w = {1}, .n = 1};
     if (axis->cells == 0) return d;
     int64_t cell;
     const double s = rst_octaves_find(axis, number, &cell);
-    d.n = 4;
     d.node = cell * rst_cubic;
-    cubic_slopes(s, d.w, d.dw);
-    const double width = rst_octaves_node(axis, d.node + rst_cubic) - rst_octaves_node(axis, d.node);
-    const int inside = number >= axis->low && number <= axis->high;
-    for (int i = 0; i < 4; i++)
-        d.dw[i] *= inside ? rst_cubic / width : 0;
+    set_weights(axis, number, s, rst_octaves_node(axis, d.node + rst_cubic) - rst_octaves_node(axis, d.node), &d);
     return d;
 }
 
-static double sum_ez(const restitute_table *t, const double *by_speed, int n_speed, int64_t row,
-                     const struct directions *gamma)
+/* Width of the cells of the patch at a number: an octave is as wide as its start. */
+static double cell_width(const restitute_table *t, double speed, double gamma, int axis)
+{
+    int64_t i, j;
+    rst_octaves_find(&t->speed, speed, &i);
+    rst_octaves_find(&t->gamma, gamma, &j);
+    const double octave = rst_octaves_node(axis ? &t->gamma : &t->speed, (axis ? j : i) * rst_cubic);
+    return ldexp(octave, -(int)t->patch[i * t->gamma.cells + j].k[axis]);
+}
+
+static struct directions find_directions(const restitute_table *t, double speed, double gamma)
+{
+    struct directions d = {.cell = 0};
+    if (t->n_cells == 0) {
+        d.speed = find_direction(&t->speed, speed);
+        d.gamma = find_direction(&t->gamma, gamma);
+        return d;
+    }
+    double s[2];
+    d.cell = rst_cell_find(t, speed, gamma, s);
+    set_weights(&t->speed, speed, s[0], cell_width(t, speed, gamma, 0), &d.speed);
+    set_weights(&t->gamma, gamma, s[1], cell_width(t, speed, gamma, 1), &d.gamma);
+    return d;
+}
+
+/* Which of the ez is at a node. */
+static int64_t corner_of(const restitute_table *t, const struct directions *d, int i, int j)
+{
+    if (t->n_cells > 0) return d->cell * rst_cell_nodes + 4 * i + j;
+    return (d->speed.node + i) * t->n_gamma + d->gamma.node + j;
+}
+
+static double ex_at(const restitute_table *t, const struct directions *d, int i, int j, int64_t psi, int64_t chi)
+{
+    if (t->n_cells == 0) return t->ex[(corner_of(t, d, i, j) * t->n_psi + psi) * t->n_chi + chi];
+    return (double)t->ex_cells[((d->cell * t->n_psi + psi) * t->n_chi + chi) * rst_cell_nodes + 4 * i + j];
+}
+
+static double sum_ez(const restitute_table *t, const struct directions *d, const double *by_speed)
 {
     double sum = 0;
-    for (int i = 0; i < n_speed; i++)
-        for (int j = 0; j < gamma->n; j++)
-            sum += by_speed[i] * gamma->w[j] * t->ez[(row + i) * t->n_gamma + gamma->node + j];
+    for (int i = 0; i < d->speed.n; i++)
+        for (int j = 0; j < d->gamma.n; j++)
+            sum += by_speed[i] * d->gamma.w[j] * t->ez[corner_of(t, d, i, j)];
     return sum;
 }
 
@@ -61,19 +108,16 @@ struct slip_place {
     double w[4], dw[4]; /* by s */
 };
 
-static double sum_ex(const restitute_table *t, const double *by_speed, int n_speed, int64_t row,
-                     const struct directions *gamma, const double *chi, int64_t chi_node, const struct slip_place *psi,
-                     const double *by_psi)
+static double sum_ex(const restitute_table *t, const struct directions *d, const double *by_speed, const double *chi,
+                     int64_t chi_node, const struct slip_place *psi, const double *by_psi)
 {
     double sum = 0;
-    for (int i = 0; i < n_speed; i++)
-        for (int j = 0; j < gamma->n; j++)
+    for (int i = 0; i < d->speed.n; i++)
+        for (int j = 0; j < d->gamma.n; j++)
             for (int k = 0; k < psi->n; k++)
-                for (int64_t l = 0; l < (t->n_chi > 1 ? 4 : 1); l++) {
-                    const int64_t corner = (row + i) * t->n_gamma + gamma->node + j;
-                    sum += by_speed[i] * gamma->w[j] * by_psi[k] * chi[l] *
-                           t->ex[(corner * t->n_psi + psi->node + k) * t->n_chi + chi_node + l];
-                }
+                for (int64_t l = 0; l < (t->n_chi > 1 ? 4 : 1); l++)
+                    sum += by_speed[i] * d->gamma.w[j] * by_psi[k] * chi[l] *
+                           ex_at(t, d, i, j, psi->node + k, chi_node + l);
     return sum;
 }
 
@@ -84,15 +128,15 @@ static double slip_stretch(const restitute_table *t, double y)
     return (y > 0.5 ? -1 : 1) * rst_cubic * t->psi_cells[1] / (2 * sqrt(u));
 }
 
-void rst_table_slope(const restitute_table *t, double speed, double gamma_in, double chi, double psi,
+void rst_table_slope(const restitute_table *t, double speed, double gamma, double chi, double psi,
                      struct rst_slope *slope)
 {
-    const struct directions x = find_direction(&t->speed, speed), gamma = find_direction(&t->gamma, gamma_in);
-    const double ez = sum_ez(t, x.w, x.n, x.node, &gamma);
+    const struct directions d = find_directions(t, speed, gamma);
+    const double ez = sum_ez(t, &d, d.speed.w);
     double chi_w[4] = {1}, s;
     double quotient;
     int64_t chi_node = 0;
-    *slope = (struct rst_slope){.ez_speed = ez > 0 && ez < 1 ? sum_ez(t, x.dw, x.n, x.node, &gamma) : 0};
+    *slope = (struct rst_slope){.ez_speed = ez > 0 && ez < 1 ? sum_ez(t, &d, d.speed.dw) : 0};
     chi = fmin(fmax(chi, t->chi_low), t->chi_high);
     if (t->n_chi > 1) {
         chi_node = rst_chi_find(t, chi, &s);
@@ -114,8 +158,8 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma_in, do
         cubic_slopes(s, p.w, p.dw);
         stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);
     }
-    slope->ex_speed = sum_ex(t, x.dw, x.n, x.node, &gamma, chi_w, chi_node, &p, p.w);
-    slope->ex_psi = sum_ex(t, x.w, x.n, x.node, &gamma, chi_w, chi_node, &p, p.dw) * stretch;
+    slope->ex_speed = sum_ex(t, &d, d.speed.dw, chi_w, chi_node, &p, p.w);
+    slope->ex_psi = sum_ex(t, &d, d.speed.w, chi_w, chi_node, &p, p.dw) * stretch;
     if (t->stick_cells == 0 || psi <= 1) return;
     /* y moves with psi_c, which moves with ez */
     slope->ex_speed += full_speed - slope->ex_psi * y * (2 * chi - 1) * slope->ez_speed;

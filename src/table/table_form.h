@@ -6,6 +6,11 @@
  * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
  * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
  *
+ * A table with axes of delta1 and of gamma is divided further where it needs it: ex has lines across which a higher derivative jumps,
+ * oblique in (delta1, gamma) and elsewhere for every psi and chi. A patch is one octave of each; it has 2^k cells along delta1 and
+ * 2^l along gamma, with k and l of its own. A cell keeps all of its 4 x 4 nodes side by side, in single precision for ex: a lookup then
+ * reads runs of memory. Where a patch meets one of fewer cells, its nodes are put on the polynomials of that one.
+ *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
@@ -18,8 +23,16 @@
 #include <restitute/table.h>
 
 enum {
-    rst_cubic = 3, /* degree along speed, gamma and psi */
-    rst_most_chi = 33
+    rst_cubic = 3, /* degree along all axes */
+    rst_most_chi = 33,
+    rst_cell_nodes = 16,
+    rst_finest_patch = 5 /* largest k and l of a patch */
+};
+
+/* One octave of delta1 and of gamma. */
+struct rst_patch {
+    int64_t first; /* its first cell; along gamma they follow each other */
+    int64_t k[2];
 };
 
 /* An axis by octaves. */
@@ -59,7 +72,12 @@ struct restitute_table {
     double psi_cells[2]; /* cells over the length of psi in [0, 1], of r in [0, r(1/2)]; next below that */
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
-    size_t block_size;   /* doubles in `block` */
+
+    int64_t
+        n_cells; /* > 0: patches; then speed and gamma have octaves, n_speed is n_cells, n_gamma the nodes of a cell */
+    struct rst_patch *patch; /* [octave of delta1][octave of gamma] */
+    float *ex_cells;         /* [cell][psi][chi][node]; ez is [cell][node] */
+    size_t block_size;       /* doubles in `block` */
     double block[];
 };
 
@@ -82,6 +100,12 @@ double rst_chi_node(const restitute_table *form, int64_t i);
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
 
+/* Number the cells of the patches, one after the other; how many there are. */
+int64_t rst_patches_number(struct rst_patch *patch, int64_t count);
+
+/* Number at a node of a patch whose octave along the axis is `octave`; 0 <= i <= 3 2^k. */
+double rst_patch_node(const struct rst_octaves *axis, int64_t octave, int64_t k, int64_t i);
+
 /* Counts and starts of nodes from the cells. */
 void rst_table_count(restitute_table *form);
 
@@ -101,6 +125,19 @@ static inline double rst_octaves_find(const struct rst_octaves *axis, double num
     memcpy(&bits, &number, sizeof bits);
     *cell = (bits >> axis->shift) - axis->first;
     return (double)(bits & axis->mask) * axis->scale;
+}
+
+/* Cell of a table of patches, and places in [0, 3] in it. */
+static inline int64_t rst_cell_find(const restitute_table *t, double speed, double gamma, double s[2])
+{
+    int64_t i, j;
+    const double x = rst_octaves_find(&t->speed, speed, &i), y = rst_octaves_find(&t->gamma, gamma, &j);
+    const struct rst_patch *p = &t->patch[i * t->gamma.cells + j];
+    const double u = x * (double)(INT64_C(1) << p->k[0]), v = y * (double)(INT64_C(1) << p->k[1]);
+    const int64_t a = (int64_t)(u * (1.0 / rst_cubic)), b = (int64_t)(v * (1.0 / rst_cubic));
+    s[0] = u - (double)(a * rst_cubic);
+    s[1] = v - (double)(b * rst_cubic);
+    return p->first + (a << p->k[1]) + b;
 }
 
 /* Weights of the four nodes s = 0, 1, 2, 3. */

@@ -44,6 +44,8 @@ void rst_old_file_close(struct rst_old_file *file);
 /* Datasets and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size asked for. */
 int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
                     const char *units, const char *description);
+int rst_put_singles(hid_t place, const char *name, int rank, const int64_t *size, const float *value, const char *units,
+                    const char *description);
 int rst_put_number(hid_t place, const char *name, double value);
 int rst_put_integer(hid_t place, const char *name, int64_t value);
 int rst_put_text(hid_t place, const char *name, const char *text);

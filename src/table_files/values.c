@@ -55,8 +55,8 @@ int rst_put_text(hid_t place, const char *name, const char *text)
 }
 
 /* Without the time of writing: the same table gives the same bytes. */
-int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
-                    const char *units, const char *description)
+static int put_set(hid_t place, const char *name, int rank, const int64_t *size, hid_t file_type, hid_t memory_type,
+                   const void *value)
 {
     hsize_t length[4];
     for (int i = 0; i < rank; i++)
@@ -64,10 +64,31 @@ int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size
     const hid_t space = H5Screate_simple(rank, length, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
     hid_t set = -1;
     if (space >= 0 && how >= 0 && H5Pset_obj_track_times(how, 0) >= 0)
-        set = H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    const int good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0 &&
-                     rst_put_text(set, "units", units) == 0 && rst_put_text(set, "description", description) == 0;
+        set = H5Dcreate2(place, name, file_type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    const int good = set >= 0 && H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
     return close_all(good, set, space, how);
+}
+
+static int describe_set(hid_t place, const char *name, const char *units, const char *description)
+{
+    const hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
+    const int good =
+        set >= 0 && rst_put_text(set, "units", units) == 0 && rst_put_text(set, "description", description) == 0;
+    return close_all(good, set, -1, -1);
+}
+
+int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
+                    const char *units, const char *description)
+{
+    return put_set(place, name, rank, size, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, value) ||
+           describe_set(place, name, units, description);
+}
+
+int rst_put_singles(hid_t place, const char *name, int rank, const int64_t *size, const float *value, const char *units,
+                    const char *description)
+{
+    return put_set(place, name, rank, size, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, value) ||
+           describe_set(place, name, units, description);
 }
 
 /* An attribute that is one value of a class. */
