@@ -132,6 +132,7 @@ contains
     type(shear_type), intent(inout) :: state
     type(cubic_type) :: velocity
     type(memory_type) :: m
+    real(dp), parameter :: closest = 1.0e-9_dp  !! part of a step; one of no length would have no slopes
     real(dp) :: target, h, bend, fade
     integer(ip) :: l, i, k
 
@@ -141,9 +142,15 @@ contains
       if (level(l + 1)%velocity < target) exit
       l = l + 1
     end do
-    velocity = cubic_between(level(l + 1)%step, level(l)%velocity, level(l + 1)%velocity, &
-                             -mass_factor*level(l)%force, -mass_factor*level(l + 1)%force)
+    velocity = between_levels(level(l:l + 1))
     h = cubic_root(velocity, target)
+    if (level(l + 1)%step - h <= closest*level(l + 1)%step .and. l + 1 < 2*scene%n) then ! at the next level
+      l = l + 1
+      velocity = between_levels(level(l:l + 1))
+      h = 0
+    else if (h <= closest*level(l + 1)%step) then
+      h = 0
+    end if
     state%time = level(l)%time + h
     state%shift = level(l)%depth + cubic_integral(velocity, h)
     state%velocity = target
@@ -177,6 +184,13 @@ contains
       end do
     end do
   end subroutine end_gross_slip
+
+  pure function between_levels(level) result(velocity)
+    type(level_type), intent(in) :: level(2)
+    type(cubic_type) :: velocity
+    velocity = cubic_between(level(2)%step, level(1)%velocity, level(2)%velocity, -mass_factor*level(1)%force, &
+                             -mass_factor*level(2)%force)
+  end function between_levels
 
   !> How forces answer the step, and what fades in it: known for a whole step from level to level.
   pure subroutine measure_step(scene, g, tau, h, whole, trace, term, step)

@@ -361,6 +361,20 @@ static void what_sinks_does_not_stop_what_friction_cannot(void **state)
     restitute_material_destroy(solid);
 }
 
+/* Gross slip that ends at the turning point, on a level of time or beside it by rounding: a step of no length has no slopes. */
+static void slip_may_end_as_the_sphere_turns(void **state)
+{
+    (void)state;
+    for (double chi = 2.0 / 3; chi < 2; chi *= 1.2) {
+        const restitute_result fine = solve_impact(sync_to(1e-6), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
+        for (double tolerance = 1e-2; tolerance > 5e-6; tolerance /= 3) {
+            const restitute_result r =
+                solve_impact(sync_to(tolerance), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
+            CHECK_NEAR(r.ex, fine.ex, tolerance, "chi %g at %g", chi, tolerance);
+        }
+    }
+}
+
 /* A sphere that turns easily swings sqrt(2 chi) times as often as the contact lasts, through a force that is to be known as much
  * better. */
 static void large_chi_keeps_its_estimate(void **state)
@@ -444,6 +458,7 @@ int main(void)
         cmocka_unit_test(what_sinks_does_not_stop_what_friction_cannot),
         cmocka_unit_test(extreme_chi_works),
         cmocka_unit_test(large_chi_keeps_its_estimate),
+        cmocka_unit_test(slip_may_end_as_the_sphere_turns),
         cmocka_unit_test(polyisobutylene_agrees_with_euler_at_all_speeds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
