@@ -20,6 +20,10 @@ static const double part_taken = 1.0 / 14;
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
 static const double share_of_change = 0.6, usual_error = 30, thin_slip = 0.1, rounding_of_level = 6e-13;
 
+/* A change may be small by chance: it is not taken for less than that part of the change before it, which is known from the second
+ * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
+static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
+
 /* Above that chi slip may end everywhere within a step, and again: such errors fall with n^-2, irregularly. */
 static const double turning_back = 2, usual_error_then = 0.3;
 
@@ -187,18 +191,29 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
-/* Two runs, the second with twice the levels: the extrapolated velocity and its error. */
-static void note_shear(const struct rst_problem *problem, const struct normal *normal, const struct run *before,
-                       const struct run *now, struct rst_outcome *outcome)
+/* By how much levels are farther apart, between both ends of the compression, where a graded grid crowds them at the ends. */
+static double crowding(const struct rst_problem *problem)
 {
-    const double n = (double)now->levels, change = now->velocity - before->velocity;
+    const struct rst_solid *s = &problem->solid;
+    struct sync_grid grid;
+    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
+    return fmax(1, grid.turn / 3);
+}
+
+/* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the first of them and
+ * the one before it, 0 if there was none. */
+static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
+                       const struct run *before, const struct run *now, struct rst_outcome *outcome)
+{
+    const double n = (double)now->levels / crowding(problem), change = now->velocity - before->velocity;
     const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
     outcome->shear_velocity = now->velocity + change * part_taken;
-    outcome->error_ex = share_of_change * fabs(change) / problem->psi + usual / (n * n * n) + rounding_of_level * n +
+    outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
+                        usual / (n * n * n) + rounding_of_level * (double)now->levels +
                         fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
     if (problem->chi > turning_back) outcome->error_ex += usual_error_then / (n * n);
-    outcome->spacing = sqrt(normal->depth) / n;
-    outcome->step = outcome->contact_time / (2 * n);
+    outcome->spacing = sqrt(normal->depth) / (double)now->levels;
+    outcome->step = outcome->contact_time / (2 * (double)now->levels);
     outcome->elements = now->levels;
     outcome->steps = 2 * now->levels;
     outcome->normal_levels = normal->levels;
@@ -250,7 +265,7 @@ static double normal_levels_to_start(double wanted, double chi)
 
 double rst_sync_levels_to_start(const struct rst_problem *problem)
 {
-    return fmax(16, 5.8 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
+    return fmax(16, 5.8 * crowding(problem) * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs, times the trials
@@ -351,12 +366,14 @@ static void run_half(const struct rst_problem *problem, const struct rst_workspa
  * of the first two, it is the half one alone, which tells what the other would take. */
 static int advance_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                         const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
-                        struct rst_outcome *outcome, restitute_error *error)
+                        double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
     struct store store;
+    struct run quarter;
     const int first = now->levels == 0;
     const int status = prepare(problem, workspace, normal, resolution, &store, outcome, error);
     if (status) return status;
+    *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
     *before = *now;
     if (!half_alone) {
         follow_shear(problem, workspace, resolution->levels, &store, now);
@@ -366,6 +383,10 @@ static int advance_runs(const struct rst_problem *problem, struct rst_workspace 
         run_half(problem, workspace, resolution->levels, &store, now, outcome);
     else if (first)
         run_half(problem, workspace, resolution->levels, &store, before, outcome);
+    if (first && !half_alone && -normal->velocity < small_rebound && resolution->levels % 8 == 0) {
+        run_half(problem, workspace, resolution->levels / 2, &store, &quarter, outcome);
+        *change_before = before->velocity - quarter.velocity;
+    }
     return RESTITUTE_OK;
 }
 
@@ -419,6 +440,7 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
     struct resolution resolution = first_resolution(problem, normal);
     const double allowed = (double)problem->max_updates, enough = acceptance * problem->tolerance;
     struct run now = {0}, before = {0};
+    double change_before;
     outcome->elements = 0; /* no result yet */
     for (;;) {
         const int64_t n = resolution.levels;
@@ -427,11 +449,12 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
         *ahead = (double)outcome->updates + (half_alone ? both / 5 : both);
         if (n > rst_sync_most_levels || *ahead > allowed) break;
         if (now.levels > 0 && rounding_of_level * (double)n > problem->tolerance) break;
-        int status = advance_runs(problem, workspace, normal, &resolution, half_alone, &before, &now, outcome, error);
+        int status = advance_runs(problem, workspace, normal, &resolution, half_alone, &before, &now, &change_before,
+                                  outcome, error);
         if (status) return status;
         if (!isfinite(now.velocity)) break;
         if (half_alone) continue;
-        note_shear(problem, normal, &before, &now, outcome);
+        note_shear(problem, normal, change_before, &before, &now, outcome);
         /* what the normal problem is off by does not fall any more */
         const int in_vain = fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) > enough;
         if (problem->elements > 0 || in_vain || fmax(outcome->error_ez, outcome->error_ex) <= enough) break;
@@ -512,7 +535,8 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
 /* For a standard solid and four times the levels of the median impact; 32 terms are room for most polymers before they are merged. */
 static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
-    const struct rst_problem usual = {.chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
+    const struct rst_problem usual = {
+        .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
     struct store store;
     const int64_t levels = multiple_of(2, 4 * rst_sync_levels_to_start(&usual));
     const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, usual.chi));
