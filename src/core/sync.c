@@ -191,21 +191,12 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
-/* By how much levels are farther apart, between both ends of the compression, where a graded grid crowds them at the ends. */
-static double crowding(const struct rst_problem *problem)
-{
-    const struct rst_solid *s = &problem->solid;
-    struct sync_grid grid;
-    rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &grid);
-    return fmax(1, grid.turn / 3);
-}
-
 /* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the first of them and
  * the one before it, 0 if there was none. */
 static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
                        const struct run *before, const struct run *now, struct rst_outcome *outcome)
 {
-    const double n = (double)now->levels / crowding(problem), change = now->velocity - before->velocity;
+    const double n = (double)now->levels, change = now->velocity - before->velocity;
     const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
     outcome->shear_velocity = now->velocity + change * part_taken;
     outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
@@ -265,7 +256,7 @@ static double normal_levels_to_start(double wanted, double chi)
 
 double rst_sync_levels_to_start(const struct rst_problem *problem)
 {
-    return fmax(16, 5.8 * crowding(problem) * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
+    return fmax(16, 5.8 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs, times the trials
