@@ -247,8 +247,26 @@ static int bind_own(const restitute_table *t, const restitute_scene *scene, cons
     if (t->n_psi == 1 && scene->friction != t->friction && scene->friction > 0)
         return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
                                 scene->friction, t->friction);
-    const double ratio = t->duration / n->time;
-    c->speed_factor = t->speed.cells > 0 ? ratio * ratio * ratio * ratio * ratio : 1;
+    const double ratio = t->duration / n->time, factor = ratio * ratio * ratio * ratio * ratio;
+    if (t->speed.cells > 0 && !(factor <= DBL_MAX))
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN,
+                                "speed_factor = %g of the scene: must be finite; its mass and radius are too far from "
+                                "those of the table's contact",
+                                factor);
+    c->speed_factor = t->speed.cells > 0 ? factor : 1;
+    return RESTITUTE_OK;
+}
+
+/* What a table of ranges cannot tell: neither a number is there, nor a limit that it has. */
+static int check_numbers(const restitute_numbers *n, restitute_error *error)
+{
+    if (!(n->gamma >= 0))
+        return rst_table_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
+    if (!(n->delta1 <= DBL_MAX))
+        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "delta1 = %g of the scene at 1 m/s: must be finite",
+                                n->delta1);
     return RESTITUTE_OK;
 }
 
@@ -281,10 +299,8 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
     found.delta1 = numbers.delta1;
     if (table->of_contact)
         status = bind_own(table, scene, &numbers, &found, error);
-    else if (!(numbers.gamma >= 0))
-        status = rst_table_report(
-            error, RESTITUTE_ERROR_DOMAIN,
-            "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
+    else
+        status = check_numbers(&numbers, error);
     if (status) return status;
     *contact = found;
     return rst_table_done(error);

@@ -186,6 +186,28 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
+/* A factor on the speed that overflows would make the place of v_n = 0 NaN; so would one that a caller has put there. */
+static void factors_that_overflow(void **state)
+{
+    restitute_table_contact contact;
+    restitute_table_value pair;
+    restitute_table_slope slope;
+    restitute_error error;
+    restitute_scene other = scene;
+    (void)state;
+    restitute_table_contact_init(&contact);
+    other.mass1 = 1e-300;
+    other.radius1 = 1e300;
+    assert_int_equal(restitute_table_contact_of(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "speed_factor"), "%s", error.message);
+    assert_int_equal(restitute_table_contact_of(table, &scene, &contact, &error), RESTITUTE_OK);
+    contact.speed_factor = INFINITY;
+    assert_int_equal(restitute_table_pair_of(table, &contact, 0, 1e-3, &pair, &slope), RESTITUTE_OK);
+    CHECK(pair.ez == look_up(table, 0, 0).ez && pair.ex == -1, "0 inf is taken as the lowest speed: %g", pair.ez);
+    contact.psi_factor = NAN;
+    assert_int_equal(restitute_table_pair_of(table, &contact, 1, 1e-3, &pair, NULL), RESTITUTE_ERROR_DOMAIN);
+}
+
 static void bad_speeds_are_refused(void **state)
 {
     static const double bad[][2] = {{-1, 0}, {NAN, 0}, {INFINITY, 0}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
@@ -242,6 +264,7 @@ int main(void)
                                        cmocka_unit_test(many_at_once),
                                        cmocka_unit_test(other_sizes),
                                        cmocka_unit_test(other_contacts_are_refused),
+                                       cmocka_unit_test(factors_that_overflow),
                                        cmocka_unit_test(bad_speeds_are_refused),
                                        cmocka_unit_test(axes_collapse)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
