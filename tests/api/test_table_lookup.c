@@ -113,6 +113,33 @@ static void slopes(void **state)
     }
 }
 
+/* Full slip has a closed form for any psi: d ex/d v_n = 2 chi (1 + ez)/(f v_t) where ez is constant; roundings of a few operations. */
+static void slopes_at_the_ends(void **state)
+{
+    restitute_table_value pair;
+    restitute_table_slope s;
+    static const double slow[] = {0, 1e-300, 1e-160, 1e-9};
+    (void)state;
+    for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
+        assert_int_equal(restitute_table_pair_of(table, NULL, slow[i], 2, &pair, &s), RESTITUTE_OK);
+        const double expected = 2 * chi * (1 + pair.ez) / (PSI_FACTOR * 2);
+        CHECK_NEAR(s.ex_normal, expected, 1e-13 * expected, "v_n = %g", slow[i]);
+        CHECK_NEAR(s.ex_tangential, -expected * slow[i] / 2, 1e-13 * expected * slow[i], "v_n = %g", slow[i]);
+    }
+    restitute_material *steel;
+    restitute_scene ball = scene;
+    restitute_material_elastic(8e10, 0.3, &steel, NULL);
+    ball.material = steel;
+    restitute_table *elastic = table_of(&ball, 1e-3, 10, 1e-3);
+    feclearexcept(FE_ALL_EXCEPT);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 1, 0, &pair, &s), RESTITUTE_OK);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 0, 0, &pair, &s), RESTITUTE_OK);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 0, 1, &pair, &s), RESTITUTE_OK);
+    CHECK(!fetestexcept(FE_DIVBYZERO | FE_INVALID), "a slope divided by 0 or made a NaN");
+    restitute_table_destroy(elastic);
+    restitute_material_destroy(steel);
+}
+
 static void many_at_once(void **state)
 {
     enum { n = 1000 };
@@ -261,6 +288,7 @@ int main(void)
                                        cmocka_unit_test(continuous),
                                        cmocka_unit_test(bounded),
                                        cmocka_unit_test(slopes),
+                                       cmocka_unit_test(slopes_at_the_ends),
                                        cmocka_unit_test(many_at_once),
                                        cmocka_unit_test(other_sizes),
                                        cmocka_unit_test(other_contacts_are_refused),
