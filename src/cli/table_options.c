@@ -55,7 +55,7 @@ static const struct poptOption query_options[] = {
     TEXT(TABLE_DELTA1, "DELTA1", ">= 0; default the lowest of the table"),
     TEXT(TABLE_GAMMA, "GAMMA", ">= 0; default the lowest of the table"),
     TEXT(TABLE_INPUT, "CASES.csv", "many: columns normal_speed_m_s,tangential_speed_m_s, or chi,psi,delta1,gamma"),
-    TEXT(TABLE_FORMAT, "text|csv", "of one; default text"),
+    TEXT(TABLE_FORMAT, "text|csv", "default text; with --input csv"),
     TEXT(TABLE_OUTPUT, "FILE", "write here and not to standard output"),
     HELP};
 
