@@ -83,7 +83,9 @@ static const char *const footers[TABLE_ACTIONS] = {
     "\nExit status: 0 done, 2 no such table, or damaged.\n",
     "\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
     "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n",
-    "\nColumns: the first axis (speed_m_s or delta1), gamma, chi, psi, ez, ex; a row a node.\n"
+    "\nColumns: the first axis (speed_m_s or delta1), gamma, chi, psi, ez, ex; a row a node, as it is kept: those "
+    "beyond\n"
+    "the range asked for, up to the next seams, too.\n"
     "Exit status: 0 done, 2 bad usage or input, nothing written.\n"};
 
 /* Fields of a contact: all of the scene but its speeds. */

@@ -255,7 +255,7 @@ static int query_many(const struct table_settings *s, struct query *q)
     }
     restitute_csv_destroy(csv);
     if (!good) return complain("%s", why.text);
-    if (beyond) complain("warning: %zu rows are outside the table's ranges: its ends are taken", beyond);
+    if (beyond) complain("warning: rows outside the table's ranges, whose ends are taken: %zu", beyond);
     return failed ? EXIT_SOME_FAILED : EXIT_DONE;
 }
 
@@ -267,9 +267,9 @@ int table_query_run(const struct table_settings *settings)
     restitute_table_info_init(&q.info);
     restitute_table_describe(q.table, &q.info, NULL);
     set_defaults(&q);
-    const int status = !check_query(settings, &q, &why)    ? complain("%s", why.text)
-                       : settings->text[TABLE_INPUT] ? query_many(settings, &q)
-                                                     : query_one(settings, &q);
+    const int status = !check_query(settings, &q, &why) ? complain("%s", why.text)
+                       : settings->text[TABLE_INPUT]    ? query_many(settings, &q)
+                                                        : query_one(settings, &q);
     restitute_table_destroy((restitute_table *)q.table);
     return status;
 }
