@@ -83,9 +83,8 @@ typedef struct restitute_table_options {
 /** Prepare with the defaults named above. */
 RESTITUTE_API void restitute_table_options_init(restitute_table_options *options);
 
-/** Build a table. For one contact over six decades of speed at the default tolerance some hundred to some thousand impacts are solved: a tenth
- *  of a second to a second or two on one core. Fewest with nu = 1/2; most where e_z falls to 0 within the range of speeds, or where the sticking and
- *  the slipping part need many points of psi. Builds of a lesser tolerance, or of fewer decades, are shorter.
+/** Build a table. For one contact over six decades of speed at the default tolerance some hundred to some ten thousand impacts are
+ *  solved: a tenth of a second to two seconds on one core. Solids with nu = 1/2 take the fewest. At a tolerance of 1e-4 or 1e-3 it is less.
  *
  *  @param options  NULL: the defaults
  *  @param table    the new table

@@ -31,18 +31,15 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
 {
     if (o->struct_size != sizeof *o)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_options.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_options_init of this version",
-                                o->struct_size, sizeof *o);
+                          "restitute_table_options.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_options_init of this version",
+                          o->struct_size, sizeof *o);
     if (!(o->tolerance >= 1e-7 && o->tolerance <= 0.1))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]",
-                                o->tolerance);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]", o->tolerance);
     if (o->threads < 0 || o->threads > 1024)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)",
-                                o->threads);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
     if (o->max_impacts <= 0)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0",
-                                (long long)o->max_impacts);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
     return RESTITUTE_OK;
 }
 
@@ -271,12 +268,13 @@ static int solve_again(const struct restitute_table_builder *b, const struct pie
     const struct place at = place_of(b, &b->point[p->index[i]]);
     const char *axis = p->scenes ? "speed (m/s)" : "delta1";
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK)
-        return rst_report(error, status,
-                          "%s = %g, gamma = %g, chi = %g, psi = %g: too much work, or a rebound that is lost in rounding: "
-                          "the damping is too strong for a table; lower the upper end of %s",
-                          axis, at.speed, at.gamma, at.chi, at.psi, axis);
-    return rst_report(error, status, "%s = %g, gamma = %g, chi = %g, psi = %g: %.120s", axis, at.speed, at.gamma, at.chi,
-                      at.psi, why.message);
+        return rst_report(
+            error, status,
+            "%s = %g, gamma = %g, chi = %g, psi = %g: too much work, or a rebound that is lost in rounding: "
+            "the damping is too strong for a table; lower the upper end of %s",
+            axis, at.speed, at.gamma, at.chi, at.psi, axis);
+    return rst_report(error, status, "%s = %g, gamma = %g, chi = %g, psi = %g: %.120s", axis, at.speed, at.gamma,
+                      at.chi, at.psi, why.message);
 }
 
 static int piece_solve(const struct restitute_table_builder *b, struct piece *p, restitute_error *error)
@@ -437,11 +435,10 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
             b->stage = RST_FINISHED;
             return RESTITUTE_OK;
         }
-        return rst_report(
-            error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-            "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
-            "or narrow the ranges",
-            (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
+                          "or narrow the ranges",
+                          (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
     }
     if (rst_plan_filling(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_FILLING;
@@ -520,15 +517,14 @@ static int hand_over(struct restitute_table_builder *b, restitute_table **table,
     *table = t;
     if (fmax(t->error_ez, t->error_ex) <= t->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                            "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts", t->tolerance,
-                            t->error_ez, t->error_ex, (long long)t->impacts);
+                      "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts", t->tolerance,
+                      t->error_ez, t->error_ex, (long long)t->impacts);
 }
 
 int restitute_table_builder_run(restitute_table_builder *builder, size_t impacts, restitute_table **table,
                                 restitute_error *error)
 {
-    if (!builder || !table)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "table" : "builder");
+    if (!builder || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "table" : "builder");
     if (impacts == 0) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "impacts = 0: must be > 0");
     int64_t left = impacts > (size_t)INT64_MAX ? INT64_MAX : (int64_t)impacts;
     while (builder->stage != RST_FINISHED) {
@@ -563,13 +559,13 @@ int restitute_table_builder_restore(restitute_table_builder *builder, const doub
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "journal" : "builder");
     if (builder->journal_count > 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "builder: has solved %lld impacts already",
-                                (long long)builder->journal_count);
+                          (long long)builder->journal_count);
     if (count > most_restored)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be <= %zu", count, most_restored);
     for (size_t i = 0; i < 4 * count; i++)
         if (!(fabs(journal[i]) <= (i % 4 < 2 ? 2 : DBL_MAX)))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i,
-                                    journal[i]);
+                              journal[i]);
     struct rst_solved *copy = malloc((count + 1) * sizeof *copy);
     if (!copy) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu impacts", count);
     memcpy(copy, journal, count * sizeof *copy);

@@ -20,9 +20,9 @@ static int check_size(const restitute_table_data *data, restitute_error *error)
 {
     if (data->struct_size == sizeof *data) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                            "restitute_table_data.struct_size = %zu: must be %zu; prepare the struct with "
-                            "restitute_table_data_init of this version",
-                            data->struct_size, sizeof *data);
+                      "restitute_table_data.struct_size = %zu: must be %zu; prepare the struct with "
+                      "restitute_table_data_init of this version",
+                      data->struct_size, sizeof *data);
 }
 
 static void view_axis(const struct rst_octaves *axis, int i, restitute_table_data *d)

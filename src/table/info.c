@@ -28,9 +28,9 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
     if (!table || !info) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
     if (info->struct_size != sizeof *info)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_info_init of this version",
-                                info->struct_size, sizeof *info);
+                          "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_info_init of this version",
+                          info->struct_size, sizeof *info);
     *info = (restitute_table_info){.struct_size = sizeof *info,
                                    .of_contact = table->of_contact,
                                    .speed = {NAN, NAN},

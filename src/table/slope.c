@@ -187,8 +187,7 @@ static void by_speeds(const restitute_table *t, const restitute_table_contact *c
     rst_table_slope(t, speed, c->gamma, c->chi, psi, &by);
     *slope = (restitute_table_slope){.ez_normal = by.ez_speed * rate};
     if (psi >= restitute_critical_psi(chi, pair->ez)) {
-        if (sliding > 0)
-            full_slip_by_speeds(chi, pair->ez, slope->ez_normal, c->psi_factor, v_n, fabs(v_t), slope);
+        if (sliding > 0) full_slip_by_speeds(chi, pair->ez, slope->ez_normal, c->psi_factor, v_n, fabs(v_t), slope);
         return;
     }
     if (fabs(pair->ex) >= 1) return;

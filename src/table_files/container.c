@@ -210,7 +210,7 @@ int rst_new_file_end(struct rst_new_file *file, int good, const char *title, con
     const int closed = H5Fclose(file->file) >= 0;
     if (!good || !closed)
         status = rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path,
-                                 errno ? strerror(errno) : "HDF5 fails");
+                            errno ? strerror(errno) : "HDF5 fails");
     else if (put_block(file->path, title) || rename(file->path, target ? target : path) != 0)
         status = fail_writing(error, path);
     if (status) unlink(file->path);

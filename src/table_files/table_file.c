@@ -13,8 +13,9 @@ static const char title[] = "table";
 #define NUMBERS(X)                                                                                                     \
     X(tolerance)                                                                                                       \
     X(error_ez)                                                                                                        \
-    X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass)          \
-        X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(error_ex)                                                                                                        \
+    X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor)    \
+        X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells) X(cells)
 
 static const char units_of_attributes[] = "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; "
@@ -220,8 +221,8 @@ static int read_table(const char *path, hid_t f, restitute_table **table, restit
     int status = RESTITUTE_ERROR_FORMAT;
     restitute_error why = {.message = "parts are missing"};
     restitute_table_data_init(&d);
-    if (!get_attributes(f, &d) && d.terms >= 0 && !count_arrays(f, &d, &a) && sizes_agree(&d, &a) && !get_arrays(f, &a) &&
-        (d.cells == 0 || !convert_cells(&a))) {
+    if (!get_attributes(f, &d) && d.terms >= 0 && !count_arrays(f, &d, &a) && sizes_agree(&d, &a) &&
+        !get_arrays(f, &a) && (d.cells == 0 || !convert_cells(&a))) {
         d.ez = a.start[SET_EZ];
         d.ex = a.start[SET_EX];
         d.ex_cells = a.ex_cells;
@@ -234,8 +235,7 @@ static int read_table(const char *path, hid_t f, restitute_table **table, restit
     free(a.ex_cells);
     free(a.patches);
     if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%.120s: out of memory", path);
-    if (status)
-        return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
+    if (status) return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
     return RESTITUTE_OK;
 }
 

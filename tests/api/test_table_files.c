@@ -262,7 +262,8 @@ static void sizes_beyond_the_file_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(flips_are_refused),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read),
+                                       cmocka_unit_test(flips_are_refused),
                                        cmocka_unit_test(cuts_are_refused),
                                        cmocka_unit_test(foreign_and_later_files_are_refused),
                                        cmocka_unit_test(journals),
