@@ -55,7 +55,7 @@ static const struct poptOption query_options[] = {
     TEXT(TABLE_DELTA1, "DELTA1", ">= 0; default the lowest of the table"),
     TEXT(TABLE_GAMMA, "GAMMA", ">= 0; default the lowest of the table"),
     TEXT(TABLE_INPUT, "CASES.csv", "many: columns normal_speed_m_s,tangential_speed_m_s, or chi,psi,delta1,gamma"),
-    TEXT(TABLE_FORMAT, "text|csv", "of one; default text"),
+    TEXT(TABLE_FORMAT, "text|csv", "default text; with --input csv"),
     TEXT(TABLE_OUTPUT, "FILE", "write here and not to standard output"),
     HELP};
 
@@ -83,7 +83,9 @@ static const char *const footers[TABLE_ACTIONS] = {
     "\nExit status: 0 done, 2 no such table, or damaged.\n",
     "\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
     "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n",
-    "\nColumns: the first axis (speed_m_s or delta1), gamma, chi, psi, ez, ex; a row a node.\n"
+    "\nColumns: the first axis (speed_m_s or delta1), gamma, chi, psi, ez, ex; a row a node, as it is kept: those "
+    "beyond\n"
+    "the range asked for, up to the next seams, too.\n"
     "Exit status: 0 done, 2 bad usage or input, nothing written.\n"};
 
 /* Fields of a contact: all of the scene but its speeds. */

@@ -8,6 +8,7 @@
 
 #include "output.h"
 #include "provenance.h"
+#include "rows.h"
 #include "table_settings.h"
 
 static restitute_table *read_table(const struct table_settings *settings)
@@ -122,31 +123,70 @@ static void set_defaults(struct query *q)
     memcpy(q->value, i->of_contact ? speeds : numbers, sizeof q->value);
 }
 
+static const enum table_text speed_options[] = {TABLE_NORMAL_SPEED, TABLE_TANGENTIAL_SPEED};
+static const enum table_text number_options[] = {TABLE_CHI, TABLE_PSI, TABLE_DELTA1, TABLE_GAMMA};
+
+/* The name of the first value that lies outside the table, which takes it as the end; NULL: none does. An elastic table is the same
+ * for all speeds, or all delta1 and gamma. */
+static const char *outside(const struct query *q)
+{
+    const restitute_table_info *i = &q->info;
+    const bool elastic = !i->of_contact && (i->delta1[0] == 0 || isinf(i->gamma[0]));
+    const double *const speeds[4] = {i->nodes[0] > 1 ? i->speed : NULL, NULL, NULL, NULL};
+    const double *const numbers[4] = {i->chi, NULL, elastic ? NULL : i->delta1, elastic ? NULL : i->gamma};
+    for (int k = 0; k < 4; k++) {
+        const double *range = i->of_contact ? speeds[k] : numbers[k];
+        if (range && (q->value[k] < range[0] || q->value[k] > range[1]))
+            return i->of_contact ? speed_columns[k] : number_columns[k];
+    }
+    return NULL;
+}
+
+/* Options that the table, or --input, has no use for. */
+static bool check_query(const struct table_settings *s, const struct query *q, struct reason *why)
+{
+    const bool contact = q->info.of_contact;
+    for (int i = 0; i < (contact ? 4 : 2); i++)
+        if (s->text[contact ? number_options[i] : speed_options[i]])
+            return refuse(why, "--%s: not for a table of %s",
+                          table_text_names[contact ? number_options[i] : speed_options[i]],
+                          contact ? "one contact, which is asked by --normal-speed and --tangential-speed"
+                                  : "ranges, which is asked by --chi, --psi, --delta1 and --gamma");
+    for (int i = 0; s->text[TABLE_INPUT] && i < (contact ? 2 : 4); i++)
+        if (s->text[contact ? speed_options[i] : number_options[i]])
+            return refuse(why, "--%s: not with --input, whose columns give the values",
+                          table_text_names[contact ? speed_options[i] : number_options[i]]);
+    const char *format = s->text[TABLE_FORMAT];
+    if (!format || strcmp(format, "csv") == 0) return true;
+    if (strcmp(format, "text") != 0) return refuse(why, "--format = \"%.64s\": must be text or csv", format);
+    return s->text[TABLE_INPUT] ? refuse(why, "--format = text: not with --input, which gives csv") : true;
+}
+
+static bool find_one(const struct table_settings *s, struct query *q, restitute_table_value *pair, struct reason *why)
+{
+    const bool contact = q->info.of_contact;
+    for (int i = 0; i < (contact ? 2 : 4); i++)
+        if (!table_number(s, contact ? speed_options[i] : number_options[i], contact && i == 1 ? -1e300 : 0,
+                          contact ? 1e300 : INFINITY, &q->value[i], why))
+            return false;
+    if (isnan(q->value[contact ? 0 : 1])) return refuse(why, "--%s is missing", contact ? "normal-speed" : "psi");
+    return look_up(q, pair) >= 0 ? true : refuse(why, "the table has no answer to this");
+}
+
 static int query_one(const struct table_settings *s, struct query *q)
 {
-    static const enum table_text speeds[] = {TABLE_NORMAL_SPEED, TABLE_TANGENTIAL_SPEED};
-    static const enum table_text numbers[] = {TABLE_CHI, TABLE_PSI, TABLE_DELTA1, TABLE_GAMMA};
-    const bool contact = q->info.of_contact;
     struct reason why;
+    struct output output;
     restitute_table_value pair;
-    for (int i = 0; i < (contact ? 4 : 2); i++)
-        if (s->text[contact ? numbers[i] : speeds[i]])
-            return complain("--%s: not for a table of %s", table_text_names[contact ? numbers[i] : speeds[i]],
-                            contact ? "one contact, which is asked by --normal-speed and --tangential-speed"
-                                    : "ranges, which is asked by --chi, --psi, --delta1 and --gamma");
-    for (int i = 0; i < (contact ? 2 : 4); i++)
-        if (!table_number(s, contact ? speeds[i] : numbers[i], contact && i == 1 ? -1e300 : 0,
-                          contact ? 1e300 : INFINITY, &q->value[i], &why))
-            return complain("%s", why.text);
-    if (isnan(q->value[contact ? 0 : 1])) return complain("--%s is missing", contact ? "normal-speed" : "psi");
-    if (look_up(q, &pair) < 0) return complain("the table has no answer to this");
-    const char *format = s->text[TABLE_FORMAT] ? s->text[TABLE_FORMAT] : "text";
-    if (strcmp(format, "csv") == 0)
-        printf("ez,ex\n%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
-    else if (strcmp(format, "text") == 0)
-        printf("ez = %s\nex = %s\n", number_text(pair.ez).text, number_text(pair.ex).text);
-    else
-        return complain("--format = \"%.64s\": must be text or csv", format);
+    const bool csv = s->text[TABLE_FORMAT] && strcmp(s->text[TABLE_FORMAT], "csv") == 0;
+    if (!find_one(s, q, &pair, &why) || !output_spares(s->text[TABLE_OUTPUT], "--output", s->file, &why) ||
+        !output_open(s->text[TABLE_OUTPUT], &output, &why))
+        return complain("%s", why.text);
+    fprintf(output.stream, csv ? "ez,ex\n%s," : "ez = %s\n", number_text(pair.ez).text);
+    fprintf(output.stream, csv ? "%s\n" : "ex = %s\n", number_text(pair.ex).text);
+    if (!output_finish(&output, &why)) return complain("%s", why.text);
+    const char *name = outside(q);
+    if (name) complain("warning: %s is outside the table's range: its end is taken", name);
     return EXIT_DONE;
 }
 
@@ -176,8 +216,10 @@ static bool answer_row(struct query *q, const restitute_csv *csv, size_t row, co
             good &=
                 restitute_number_read(restitute_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
     const bool done = good && look_up(q, &pair) == RESTITUTE_OK;
-    for (size_t i = 0; i < restitute_csv_columns(csv); i++)
-        fprintf(out, "%s,", restitute_csv_cell(csv, row, i));
+    for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
+        cell_write(out, restitute_csv_cell(csv, row, i));
+        fputc(',', out);
+    }
     if (done)
         fprintf(out, "%s,%s,\n", number_text(pair.ez).text, number_text(pair.ex).text);
     else
@@ -192,32 +234,42 @@ static int query_many(const struct table_settings *s, struct query *q)
     struct reason why;
     struct output output;
     int column[4];
-    size_t failed = 0;
+    size_t failed = 0, beyond = 0;
     if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
     bool good = find_columns(q, csv, column, &why) &&
                 output_spares(s->text[TABLE_OUTPUT], "--output", s->text[TABLE_INPUT], &why) &&
+                output_spares(s->text[TABLE_OUTPUT], "--output", s->file, &why) &&
                 output_open(s->text[TABLE_OUTPUT], &output, &why);
     if (good) {
-        for (size_t i = 0; i < restitute_csv_columns(csv); i++)
-            fprintf(output.stream, "%s,", restitute_csv_name(csv, i));
+        for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
+            cell_write(output.stream, restitute_csv_name(csv, i));
+            fputc(',', output.stream);
+        }
         fputs("ez,ex,status\n", output.stream);
-        for (size_t row = 0; row < restitute_csv_rows(csv); row++)
-            failed += !answer_row(q, csv, row, column, output.stream);
+        for (size_t row = 0; row < restitute_csv_rows(csv); row++) {
+            const bool done = answer_row(q, csv, row, column, output.stream);
+            failed += !done;
+            beyond += done && outside(q);
+        }
         good = output_finish(&output, &why);
     }
     restitute_csv_destroy(csv);
     if (!good) return complain("%s", why.text);
+    if (beyond) complain("warning: rows outside the table's ranges, whose ends are taken: %zu", beyond);
     return failed ? EXIT_SOME_FAILED : EXIT_DONE;
 }
 
 int table_query_run(const struct table_settings *settings)
 {
+    struct reason why;
     struct query q = {.table = read_table(settings)};
     if (!q.table) return EXIT_USAGE;
     restitute_table_info_init(&q.info);
     restitute_table_describe(q.table, &q.info, NULL);
     set_defaults(&q);
-    const int status = settings->text[TABLE_INPUT] ? query_many(settings, &q) : query_one(settings, &q);
+    const int status = !check_query(settings, &q, &why) ? complain("%s", why.text)
+                       : settings->text[TABLE_INPUT]    ? query_many(settings, &q)
+                                                        : query_one(settings, &q);
     restitute_table_destroy((restitute_table *)q.table);
     return status;
 }
@@ -230,30 +282,38 @@ static double psi_of(double place, double chi, double ez)
     return place <= 1 ? place : 1 + (place - 1) * (restitute_critical_psi(chi, fmin(1, fmax(0, ez))) - 1);
 }
 
-/* One node of all axes; `first` is the speed or delta1. */
-static void export_node(const restitute_table *table, const restitute_table_data *d, double first, double gamma,
-                        double chi, double psi, FILE *out)
+/* ex of a node, as it is kept: the axes go on to the seams around the range asked for, where a lookup would take its end. `node`: of the
+ * first two axes. Beyond psi = 1 it is what ex exceeds full slip by that is kept. */
+static double stored_ex(const restitute_table_data *d, int64_t node, int64_t k, int64_t l, double chi, double psi)
 {
-    restitute_table_value pair;
-    if (d->of_contact)
-        restitute_table_pair(table, first, psi * first / (d->psi_factor > 0 ? d->psi_factor : 1), &pair);
-    else
-        restitute_table_numbers_pair(table, chi, psi, first, gamma, &pair);
-    fprintf(out, "%s,", number_text(first).text);
-    fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : gamma).text);
-    fprintf(out, "%s,", number_text(chi).text);
-    fprintf(out, "%s,", number_text(d->psi_factor > 1e300 ? INFINITY : psi).text);
-    fprintf(out, "%s,%s\n", number_text(pair.ez).text, number_text(pair.ex).text);
+    if (d->psi_factor > 1e300 && d->of_contact) return -1; /* no friction */
+    const int64_t outer = d->cells > 0 ? node / d->nodes[1] : node, place = (outer * d->nodes[3] + l) * d->nodes[2] + k;
+    const double kept = d->cells > 0 ? (double)d->ex_cells[place * d->nodes[1] + node % d->nodes[1]] : d->ex[place];
+    const bool slips = d->stick_cells > 0 && l > 3 * d->stick_cells;
+    const double ex = slips ? kept + (2 * chi * (1 + fmin(1, fmax(0, d->ez[node]))) / psi - 1) : kept;
+    return fmin(1, fmax(-1, ex));
 }
 
-static void export_rows(const restitute_table *table, const restitute_table_data *d, double *const place[4], FILE *out)
+static void export_node(const restitute_table_data *d, int64_t node, double chi, double psi, double ex, FILE *out)
+{
+    fprintf(out, "%s,", number_text(chi).text);
+    fprintf(out, "%s,", number_text(d->of_contact && d->psi_factor > 1e300 ? INFINITY : psi).text);
+    fprintf(out, "%s,", number_text(fmin(1, fmax(0, d->ez[node]))).text);
+    fprintf(out, "%s\n", number_text(ex).text);
+}
+
+static void export_rows(const restitute_table_data *d, double *const place[4], FILE *out)
 {
     for (int64_t i = 0; i < d->nodes[0] * d->nodes[1]; i++) {
         const double first = place[0][d->cells > 0 ? i : i / d->nodes[1]];
         const double gamma = place[1][d->cells > 0 ? i : i % d->nodes[1]];
         for (int64_t k = 0; k < d->nodes[2]; k++)
-            for (int64_t l = 0; l < d->nodes[3]; l++)
-                export_node(table, d, first, gamma, place[2][k], psi_of(place[3][l], place[2][k], d->ez[i]), out);
+            for (int64_t l = 0; l < d->nodes[3]; l++) {
+                const double chi = place[2][k], psi = psi_of(place[3][l], chi, d->ez[i]);
+                fprintf(out, "%s,", number_text(first).text);
+                fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : gamma).text);
+                export_node(d, i, chi, psi, stored_ex(d, i, k, l, chi, psi), out);
+            }
     }
 }
 
@@ -277,7 +337,7 @@ int table_export_run(const struct table_settings *settings)
                 output_open(settings->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         fprintf(output.stream, "%s,gamma,chi,psi,ez,ex\n", data.of_contact ? "speed_m_s" : "delta1");
-        export_rows(table, &data, place, output.stream);
+        export_rows(&data, place, output.stream);
         good = output_finish(&output, &why);
     }
     for (int axis = 0; axis < 4; axis++)

@@ -30,19 +30,16 @@ void restitute_table_options_init(restitute_table_options *options)
 static int check_options(const restitute_table_options *o, restitute_error *error)
 {
     if (o->struct_size != sizeof *o)
-        return rst_table_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_options.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_options_init of this version",
-                                o->struct_size, sizeof *o);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "restitute_table_options.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_options_init of this version",
+                          o->struct_size, sizeof *o);
     if (!(o->tolerance >= 1e-7 && o->tolerance <= 0.1))
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]",
-                                o->tolerance);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]", o->tolerance);
     if (o->threads < 0 || o->threads > 1024)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)",
-                                o->threads);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
     if (o->max_impacts <= 0)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0",
-                                (long long)o->max_impacts);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
     return RESTITUTE_OK;
 }
 
@@ -119,11 +116,11 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     restitute_table_options_init(&defaults);
     if (!options) options = &defaults;
     if (!family || !builder)
-        return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", family ? "builder" : "family");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", family ? "builder" : "family");
     int status = check_options(options, error);
     if (status) return status;
     struct restitute_table_builder *b = calloc(1, sizeof *b);
-    if (!b) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (!b) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->options = *options;
     status = rst_family_set(family, &b->family, error);
     if (!status) {
@@ -132,14 +129,14 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
         const int patches = b->active[RST_SPEED] && b->active[RST_GAMMA];
         b->filling_tolerance = (patches ? part_for_columns : part_for_filling) * options->tolerance;
         if (patches ? rst_grid_create(b) : rst_plan_probes(b))
-            status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+            status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status) {
         restitute_table_builder_destroy(b);
         return status;
     }
     *builder = b;
-    return rst_table_done(error);
+    return rst_done(error);
 }
 
 void restitute_table_builder_destroy(restitute_table_builder *builder)
@@ -269,8 +266,15 @@ static int solve_again(const struct restitute_table_builder *b, const struct pie
     }
     if (status >= 0) return status;
     const struct place at = place_of(b, &b->point[p->index[i]]);
-    return rst_table_report(error, status, "%s = %.17g, gamma = %.17g, chi = %.17g, psi = %.17g: %.120s",
-                            p->scenes ? "speed (m/s)" : "delta1", at.speed, at.gamma, at.chi, at.psi, why.message);
+    const char *axis = p->scenes ? "speed (m/s)" : "delta1";
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK)
+        return rst_report(
+            error, status,
+            "%s = %g, gamma = %g, chi = %g, psi = %g: too much work, or a rebound that is lost in rounding: "
+            "the damping is too strong for a table; lower the upper end of %s",
+            axis, at.speed, at.gamma, at.chi, at.psi, axis);
+    return rst_report(error, status, "%s = %g, gamma = %g, chi = %g, psi = %g: %.120s", axis, at.speed, at.gamma,
+                      at.chi, at.psi, why.message);
 }
 
 static int piece_solve(const struct restitute_table_builder *b, struct piece *p, restitute_error *error)
@@ -296,7 +300,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
     struct piece p;
     if (piece_allocate(b, most, &p)) {
         piece_free(&p);
-        return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld impacts", (long long)most);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld impacts", (long long)most);
     }
     int64_t next = b->next;
     for (; next < b->points && p.count < most; next++)
@@ -306,7 +310,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
         const restitute_result *r = &p.results[i];
         const struct rst_solved solved = {r->ez, r->ex, r->error_ez, r->error_ex};
         b->solved[p.index[i]] = solved;
-        if (journal_add(b, &solved)) status = rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+        if (journal_add(b, &solved)) status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status >= 0) b->next = next;
     piece_free(&p);
@@ -431,13 +435,12 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
             b->stage = RST_FINISHED;
             return RESTITUTE_OK;
         }
-        return rst_table_report(
-            error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-            "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
-            "or narrow the ranges",
-            (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_impacts = %lld: the table needs %lld after the %lld solved; raise it or the tolerance, "
+                          "or narrow the ranges",
+                          (long long)b->options.max_impacts, (long long)ahead, (long long)b->used);
     }
-    if (rst_plan_filling(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (rst_plan_filling(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_FILLING;
     recall(b);
     return RESTITUTE_OK;
@@ -446,13 +449,13 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
 static int after_probing(struct restitute_table_builder *b, restitute_error *error)
 {
     int resolved;
-    if (rst_read_probes(b, &resolved)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (rst_read_probes(b, &resolved)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (resolved) {
         for (int axis = 0; axis < rst_axes; axis++)
             rst_panels_one(b->n[axis], &b->panels[axis]);
         return begin_filling(b, error);
     }
-    if (remember(b) || rst_plan_probes(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (remember(b) || rst_plan_probes(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     recall(b); /* the points of a line are among those of one with twice as many */
     return RESTITUTE_OK;
 }
@@ -461,7 +464,7 @@ static int after_filling(struct restitute_table_builder *b, restitute_error *err
 {
     const int status = rst_make_draft(b, error);
     if (status) return status;
-    if (remember(b) || rst_plan_checks(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (remember(b) || rst_plan_checks(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->stage = RST_CHECKING;
     recall(b);
     return RESTITUTE_OK;
@@ -474,7 +477,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
     const double worst = fmax(b->worst_ez, b->worst_ex);
     b->stagnant = b->rounds > 0 && worst > 0.8 * before ? b->stagnant + 1 : 0;
     b->draft->checks = b->points;
-    if (remember(b)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (remember(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (worst > b->options.tolerance && b->stagnant < 2 && b->rounds++ < most_rounds && add_points(b))
         return begin_filling(b, error);
     b->stage = RST_FINISHED;
@@ -502,7 +505,7 @@ static int next_stage(struct restitute_table_builder *b, restitute_error *error)
 static int hand_over(struct restitute_table_builder *b, restitute_table **table, restitute_error *error)
 {
     restitute_table *t = b->draft;
-    if (!t) return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "builder: the table has been handed over already");
+    if (!t) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "builder: the table has been handed over already");
     b->draft = NULL;
     t->tolerance = b->options.tolerance;
     t->error_ez = b->worst_ez;
@@ -512,23 +515,22 @@ static int hand_over(struct restitute_table_builder *b, restitute_table **table,
     rst_octaves_limit(t->asked[1][0], t->asked[1][1], &t->gamma);
     snprintf(t->version, sizeof t->version, "%s", restitute_version());
     *table = t;
-    if (fmax(t->error_ez, t->error_ex) <= t->tolerance) return rst_table_done(error);
-    return rst_table_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                            "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts", t->tolerance,
-                            t->error_ez, t->error_ex, (long long)t->impacts);
+    if (fmax(t->error_ez, t->error_ex) <= t->tolerance) return rst_done(error);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts", t->tolerance,
+                      t->error_ez, t->error_ex, (long long)t->impacts);
 }
 
 int restitute_table_builder_run(restitute_table_builder *builder, size_t impacts, restitute_table **table,
                                 restitute_error *error)
 {
-    if (!builder || !table)
-        return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "table" : "builder");
-    if (impacts == 0) return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "impacts = 0: must be > 0");
+    if (!builder || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "table" : "builder");
+    if (impacts == 0) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "impacts = 0: must be > 0");
     int64_t left = impacts > (size_t)INT64_MAX ? INT64_MAX : (int64_t)impacts;
     while (builder->stage != RST_FINISHED) {
         replay(builder);
         if (builder->next < builder->points) {
-            if (left <= 0) return rst_table_done(error);
+            if (left <= 0) return rst_done(error);
             const int64_t before = builder->used, piece = left < largest_piece ? left : largest_piece;
             const int status = solve_some(builder, piece, error);
             if (status) return status;
@@ -547,26 +549,31 @@ const double *restitute_table_builder_journal(const restitute_table_builder *bui
     return builder ? (const double *)builder->journal : NULL;
 }
 
+/* More than can be in memory, and few enough that no size of them overflows. */
+static const size_t most_restored = SIZE_MAX / (2 * sizeof(struct rst_solved));
+
 int restitute_table_builder_restore(restitute_table_builder *builder, const double *journal, size_t count,
                                     restitute_error *error)
 {
     if (!builder || !journal)
-        return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "journal" : "builder");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "journal" : "builder");
     if (builder->journal_count > 0)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "builder: has solved %lld impacts already",
-                                (long long)builder->journal_count);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "builder: has solved %lld impacts already",
+                          (long long)builder->journal_count);
+    if (count > most_restored)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be <= %zu", count, most_restored);
     for (size_t i = 0; i < 4 * count; i++)
         if (!(fabs(journal[i]) <= (i % 4 < 2 ? 2 : DBL_MAX)))
-            return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i,
-                                    journal[i]);
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "journal[%zu] = %g: no result of an impact", i,
+                              journal[i]);
     struct rst_solved *copy = malloc((count + 1) * sizeof *copy);
-    if (!copy) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu impacts", count);
+    if (!copy) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu impacts", count);
     memcpy(copy, journal, count * sizeof *copy);
     free(builder->journal);
     builder->journal = copy;
     builder->journal_count = (int64_t)count;
     builder->journal_capacity = (int64_t)count + 1;
-    return rst_table_done(error);
+    return rst_done(error);
 }
 
 int64_t restitute_table_builder_solved(const restitute_table_builder *builder)
@@ -592,7 +599,7 @@ int restitute_table_build(const restitute_table_family *family, const restitute_
                           restitute_table **table, restitute_error *error)
 {
     restitute_table_builder *builder;
-    if (!table) return rst_table_report(error, RESTITUTE_ERROR_NULL, "table is NULL");
+    if (!table) return rst_report(error, RESTITUTE_ERROR_NULL, "table is NULL");
     int status = restitute_table_builder_create(family, options, &builder, error);
     if (status) return status;
     status = restitute_table_builder_run(builder, SIZE_MAX, table, error);

@@ -19,10 +19,10 @@ void restitute_table_data_init(restitute_table_data *data)
 static int check_size(const restitute_table_data *data, restitute_error *error)
 {
     if (data->struct_size == sizeof *data) return RESTITUTE_OK;
-    return rst_table_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                            "restitute_table_data.struct_size = %zu: must be %zu; prepare the struct with "
-                            "restitute_table_data_init of this version",
-                            data->struct_size, sizeof *data);
+    return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                      "restitute_table_data.struct_size = %zu: must be %zu; prepare the struct with "
+                      "restitute_table_data_init of this version",
+                      data->struct_size, sizeof *data);
 }
 
 static void view_axis(const struct rst_octaves *axis, int i, restitute_table_data *d)
@@ -34,7 +34,7 @@ static void view_axis(const struct rst_octaves *axis, int i, restitute_table_dat
 
 int restitute_table_to_data(const restitute_table *table, restitute_table_data *data, restitute_error *error)
 {
-    if (!table || !data) return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "data" : "table");
+    if (!table || !data) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "data" : "table");
     const int status = check_size(data, error);
     if (status) return status;
     *data = (restitute_table_data){.struct_size = sizeof *data,
@@ -74,7 +74,7 @@ int restitute_table_to_data(const restitute_table *table, restitute_table_data *
     memcpy(data->version, table->version, sizeof data->version);
     view_axis(&table->speed, 0, data);
     view_axis(&table->gamma, 1, data);
-    return rst_table_done(error);
+    return rst_done(error);
 }
 
 /* delta1 or gamma at the nodes of all cells. */
@@ -118,7 +118,7 @@ int restitute_table_nodes(const restitute_table *table, int axis, double *places
 
 static int refuse(restitute_error *error, const char *name)
 {
-    return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "%s: a value that no table has", name);
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s: a value that no table has", name);
 }
 
 static int is_seam(double value, int shift)
@@ -247,26 +247,26 @@ static void set_numbers(const restitute_table_data *d, restitute_table *form)
 int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4], restitute_error *error)
 {
     restitute_table form;
-    if (!data || !nodes) return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "nodes" : "data");
+    if (!data || !nodes) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "nodes" : "data");
     int status = check_size(data, error);
     if (!status) status = set_form(data, &form, error);
     if (status) return status;
     const int64_t found[4] = {form.n_speed, form.n_gamma, form.n_chi, form.n_psi};
     memcpy(nodes, found, sizeof found);
-    return rst_table_done(error);
+    return rst_done(error);
 }
 
 int restitute_table_from_data(const restitute_table_data *data, restitute_table **table, restitute_error *error)
 {
     restitute_table form;
-    if (!data || !table) return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "table" : "data");
+    if (!data || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "table" : "data");
     int status = check_size(data, error);
     if (!status) status = set_form(data, &form, error);
     if (status) return status;
     const int cells = form.n_cells > 0;
     if (!data->ez || (cells ? !data->ex_cells || !data->patches : !data->ex) ||
         (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
-        return rst_table_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
     const size_t n_ez = (size_t)form.n_speed * (size_t)form.n_gamma;
     const size_t n_ex = n_ez * (size_t)form.n_psi * (size_t)form.n_chi;
     if (data->of_contact && !(data->psi_factor >= 0)) return refuse(error, "psi_factor");
@@ -280,7 +280,7 @@ int restitute_table_from_data(const restitute_table_data *data, restitute_table 
     if (status) return status;
     set_numbers(data, &form);
     restitute_table *made = rst_table_allocate(&form);
-    if (!made) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     memcpy(made->ez, data->ez, n_ez * sizeof *made->ez);
     if (cells) {
         memcpy(made->patch, data->patches, (size_t)patches * sizeof *made->patch);
@@ -293,5 +293,5 @@ int restitute_table_from_data(const restitute_table_data *data, restitute_table 
         memcpy(made->term + form.terms, data->modulus, (size_t)form.terms * sizeof *made->term);
     }
     *table = made;
-    return rst_table_done(error);
+    return rst_done(error);
 }

@@ -382,11 +382,11 @@ int rst_make_draft(struct restitute_table_builder *b, restitute_error *error)
 {
     struct coarse c;
     restitute_table *table;
-    if (coarse_allocate(b, &c)) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    if (coarse_allocate(b, &c)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     collect(b, &c);
     const int failed = make(b, &c, &table);
     free(c.ez);
-    if (failed) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    if (failed) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     restitute_table_destroy(b->draft);
     b->draft = table;
     return RESTITUTE_OK;

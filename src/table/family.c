@@ -3,30 +3,8 @@
 #include "family.h"
 
 #include <float.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-int rst_table_report(restitute_error *error, int status, const char *format, ...)
-{
-    if (error) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error->message, sizeof error->message, format, arguments);
-        va_end(arguments);
-        error->status = status;
-    }
-    return status;
-}
-
-int rst_table_done(restitute_error *error)
-{
-    if (error) {
-        error->status = RESTITUTE_OK;
-        error->message[0] = '\0';
-    }
-    return RESTITUTE_OK;
-}
 
 void restitute_table_family_init(restitute_table_family *family)
 {
@@ -42,11 +20,11 @@ static int check_range(const double range[2], const char *name, double low, doub
                        restitute_error *error)
 {
     if (!(range[0] >= low && range[1] <= high && range[0] <= range[1]))
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g to %g: must rise within %g to %g", name,
-                                range[0], range[1], low, high);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g to %g: must rise within %g to %g", name, range[0],
+                          range[1], low, high);
     if (range[1] / range[0] > ratio)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g to %g: highest over lowest must be <= %g", name,
-                                range[0], range[1], ratio);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g to %g: highest over lowest must be <= %g", name,
+                          range[0], range[1], ratio);
     return RESTITUTE_OK;
 }
 
@@ -81,7 +59,7 @@ static int copy_material(const restitute_material *material, restitute_material 
 {
     const size_t n = restitute_material_terms(material);
     double g_inf, eta, *term = malloc((2 * n + 1) * sizeof *term);
-    if (!term) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", n);
+    if (!term) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", n);
     restitute_material_series(material, &g_inf, &eta, term, term + n);
     const int status = restitute_material_prony(g_inf, eta, n, term, term + n,
                                                 restitute_material_poisson_ratio(material), copy, error);
@@ -118,7 +96,7 @@ static int set_contact(const restitute_table_family *given, struct rst_family *f
         restitute_numbers numbers; /* the core says what is wrong */
         restitute_numbers_init(&numbers);
         status = restitute_scene_numbers(scene, &numbers, error);
-        return status < 0 ? status : rst_table_report(error, RESTITUTE_ERROR_INTERNAL, "a scene was not refused");
+        return status < 0 ? status : rst_report(error, RESTITUTE_ERROR_INTERNAL, "a scene was not refused");
     }
     status = unit_numbers(scene, &plain, &f->numbers, error);
     if (!status) status = copy_material(scene->material, &f->material, error);
@@ -142,10 +120,10 @@ int rst_family_set(const restitute_table_family *given, struct rst_family *famil
 {
     *family = (struct rst_family){.of_contact = given->scene != NULL};
     if (given->struct_size != sizeof *given)
-        return rst_table_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_family.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_family_init of this version",
-                                given->struct_size, sizeof *given);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "restitute_table_family.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_family_init of this version",
+                          given->struct_size, sizeof *given);
     const int status = given->scene ? set_contact(given, family, error) : set_ranges(given, family, error);
     if (status) rst_family_free(family);
     return status;
@@ -237,18 +215,35 @@ static int bind_own(const restitute_table *t, const restitute_scene *scene, cons
                     restitute_table_contact *c, restitute_error *error)
 {
     const int same = same_material(t, scene->material);
-    if (same < 0) return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    if (!same)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "scene.material: must be the one the table is for");
+    if (same < 0) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (!same) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "scene.material: must be the one the table is for");
     const int with_chi = t->friction > 0 && scene->friction > 0;
     if (with_chi && !alike(n->chi, t->own.chi))
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: must be the table's, %.17g",
-                                n->chi, t->own.chi);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: must be the table's, %.17g", n->chi,
+                          t->own.chi);
     if (t->n_psi == 1 && scene->friction != t->friction && scene->friction > 0)
-        return rst_table_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
-                                scene->friction, t->friction);
-    const double ratio = t->duration / n->time;
-    c->speed_factor = t->speed.cells > 0 ? ratio * ratio * ratio * ratio * ratio : 1;
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
+                          scene->friction, t->friction);
+    const double ratio = t->duration / n->time, factor = ratio * ratio * ratio * ratio * ratio;
+    if (t->speed.cells > 0 && !(factor <= DBL_MAX))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "speed_factor = %g of the scene: must be finite; its mass and radius are too far from "
+                          "those of the table's contact",
+                          factor);
+    c->speed_factor = t->speed.cells > 0 ? factor : 1;
+    return RESTITUTE_OK;
+}
+
+/* What a table of ranges cannot tell: neither a number is there, nor a limit that it has. */
+static int check_numbers(const restitute_numbers *n, restitute_error *error)
+{
+    if (!(n->gamma >= 0))
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
+    if (!(n->delta1 <= DBL_MAX))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "delta1 = %g of the scene at 1 m/s: must be finite",
+                          n->delta1);
     return RESTITUTE_OK;
 }
 
@@ -256,15 +251,12 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
                                restitute_table_contact *contact, restitute_error *error)
 {
     if (!table || !scene || !contact)
-        return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                                !table   ? "table"
-                                : !scene ? "scene"
-                                         : "contact");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
     if (contact->struct_size != sizeof *contact)
-        return rst_table_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_contact.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_contact_init of this version",
-                                contact->struct_size, sizeof *contact);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "restitute_table_contact.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_contact_init of this version",
+                          contact->struct_size, sizeof *contact);
     restitute_scene with_friction = *scene, unit;
     restitute_numbers numbers;
     with_friction.normal_speed = 1;
@@ -281,11 +273,9 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
     found.delta1 = numbers.delta1;
     if (table->of_contact)
         status = bind_own(table, scene, &numbers, &found, error);
-    else if (!(numbers.gamma >= 0))
-        status = rst_table_report(
-            error, RESTITUTE_ERROR_DOMAIN,
-            "scene.material: must be a standard solid, a Kelvin-Voigt or an elastic one for a table of ranges");
+    else
+        status = check_numbers(&numbers, error);
     if (status) return status;
     *contact = found;
-    return rst_table_done(error);
+    return rst_done(error);
 }

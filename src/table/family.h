@@ -3,6 +3,7 @@
 #ifndef RST_TABLE_FAMILY_H
 #define RST_TABLE_FAMILY_H
 
+#include "../core/report.h"
 #include "table_form.h"
 
 enum rst_sliding { RST_SLIDES, RST_NEVER_SLIPS, RST_NO_FRICTION };
@@ -17,14 +18,6 @@ struct rst_family {
     double range[3][2]; /* speed or delta1, gamma, chi; both alike: no axis */
     double asked[3][2]; /* as requested */
 };
-
-/* Fill an error as the core does. */
-int rst_table_report(restitute_error *error, int status, const char *format, ...)
-#if defined(__GNUC__)
-    __attribute__((__format__(__printf__, 3, 4)))
-#endif
-    ;
-int rst_table_done(restitute_error *error);
 
 int rst_family_set(const restitute_table_family *given, struct rst_family *family, restitute_error *error);
 void rst_family_free(struct rst_family *family);

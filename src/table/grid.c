@@ -280,7 +280,7 @@ static int refine(struct restitute_table_builder *b)
 
 static int out_of_memory(restitute_error *error)
 {
-    return rst_table_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
 }
 
 static int begin_filling(struct restitute_table_builder *b, restitute_error *error)
@@ -293,11 +293,10 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
         b->stage = RST_FINISHED;
         return RESTITUTE_OK;
     }
-    return rst_table_report(
-        error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-        "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
-        "or narrow the ranges",
-        (long long)b->options.max_impacts, (long long)b->used);
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
+                      "or narrow the ranges",
+                      (long long)b->options.max_impacts, (long long)b->used);
 }
 
 static int after_filling(struct restitute_table_builder *b, restitute_error *error)

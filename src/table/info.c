@@ -25,12 +25,12 @@ static void describe_contact(const restitute_table *t, restitute_table_info *i)
 
 int restitute_table_describe(const restitute_table *table, restitute_table_info *info, restitute_error *error)
 {
-    if (!table || !info) return rst_table_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
+    if (!table || !info) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
     if (info->struct_size != sizeof *info)
-        return rst_table_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                                "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
-                                "restitute_table_info_init of this version",
-                                info->struct_size, sizeof *info);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_info_init of this version",
+                          info->struct_size, sizeof *info);
     *info = (restitute_table_info){.struct_size = sizeof *info,
                                    .of_contact = table->of_contact,
                                    .speed = {NAN, NAN},
@@ -52,5 +52,5 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
         copy_range(info->delta1, table->asked[0]);
         copy_range(info->gamma, table->asked[1]);
     }
-    return rst_table_done(error);
+    return rst_done(error);
 }

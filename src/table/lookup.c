@@ -33,7 +33,7 @@ static inline void find_place(const restitute_table *t, double speed, double gam
 
 static inline double clamp(double value, double low, double high)
 {
-    value = value < low ? low : value;
+    value = !(value > low) ? low : value; /* NaN as well */
     return value > high ? high : value;
 }
 
@@ -281,7 +281,8 @@ static inline const restitute_table_contact *contact_or_own(const restitute_tabl
 static inline int check_contact(const restitute_table *table, const restitute_table_contact *contact)
 {
     if (!contact) return table->of_contact ? RESTITUTE_OK : RESTITUTE_ERROR_DOMAIN;
-    return contact->struct_size == sizeof *contact ? RESTITUTE_OK : RESTITUTE_ERROR_STRUCT_SIZE;
+    if (contact->struct_size != sizeof *contact) return RESTITUTE_ERROR_STRUCT_SIZE;
+    return contact->psi_factor >= 0 ? RESTITUTE_OK : RESTITUTE_ERROR_DOMAIN; /* NaN would be an index */
 }
 
 int restitute_table_pair(const restitute_table *table, double normal_speed, double tangential_speed,

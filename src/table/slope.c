@@ -143,10 +143,9 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
         rst_cubic_weights(s, chi_w);
     }
     const double full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
-    const double full_speed = 2 * chi * slope->ez_speed / psi, full_psi = -full / (psi * psi);
-    if (psi >= critical) {
-        slope->ex_speed = full_speed;
-        slope->ex_psi = full_psi;
+    if (psi >= critical) { /* psi^2 could overflow */
+        slope->ex_speed = 2 * chi * slope->ez_speed / psi;
+        slope->ex_psi = -full / psi / psi;
         return;
     }
     struct slip_place p = {.n = 1, .w = {1}};
@@ -162,28 +161,37 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
     slope->ex_psi = sum_ex(t, &d, d.speed.w, chi_w, chi_node, &p, p.dw) * stretch;
     if (t->stick_cells == 0 || psi <= 1) return;
     /* y moves with psi_c, which moves with ez */
-    slope->ex_speed += full_speed - slope->ex_psi * y * (2 * chi - 1) * slope->ez_speed;
-    slope->ex_psi += full_psi;
+    slope->ex_speed += 2 * chi * slope->ez_speed / psi - slope->ex_psi * y * (2 * chi - 1) * slope->ez_speed;
+    slope->ex_psi -= full / (psi * psi);
 }
 
-/* By the speeds themselves: psi = f v_t/v_n. In full slip 1 + ex is 2 chi (1 + ez) v_n/(f v_t), smooth down to v_n = 0. */
+/* In full slip 1 + ex is 2 chi (1 + ez) v_n/(f v_t): by v_n and v_t it is smooth down to v_n = 0, where psi is infinite. */
+static void full_slip_by_speeds(double chi, double ez, double ez_normal, double factor, double v_n, double v_t,
+                                restitute_table_slope *slope)
+{
+    const double sliding = factor * v_t;
+    slope->ex_normal = 2 * chi * ((1 + ez) + ez_normal * v_n) / sliding;
+    slope->ex_tangential = -2 * chi * (1 + ez) * (v_n / v_t) / sliding;
+}
+
+/* By the speeds themselves: psi = f v_t/v_n. Where ex would exceed its bounds and is kept at them, slopes are 0. */
 static void by_speeds(const restitute_table *t, const restitute_table_contact *c, double v_n, double v_t,
-                      restitute_table_slope *slope)
+                      const restitute_table_value *pair, restitute_table_slope *slope)
 {
     struct rst_slope by;
     const double sliding = c->psi_factor > DBL_MAX ? 0 : c->psi_factor * fabs(v_t);
     const double speed = t->of_contact ? v_n * c->speed_factor : c->delta1 * pow(v_n, 0.2);
     const double rate = t->of_contact ? c->speed_factor : v_n > 0 ? 0.2 * speed / v_n : 0;
-    const double psi = c->psi_factor > DBL_MAX ? INFINITY : sliding > 0 ? sliding / v_n : 0;
+    const double psi = c->psi_factor > DBL_MAX ? INFINITY : !(sliding > 0) ? 0 : v_n > 0 ? sliding / v_n : INFINITY;
+    const double chi = fmin(fmax(c->chi, t->chi_low), t->chi_high);
     rst_table_slope(t, speed, c->gamma, c->chi, psi, &by);
-    *slope = (restitute_table_slope){.ez_normal = by.ez_speed * rate, .ex_normal = by.ex_speed * rate};
-    if (psi > DBL_MAX) {
-        restitute_table_value pair;
-        rst_table_evaluate(t, speed, c->gamma, c->chi, psi, &pair);
-        const double chi = fmin(fmax(c->chi, t->chi_low), t->chi_high);
-        slope->ex_normal = sliding > 0 ? 2 * chi * (1 + pair.ez) / sliding : 0;
+    *slope = (restitute_table_slope){.ez_normal = by.ez_speed * rate};
+    if (psi >= restitute_critical_psi(chi, pair->ez)) {
+        if (sliding > 0) full_slip_by_speeds(chi, pair->ez, slope->ez_normal, c->psi_factor, v_n, fabs(v_t), slope);
         return;
     }
+    if (fabs(pair->ex) >= 1) return;
+    slope->ex_normal = by.ex_speed * rate;
     if (v_n > 0) {
         slope->ex_normal -= by.ex_psi * psi / v_n;
         slope->ex_tangential = by.ex_psi * (c->psi_factor / v_n);
@@ -198,6 +206,6 @@ int restitute_table_pair_of(const restitute_table *table, const restitute_table_
     const int status = restitute_table_pairs(table, contact, 1, &normal_speed, &tangential_speed, &found.ez, &found.ex);
     if (status) return status;
     *pair = found;
-    if (slope) by_speeds(table, contact ? contact : &table->own, normal_speed, tangential_speed, slope);
+    if (slope) by_speeds(table, contact ? contact : &table->own, normal_speed, tangential_speed, pair, slope);
     return RESTITUTE_OK;
 }

@@ -119,7 +119,7 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
 /* Cell and place in it, in [0, 3). */
 static inline double rst_octaves_find(const struct rst_octaves *axis, double number, int64_t *cell)
 {
-    number = number < axis->low ? axis->low : number;
+    number = !(number > axis->low) ? axis->low : number; /* NaN as well: the bits of the number are an index */
     number = number > axis->high ? axis->high : number;
     int64_t bits;
     memcpy(&bits, &number, sizeof bits);

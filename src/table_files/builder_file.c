@@ -27,14 +27,14 @@ int restitute_table_builder_write(const restitute_table_builder *builder, const 
                                   restitute_error *error)
 {
     if (!builder || !settings || !path)
-        return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                               !builder    ? "builder"
-                               : !settings ? "settings"
-                                           : "path");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !builder    ? "builder"
+                          : !settings ? "settings"
+                                      : "path");
     const struct rst_quiet quiet = rst_quiet_begin();
     const int status = write_journal(builder, settings, path, error);
     rst_quiet_end(quiet);
-    return status ? status : rst_file_done(error);
+    return status ? status : rst_done(error);
 }
 
 /* The text of an attribute is what its own length and content say. */
@@ -51,13 +51,13 @@ static int read_journal(hid_t file, restitute_table_builder *builder, const char
                         restitute_error *error)
 {
     if (!same_text(file, "settings", settings) || !same_text(file, "restitute_version", restitute_version()))
-        return rst_file_report(error, RESTITUTE_ERROR_DOMAIN,
-                               "%.120s: was begun with other settings or by another version", path);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%.120s: was begun with other settings or by another version",
+                          path);
     const int64_t count = rst_count_numbers(file, "impacts");
     double *journal = count >= 0 ? malloc((size_t)(count + 1) * sizeof *journal) : NULL;
     if (!journal || count % 4 != 0 || (count > 0 && rst_get_numbers(file, "impacts", count, journal))) {
         free(journal);
-        return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no impacts", path);
+        return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no impacts", path);
     }
     const int status = restitute_table_builder_restore(builder, journal, (size_t)count / 4, error);
     free(journal);
@@ -69,10 +69,10 @@ int restitute_table_builder_read(restitute_table_builder *builder, const char *s
 {
     struct rst_old_file file;
     if (!builder || !settings || !path)
-        return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                               !builder    ? "builder"
-                               : !settings ? "settings"
-                                           : "path");
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !builder    ? "builder"
+                          : !settings ? "settings"
+                                      : "path");
     const struct rst_quiet quiet = rst_quiet_begin();
     int status = rst_old_file_open(path, title, &file, error);
     if (!status) {
@@ -80,5 +80,5 @@ int restitute_table_builder_read(restitute_table_builder *builder, const char *s
         rst_old_file_close(&file);
     }
     rst_quiet_end(quiet);
-    return status ? status : rst_file_done(error);
+    return status ? status : rst_done(error);
 }

@@ -8,8 +8,8 @@
 #include "container.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,27 +17,6 @@
 #include <unistd.h>
 
 enum { block_size = 512, schema = 1 };
-
-int rst_file_report(restitute_error *error, int status, const char *format, ...)
-{
-    if (error) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(error->message, sizeof error->message, format, arguments);
-        va_end(arguments);
-        error->status = status;
-    }
-    return status;
-}
-
-int rst_file_done(restitute_error *error)
-{
-    if (error) {
-        error->status = RESTITUTE_OK;
-        error->message[0] = '\0';
-    }
-    return RESTITUTE_OK;
-}
 
 struct rst_quiet rst_quiet_begin(void)
 {
@@ -74,7 +53,7 @@ static void make_block(const char *title, const unsigned char *bytes, size_t siz
 
 static int fail_reading(restitute_error *error, const char *path)
 {
-    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be read: %s", path, strerror(errno));
+    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be read: %s", path, strerror(errno));
 }
 
 static int read_all(const char *path, struct rst_old_file *file, restitute_error *error)
@@ -91,7 +70,7 @@ static int read_all(const char *path, struct rst_old_file *file, restitute_error
     file->bytes = malloc(size + 1);
     if (!file->bytes) {
         fclose(stream);
-        return rst_file_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory for %zu bytes", path, size);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory for %zu bytes", path, size);
     }
     file->size = fread(file->bytes, 1, size + 1, stream);
     const int failed = ferror(stream);
@@ -108,15 +87,15 @@ static int refuse_block(const char *path, const char *title, const struct rst_ol
     snprintf(start, sizeof start, "restitute %s, schema ", title);
     const size_t length = strlen(start);
     if (file->size < length || memcmp(file->bytes, start, length) != 0)
-        return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not a %s file of restitute", path, title);
+        return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not a %s file of restitute", path, title);
     for (size_t i = length; i < file->size && i < length + 6 && file->bytes[i] >= '0' && file->bytes[i] <= '9'; i++)
         version = 10 * version + (file->bytes[i] - '0');
     if (version > schema)
-        return rst_file_report(
+        return rst_report(
             error, RESTITUTE_ERROR_FORMAT,
             "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged", path,
             version, schema);
-    return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
+    return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 
 static int check_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
@@ -143,7 +122,7 @@ int rst_old_file_open(const char *path, const char *title, struct rst_old_file *
             H5Pset_file_image(access, file->bytes, file->size) >= 0)
             file->file = H5Fopen(no_file, H5F_ACC_RDONLY, access);
         if (access >= 0) H5Pclose(access);
-        if (file->file < 0) status = rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not HDF5 inside", path);
+        if (file->file < 0) status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not HDF5 inside", path);
     }
     if (status) rst_old_file_close(file);
     return status;
@@ -160,34 +139,40 @@ void rst_old_file_close(struct rst_old_file *file)
 
 static int fail_writing(restitute_error *error, const char *path)
 {
-    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(errno));
+    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(errno));
 }
 
-/* Where links lead to: it is the file that is replaced, not the link. */
-static char *beside(const char *path)
+/* A new, empty file beside the final one, with the mode that a new file has. Where links lead to: it is the file that is replaced,
+ * not the link. Process and attempt in its name keep it apart from those of others. NULL: none, see errno. */
+static char *new_beside(const char *path)
 {
+    enum { attempts = 1000 };
     char *target = realpath(path, NULL);
     const char *from = target ? target : path;
-    char *name = malloc(strlen(from) + 8);
-    if (name) sprintf(name, "%s.XXXXXX", from);
+    const size_t size = strlen(from) + 48;
+    char *name = malloc(size);
+    int descriptor = -1;
+    errno = name ? EEXIST : ENOMEM;
+    for (int i = 0; i < attempts && descriptor < 0 && errno == EEXIST; i++) {
+        snprintf(name, size, "%s.%lld.%d", from, (long long)getpid(), i);
+        descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    }
+    const int why = errno;
+    if (descriptor >= 0)
+        close(descriptor);
+    else {
+        free(name);
+        name = NULL;
+    }
     free(target);
+    errno = why;
     return name;
 }
 
 int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_error *error)
 {
-    *file = (struct rst_new_file){.path = beside(path), .file = -1};
-    if (!file->path) return rst_file_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    const int descriptor = mkstemp(file->path);
-    if (descriptor < 0) {
-        const int status = fail_writing(error, path);
-        free(file->path);
-        return status;
-    }
-    const mode_t mask = umask(0);
-    umask(mask);
-    fchmod(descriptor, 0666 & ~mask);
-    close(descriptor);
+    *file = (struct rst_new_file){.path = new_beside(path), .file = -1};
+    if (!file->path) return fail_writing(error, path);
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     if (creation >= 0 && H5Pset_userblock(creation, block_size) >= 0)
         file->file = H5Fcreate(file->path, H5F_ACC_TRUNC, creation, H5P_DEFAULT);
@@ -195,7 +180,7 @@ int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_er
     if (file->file >= 0) return RESTITUTE_OK;
     unlink(file->path);
     free(file->path);
-    return rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: HDF5 fails", path);
+    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: HDF5 fails", path);
 }
 
 static int put_block(const char *path, const char *title)
@@ -224,8 +209,8 @@ int rst_new_file_end(struct rst_new_file *file, int good, const char *title, con
     errno = 0;
     const int closed = H5Fclose(file->file) >= 0;
     if (!good || !closed)
-        status = rst_file_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path,
-                                 errno ? strerror(errno) : "HDF5 fails");
+        status = rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path,
+                            errno ? strerror(errno) : "HDF5 fails");
     else if (put_block(file->path, title) || rename(file->path, target ? target : path) != 0)
         status = fail_writing(error, path);
     if (status) unlink(file->path);

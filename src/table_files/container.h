@@ -7,12 +7,7 @@
 
 #include <restitute/table_files.h>
 
-int rst_file_report(restitute_error *error, int status, const char *format, ...)
-#if defined(__GNUC__)
-    __attribute__((__format__(__printf__, 3, 4)))
-#endif
-    ;
-int rst_file_done(restitute_error *error);
+#include "../core/report.h"
 
 /* HDF5 prints errors unless told not to; the caller's setting is put back. */
 struct rst_quiet {
@@ -54,7 +49,7 @@ int rst_get_number(hid_t place, const char *name, double *value);
 int rst_get_integer(hid_t place, const char *name, int64_t *value);
 int rst_get_text(hid_t place, const char *name, size_t size, char *text);
 
-/* Number of values of a dataset; negative if there is none. */
+/* Number of values of a dataset; negative if there is none, or one that claims more than the file could hold. */
 int64_t rst_count_numbers(hid_t place, const char *name);
 
 #endif

@@ -13,8 +13,9 @@ static const char title[] = "table";
 #define NUMBERS(X)                                                                                                     \
     X(tolerance)                                                                                                       \
     X(error_ez)                                                                                                        \
-    X(error_ex) X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass)          \
-        X(modulus_factor) X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(error_ex)                                                                                                        \
+    X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor)    \
+        X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells) X(cells)
 
 static const char units_of_attributes[] = "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; "
@@ -123,14 +124,14 @@ static int write_table(const restitute_table *table, const restitute_table_data 
 int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error)
 {
     restitute_table_data data;
-    if (!table || !path) return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "path" : "table");
+    if (!table || !path) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "path" : "table");
     restitute_table_data_init(&data);
     int status = restitute_table_to_data(table, &data, error);
     if (status) return status;
     const struct rst_quiet quiet = rst_quiet_begin();
     status = write_table(table, &data, path, error);
     rst_quiet_end(quiet);
-    return status ? status : rst_file_done(error);
+    return status ? status : rst_done(error);
 }
 
 /* ---- reading */
@@ -162,16 +163,21 @@ struct arrays {
 
 static const char *const set_names[SETS] = {"ez", "ex", "relaxation_time", "modulus", "patches"};
 
-static int get_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
+static int count_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
 {
-    int64_t total = 0;
     for (int i = 0; i < SETS; i++) {
         const int absent = (i == SET_TIMES || i == SET_MODULI) ? d->terms == 0 : i == SET_PATCHES && d->cells == 0;
         a->count[i] = absent ? 0 : rst_count_numbers(f, set_names[i]);
         if (a->count[i] < 0) return 1;
-        total += a->count[i];
     }
-    if (d->terms > 0 && (a->count[SET_TIMES] != d->terms || a->count[SET_MODULI] != d->terms)) return 1;
+    return d->terms > 0 && (a->count[SET_TIMES] != d->terms || a->count[SET_MODULI] != d->terms);
+}
+
+static int get_arrays(hid_t f, struct arrays *a)
+{
+    int64_t total = 0; /* of few counts, each bounded by the bytes of the file */
+    for (int i = 0; i < SETS; i++)
+        total += a->count[i];
     a->start[0] = malloc((size_t)(total + 1) * sizeof(double));
     if (!a->start[0]) return 1;
     int failed = 0;
@@ -182,7 +188,7 @@ static int get_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
     return failed;
 }
 
-/* The sizes that follow from the axes must be those of the arrays, before the arrays are believed. */
+/* The sizes that follow from the axes must be those of the arrays, before room is made for the arrays. */
 static int sizes_agree(const restitute_table_data *d, const struct arrays *a)
 {
     int64_t nodes[4];
@@ -215,8 +221,8 @@ static int read_table(const char *path, hid_t f, restitute_table **table, restit
     int status = RESTITUTE_ERROR_FORMAT;
     restitute_error why = {.message = "parts are missing"};
     restitute_table_data_init(&d);
-    if (!get_attributes(f, &d) && d.terms >= 0 && !get_arrays(f, &d, &a) && sizes_agree(&d, &a) &&
-        (d.cells == 0 || !convert_cells(&a))) {
+    if (!get_attributes(f, &d) && d.terms >= 0 && !count_arrays(f, &d, &a) && sizes_agree(&d, &a) &&
+        !get_arrays(f, &a) && (d.cells == 0 || !convert_cells(&a))) {
         d.ez = a.start[SET_EZ];
         d.ex = a.start[SET_EX];
         d.ex_cells = a.ex_cells;
@@ -228,16 +234,15 @@ static int read_table(const char *path, hid_t f, restitute_table **table, restit
     free(a.start[0]);
     free(a.ex_cells);
     free(a.patches);
-    if (status == RESTITUTE_ERROR_MEMORY) return rst_file_report(error, status, "%.120s: out of memory", path);
-    if (status)
-        return rst_file_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
+    if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%.120s: out of memory", path);
+    if (status) return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
     return RESTITUTE_OK;
 }
 
 int restitute_table_read(const char *path, restitute_table **table, restitute_error *error)
 {
     struct rst_old_file file;
-    if (!path || !table) return rst_file_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "table" : "path");
+    if (!path || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "table" : "path");
     const struct rst_quiet quiet = rst_quiet_begin();
     int status = rst_old_file_open(path, title, &file, error);
     if (!status) {
@@ -245,5 +250,5 @@ int restitute_table_read(const char *path, restitute_table **table, restitute_er
         rst_old_file_close(&file);
     }
     rst_quiet_end(quiet);
-    return status ? status : rst_file_done(error);
+    return status ? status : rst_done(error);
 }

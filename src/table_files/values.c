@@ -137,6 +137,16 @@ static hid_t open_set(hid_t place, const char *name)
     return H5Lexists(place, name, H5P_DEFAULT) > 0 ? H5Dopen2(place, name, H5P_DEFAULT) : -1;
 }
 
+/* Values are stored as they are, so that there cannot be more of them than bytes in the file: what is made room for is bounded. */
+static int fits(hid_t place, int64_t count)
+{
+    hsize_t bytes;
+    const hid_t file = H5Iget_file_id(place);
+    const int good = file >= 0 && H5Fget_filesize(file, &bytes) >= 0 && count >= 0 && (hsize_t)count <= bytes;
+    if (file >= 0) H5Fclose(file);
+    return good;
+}
+
 int64_t rst_count_numbers(hid_t place, const char *name)
 {
     const hid_t set = open_set(place, name);
@@ -145,7 +155,7 @@ int64_t rst_count_numbers(hid_t place, const char *name)
     int64_t count = -1;
     if (type >= 0 && space >= 0 && H5Tget_class(type) == H5T_FLOAT) count = H5Sget_simple_extent_npoints(space);
     close_all(1, set, type, space);
-    return count;
+    return fits(place, count) ? count : -1;
 }
 
 int rst_get_numbers(hid_t place, const char *name, int64_t count, double *value)

@@ -202,11 +202,71 @@ static void journals(void **state)
     restitute_table_destroy(resumed);
 }
 
+/* The checksum of a file (FNV-1a of all bytes behind the block of text), as its writer puts it down. */
+static void put_with_checksum(unsigned char *content, size_t length)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    char text[17], *place = strstr((char *)content, "checksum ");
+    assert_non_null(place);
+    for (size_t i = 512; i < length; i++)
+        hash = (hash ^ content[i]) * UINT64_C(0x100000001b3);
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)hash);
+    memcpy(place + 9, text, 16);
+    put(content, length);
+}
+
+/* Files whose checksum is right but whose sizes are not: 2^61 values, whose bytes overflow to none, and 2^40. */
+static void sizes_beyond_the_file_are_refused(void **state)
+{
+    restitute_table_family family;
+    restitute_table_builder *builder;
+    restitute_table *none = NULL;
+    restitute_error error;
+    (void)state;
+    restitute_table_family_init(&family);
+    family.scene = &scene;
+    assert_int_equal(restitute_table_builder_create(&family, NULL, &builder, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_builder_run(builder, 20, &none, &error), RESTITUTE_OK);
+    size_t count, found = 0;
+    restitute_table_builder_journal(builder, &count);
+    assert_int_equal(restitute_table_builder_write(builder, "a", broken, &error), RESTITUTE_OK);
+    restitute_table_builder_destroy(builder);
+    assert_int_equal(restitute_table_builder_create(&family, NULL, &builder, &error), RESTITUTE_OK);
+    unsigned char *journal = malloc(1 << 20);
+    FILE *file = fopen(broken, "rb");
+    const size_t length = fread(journal, 1, 1 << 20, file);
+    fclose(file);
+    unsigned char *damaged = malloc(1 << 20);
+    for (int power = 40; power <= 61; power += 21) {
+        const int64_t is[2] = {(int64_t)count, 4}, claimed = INT64_C(1) << (power - 2);
+        memcpy(damaged, journal, length);
+        for (size_t i = 512; i + sizeof is <= length; i++) /* the size, and the largest one */
+            if (memcmp(damaged + i, is, sizeof is) == 0) memcpy(damaged + i, &claimed, sizeof claimed), found++;
+        put_with_checksum(damaged, length);
+        assert_int_equal(restitute_table_builder_read(builder, "a", broken, &error), RESTITUTE_ERROR_FORMAT);
+        CHECK(strstr(error.message, "holds no impacts"), "%s", error.message);
+    }
+    free(damaged);
+    CHECK(found > 0, "the size is in the file");
+    put_with_checksum(journal, length); /* it was the size that was refused */
+    CHECK(restitute_table_builder_read(builder, "a", broken, &error) == RESTITUTE_OK, "%s", error.message);
+    restitute_table_builder_destroy(builder);
+    assert_int_equal(restitute_table_builder_create(&family, NULL, &builder, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_builder_restore(builder, (const double *)(const void *)journal,
+                                                     SIZE_MAX / (4 * sizeof(double)) + 2, &error),
+                     RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "count"), "%s", error.message);
+    restitute_table_builder_destroy(builder);
+    free(journal);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read), cmocka_unit_test(flips_are_refused),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read),
+                                       cmocka_unit_test(flips_are_refused),
                                        cmocka_unit_test(cuts_are_refused),
                                        cmocka_unit_test(foreign_and_later_files_are_refused),
-                                       cmocka_unit_test(journals)};
+                                       cmocka_unit_test(journals),
+                                       cmocka_unit_test(sizes_beyond_the_file_are_refused)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -113,6 +113,33 @@ static void slopes(void **state)
     }
 }
 
+/* Full slip has a closed form for any psi: d ex/d v_n = 2 chi (1 + ez)/(f v_t) where ez is constant; roundings of a few operations. */
+static void slopes_at_the_ends(void **state)
+{
+    restitute_table_value pair;
+    restitute_table_slope s;
+    static const double slow[] = {0, 1e-300, 1e-160, 1e-9};
+    (void)state;
+    for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
+        assert_int_equal(restitute_table_pair_of(table, NULL, slow[i], 2, &pair, &s), RESTITUTE_OK);
+        const double expected = 2 * chi * (1 + pair.ez) / (PSI_FACTOR * 2);
+        CHECK_NEAR(s.ex_normal, expected, 1e-13 * expected, "v_n = %g", slow[i]);
+        CHECK_NEAR(s.ex_tangential, -expected * slow[i] / 2, 1e-13 * expected * slow[i], "v_n = %g", slow[i]);
+    }
+    restitute_material *steel;
+    restitute_scene ball = scene;
+    restitute_material_elastic(8e10, 0.3, &steel, NULL);
+    ball.material = steel;
+    restitute_table *elastic = table_of(&ball, 1e-3, 10, 1e-3);
+    feclearexcept(FE_ALL_EXCEPT);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 1, 0, &pair, &s), RESTITUTE_OK);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 0, 0, &pair, &s), RESTITUTE_OK);
+    assert_int_equal(restitute_table_pair_of(elastic, NULL, 0, 1, &pair, &s), RESTITUTE_OK);
+    CHECK(!fetestexcept(FE_DIVBYZERO | FE_INVALID), "a slope divided by 0 or made a NaN");
+    restitute_table_destroy(elastic);
+    restitute_material_destroy(steel);
+}
+
 static void many_at_once(void **state)
 {
     enum { n = 1000 };
@@ -186,6 +213,28 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
+/* A factor on the speed that overflows would make the place of v_n = 0 NaN; so would one that a caller has put there. */
+static void factors_that_overflow(void **state)
+{
+    restitute_table_contact contact;
+    restitute_table_value pair;
+    restitute_table_slope slope;
+    restitute_error error;
+    restitute_scene other = scene;
+    (void)state;
+    restitute_table_contact_init(&contact);
+    other.mass1 = 1e-300;
+    other.radius1 = 1e300;
+    assert_int_equal(restitute_table_contact_of(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "speed_factor"), "%s", error.message);
+    assert_int_equal(restitute_table_contact_of(table, &scene, &contact, &error), RESTITUTE_OK);
+    contact.speed_factor = INFINITY;
+    assert_int_equal(restitute_table_pair_of(table, &contact, 0, 1e-3, &pair, &slope), RESTITUTE_OK);
+    CHECK(pair.ez == look_up(table, 0, 0).ez && pair.ex == -1, "0 inf is taken as the lowest speed: %g", pair.ez);
+    contact.psi_factor = NAN;
+    assert_int_equal(restitute_table_pair_of(table, &contact, 1, 1e-3, &pair, NULL), RESTITUTE_ERROR_DOMAIN);
+}
+
 static void bad_speeds_are_refused(void **state)
 {
     static const double bad[][2] = {{-1, 0}, {NAN, 0}, {INFINITY, 0}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
@@ -239,9 +288,11 @@ int main(void)
                                        cmocka_unit_test(continuous),
                                        cmocka_unit_test(bounded),
                                        cmocka_unit_test(slopes),
+                                       cmocka_unit_test(slopes_at_the_ends),
                                        cmocka_unit_test(many_at_once),
                                        cmocka_unit_test(other_sizes),
                                        cmocka_unit_test(other_contacts_are_refused),
+                                       cmocka_unit_test(factors_that_overflow),
                                        cmocka_unit_test(bad_speeds_are_refused),
                                        cmocka_unit_test(axes_collapse)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
