@@ -3,7 +3,6 @@
 #include "family.h"
 
 #include <float.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 void restitute_table_family_init(restitute_table_family *family)
