@@ -45,11 +45,12 @@ contains
   end subroutine balance_levels
 
   !> int q dX at the end of a step; before the nodes are moved (trial) without the kink.
-  pure function shear_force(scene, trial, restitution, normal, velocity, trace, step, term, body, beta, faded, sums, state) &
-    result(total)
+  pure function shear_force(scene, trial, restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, &
+                              state) result(total)
     type(scene_type), intent(in) :: scene
     logical, intent(in) :: trial, restitution
     type(level_type), intent(in) :: normal
+    real(dp), intent(in) :: radius  !! of the contact
     real(dp), intent(in) :: velocity, body(0:scene%capacity - 1, columns)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     real(dp), intent(in), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -57,7 +58,7 @@ contains
     type(term_type), intent(in) :: term(scene%n_terms)
     type(sums_type), intent(in) :: sums
     type(shear_type), intent(in) :: state
-    real(dp) :: total, ratio, slack(0:1), q(0:2)
+    real(dp) :: total, ratio, slack(0:2), q(0:2)
     integer(ip) :: k
     total = 0
     if (step%last < 0) return
@@ -72,20 +73,28 @@ contains
     end if
     if (abs(ratio) >= 1 .and. state%front == step%last .and. (restitution .or. scene%no_slip == 0) .and. .not. trial) then
       q = 0
+      slack = 0
       do k = min(2_ip, step%last), 0, -1
-        call node_forces(scene, trace, term, step, body, beta, faded, state, step%last - k, slack(0), q(k))
+        call node_forces(scene, trace, term, step, body, beta, faded, state, step%last - k, slack(k), q(k))
       end do
-      total = sums%q + stuck_edge(scene, body, step%last, slack(0), q)
+      if (step%last < 3) then
+        total = last_contact(radius, step%last, q)
+      else
+        total = sums%q + stuck_edge(scene, body, step%last, slack, q)
+      end if
       return
     end if
     total = ratio*normal%missing + sums%q
     if (scene%no_slip /= 0 .and. .not. restitution) then
       total = total + body(step%last + 1, column_weight)/2*scene%eta*(velocity - ratio*normal%velocity)
     else if (abs(ratio) >= 1 .and. state%front >= 1 .and. .not. trial) then
-      do k = 0, 1
+      slack = 0
+      do k = 0, min(2_ip, state%front)
         call node_forces(scene, trace, term, step, body, beta, faded, state, state%front - k, slack(k), q(k))
+        slack(k) = slack(k)*body(state%front - k, column_weight)
       end do
-      total = total + ratio*body(state%front, column_weight)*hinge(slack(0), slack(1))
+      if (state%front == 1) slack(2) = 2*slack(1) - slack(0)
+      total = total + ratio*hinge(slack)
     end if
   end function shear_force
 
@@ -120,16 +129,23 @@ contains
     slack = max(0.0_dp, slack - abs(q))
   end subroutine node_forces
 
-  !> Error of the trapezoidal rule, per cell, for int (f - |q|) dX, which falls to zero at the kink between the outermost node
-  !> that sticks and the next one: its slope there times (x(1-x)/2 - 1/12), x where the kink is between them.
-  pure function hinge(slack, slack_inside) result(error)
-    real(dp), intent(in) :: slack, slack_inside
-    real(dp) :: error, slope, x
+  !> Error of the trapezoidal rule for int (f - |q|) dX, which falls to zero at a kink between the outermost node that sticks and the
+  !> next one: by Bernoulli's polynomials of x, where the kink is between them, times its slope and curvature there. slack: of
+  !> the three outermost nodes that stick, times their widths.
+  pure function hinge(slack) result(error)
+    real(dp), intent(in) :: slack(0:2)
+    real(dp) :: error, slope, bend, x
     error = 0
-    slope = slack_inside - slack
+    bend = (slack(2) - 2*slack(1) + slack(0))/2
+    slope = slack(1) - slack(0) - bend
+    if (slope <= 0) then
+      bend = 0
+      slope = slack(1) - slack(0)
+    end if
     if (slope <= 0) return
-    x = min(1.0_dp, slack/slope)
-    error = slope*(x*(1 - x)/2 - 1.0_dp/12)
+    x = min(1.0_dp, 2*slack(0)/(slope + sqrt(max(0.0_dp, slope**2 - 4*bend*slack(0)))))
+    slope = slope - 2*bend*x
+    error = slope*(x*(1 - x)/2 - 1.0_dp/12) - bend*x*(x*(x - 1.5_dp) + 0.5_dp)/3
   end function hinge
 
   !> What the trapezoidal rule lacks when all nodes stick: the last cell, where q goes on to the edge, by Gregory's rule, less
@@ -137,21 +153,37 @@ contains
   pure function stuck_edge(scene, body, last, slack, q) result(missing)
     type(scene_type), intent(in) :: scene
     integer(ip), intent(in) :: last
-    real(dp), intent(in) :: body(0:scene%capacity - 1, columns), slack, q(0:2)
-    real(dp) :: missing, edge, y(0:2), reach
-    if (last < 3) then ! the contact is all but over: to its end with the force of the outermost node
-      missing = q(0)*body(last, column_weight)/2
-      return
-    end if
+    real(dp), intent(in) :: body(0:scene%capacity - 1, columns), slack(0:2), q(0:2)
+    real(dp) :: missing, edge, y(0:2), reach, slope, bend, width, widening
     edge = 3*q(0) - 3*q(1) + q(2)
     y(0) = edge*body(last + 1, column_weight)
     y(1) = q(0)*body(last, column_weight)
     y(2) = q(1)*body(last - 1, column_weight)
     missing = y(0)/2 - (y(0) - y(1))/12 - (y(0) - 2*y(1) + y(2))/24
     if (scene%no_slip /= 0) return
-    reach = abs(edge)/max(slack + abs(edge), tiny(1.0_dp)) ! of the triangle, in cells
-    missing = missing - edge*reach/2*(body(last, column_weight) + body(last + 1, column_weight))/2
+    bend = (slack(1) - 2*slack(0) - abs(edge))/2
+    slope = slack(0) + abs(edge) - bend
+    if (slope <= 0) then
+      bend = 0
+      slope = slack(0) + abs(edge)
+    end if
+    if (slope <= 0) return
+    reach = min(1.0_dp, 2*abs(edge)/(slope + sqrt(max(0.0_dp, slope**2 + 4*bend*abs(edge))))) ! of the triangle, in cells
+    width = body(last + 1, column_weight)
+    widening = body(last, column_weight) - width
+    missing = missing + sign(1.0_dp, edge)*reach*(-abs(edge)*width + reach*((slope*width - abs(edge)*widening)/2 &
+                                                  + reach*((slope*widening + bend*width)/3 + reach*bend*widening/4)))
   end function stuck_edge
+
+  !> The contact is all but over: int q dX of an even function that is known at the centre and at the outermost node, which are evenly
+  !> spaced there. q: from that node inwards.
+  pure function last_contact(radius, last, q) result(total)
+    real(dp), intent(in) :: radius, q(0:2)
+    integer(ip), intent(in) :: last  !! 0 to 2
+    real(dp) :: total
+    total = q(last)*radius
+    if (last > 0) total = total + (q(0) - q(last))*radius/(3*(real(last, dp)/real(last + 1, dp))**2)
+  end function last_contact
 
   !> The outermost node that sticks, from where it was; -1: none.
   pure subroutine find_front(scene, kappa, last, state)

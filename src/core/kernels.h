@@ -70,9 +70,9 @@ struct sync_scene {
     int64_t no_slip;
 };
 struct sync_shear {
-    double time, shift, velocity, force, step_before, force_before;
+    double time, shift, velocity, force, from, step_before[2], force_before[2];
     double passive_weight, passive_alpha;
-    int64_t level, first, front, updates;
+    int64_t known, level, first, front, updates;
 };
 
 /* Twin of term_type of fortran/sync_elements.f90. */
