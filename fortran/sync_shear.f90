@@ -47,7 +47,8 @@ contains
     integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
     call balance_levels(scene, body, trace, term, level)
-    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, from=0, step_before=0, force_before=0, known=0, &
+    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, normal_velocity=1, from=0, &
+                       step_before=0, force_before=0, normal_before=0, known=0, &
                        passive_weight=body(0, column_weight), passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
     do k = 1, scene%n_terms
@@ -158,6 +159,8 @@ contains
     state%shift = level(l)%depth + cubic_integral(velocity, h)
     state%velocity = target
     state%force = -cubic_slope(velocity, h)/mass_factor
+    state%normal_velocity = target
+    state%normal_before(0) = state%force
     state%level = l
     bend = 0
     if (h > 0) bend = -mass_factor*(state%force - level(l)%force)/(2*h)
@@ -242,20 +245,24 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change
+    real(dp) :: push, force, velocity, shift, change, grip
+    integer(ip) :: front_before, vanished
     type(sums_type) :: sums
     integer(ip) :: trial, k
 
     push = 2*mass_factor*scene%chi
+    grip = 0
+    vanished = 0
+    front_before = state%front
     force = state%force
     if (state%known > 0) force = state%force + (state%force - state%force_before(1))*step%h/state%step_before(1)
-    velocity = state%velocity - push*impulse(force, rate, state)
+    velocity = state%velocity - push*impulse(force, normal, rate, grip, vanished, state)
     call move(scene, push, force, velocity, state, term, step, shift)
     if (push*step%h/2*step%end_response*radius > explicit_below) then
       do trial = 1, most_trials
         call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-        change = (state%velocity - push*impulse(force, rate, state) - velocity) &
+        change = (state%velocity - push*impulse(force, normal, rate, grip, vanished, state) - velocity) &
                  /(1 + push*step%h/2*step%end_response*sums%stuck)
         velocity = velocity + change
         force = force + change*step%end_response*sums%stuck
@@ -266,8 +273,12 @@ contains
     if (scene%no_slip == 0) call wake_nodes(scene, trace, step, body, beta, faded, term, state)
     call move_nodes(scene, elements, 0_ip, term, step, body, beta, faded, state, sums)
     call find_front(scene, body(:, column_kappa), step%last, state)
+    if (restitution .and. scene%no_slip == 0 .and. state%front < step%last) then
+      grip = sign(1.0_dp, body(step%last, column_kappa))
+      if (state%front < 0) vanished = merge(1, 2, front_before >= 0)
+    end if
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-    velocity = state%velocity - push*impulse(force, rate, state)
+    velocity = state%velocity - push*impulse(force, normal, rate, grip, vanished, state)
     call move(scene, push, force, velocity, state, term, step, shift)
     do k = 1, scene%n_terms
       term(k)%stress = term(k)%next_stress
@@ -275,6 +286,8 @@ contains
     state%shift = shift
     state%velocity = velocity
     state%time = normal%time
+    state%normal_before = [normal%force, state%normal_before(0:1)]
+    state%normal_velocity = normal%velocity
     state%known = min(3_ip, state%known + 1)
     state%step_before = [step%h, state%step_before(1)]
     state%force_before = [state%force, state%force_before(1)]
@@ -335,12 +348,27 @@ contains
     w = w*c
   end function weights_back
 
-  pure function impulse(force, weight, state) result(sum)
+  pure function impulse(force, normal, weight, grip, vanished, state) result(sum)
     real(dp), intent(in) :: force
+    type(level_type), intent(in) :: normal
     real(dp), intent(in) :: weight(0:3)
+    real(dp), intent(in) :: grip
+    integer(ip), intent(in) :: vanished
     type(shear_type), intent(in) :: state
-    real(dp) :: sum
-    sum = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
+    real(dp) :: sum, lost(0:3), z(2), left
+    lost = [force - grip*normal%force, state%force - grip*state%normal_before(0), &
+            state%force_before - grip*state%normal_before(1:)]
+    if (vanished == 0) then
+      sum = dot_product(weight, lost)
+    else if (vanished == 1) then
+      z = abs(lost(1:2))**(2.0_dp/3.0_dp)
+      left = 0.5_dp*normal%step
+      if (z(2) > z(1)) left = min(normal%step, state%step_before(1)*z(1)/(z(2) - z(1)))
+      sum = 0.4_dp*lost(1)*left
+    else
+      sum = 0
+    end if
+    sum = sum + grip*(state%normal_velocity - normal%velocity)/mass_factor
   end function impulse
 
   !> U, M_k and Q at the new level for a velocity whose ends and slopes at both ends are known.
