@@ -47,7 +47,7 @@ contains
     integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
     call balance_levels(scene, body, trace, term, level)
-    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, normal_velocity=1, from=0, &
+    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, from=0, &
                        step_before=0, force_before=0, normal_before=0, known=0, &
                        passive_weight=body(0, column_weight), passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
@@ -159,7 +159,6 @@ contains
     state%shift = level(l)%depth + cubic_integral(velocity, h)
     state%velocity = target
     state%force = -cubic_slope(velocity, h)/mass_factor
-    state%normal_velocity = target
     state%normal_before(0) = state%force
     state%level = l
     bend = 0
@@ -287,7 +286,6 @@ contains
     state%velocity = velocity
     state%time = normal%time
     state%normal_before = [normal%force, state%normal_before(0:1)]
-    state%normal_velocity = normal%velocity
     state%known = min(3_ip, state%known + 1)
     state%step_before = [step%h, state%step_before(1)]
     state%force_before = [state%force, state%force_before(1)]
@@ -355,20 +353,20 @@ contains
     real(dp), intent(in) :: grip
     integer(ip), intent(in) :: vanished
     type(shear_type), intent(in) :: state
-    real(dp) :: sum, lost(0:3), z(2), left
-    lost = [force - grip*normal%force, state%force - grip*state%normal_before(0), &
-            state%force_before - grip*state%normal_before(1:)]
+    real(dp) :: sum, lost(2), left
     if (vanished == 0) then
-      sum = dot_product(weight, lost)
-    else if (vanished == 1) then
-      z = abs(lost(1:2))**(2.0_dp/3.0_dp)
-      left = 0.5_dp*normal%step
-      if (z(2) > z(1)) left = min(normal%step, state%step_before(1)*z(1)/(z(2) - z(1)))
-      sum = 0.4_dp*lost(1)*left
-    else
-      sum = 0
+      sum = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
+      return
     end if
-    sum = sum + grip*(state%normal_velocity - normal%velocity)/mass_factor
+    sum = grip*(weight(0)*normal%force + dot_product(weight(1:), state%normal_before))
+    if (vanished == 1) then
+      lost = [state%force - grip*state%normal_before(0), state%force_before(1) - grip*state%normal_before(1)]
+      left = 0.5_dp*normal%step
+      associate (z => abs(lost)**(2.0_dp/3.0_dp))
+        if (z(2) > z(1)) left = min(normal%step, state%step_before(1)*z(1)/(z(2) - z(1)))
+      end associate
+      sum = sum + 0.4_dp*lost(1)*left
+    end if
   end function impulse
 
   !> U, M_k and Q at the new level for a velocity whose ends and slopes at both ends are known.

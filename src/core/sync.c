@@ -13,12 +13,12 @@
 
 /* Tangential solutions at n and n/2 levels are compared. They are of third order where kinks fall regularly between nodes; half
  * of what that would take off is best. */
-static const double part_taken = 1.0 / 14;
+static const double part_taken = 1.0 / 25;
 
 /* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
  * so it does not stand alone: twice the error of the median impact, 30 max(1, chi)^(3/2) n^-3, is added, and twice that
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
-static const double share_of_change = 0.6, usual_error = 30, thin_slip = 0.1, rounding_of_level = 6e-13;
+static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, rounding_of_level = 6e-13;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known from the second
  * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
@@ -256,7 +256,7 @@ static double normal_levels_to_start(double wanted, double chi)
 
 double rst_sync_levels_to_start(const struct rst_problem *problem)
 {
-    return fmax(16, 5.8 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
+    return fmax(16, 3.1 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs, times the trials
