@@ -18,14 +18,14 @@ static const double part_taken = 1.0 / 25;
 /* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
  * so it does not stand alone: twice the error of the median impact, 30 max(1, chi)^(3/2) n^-3, is added, and twice that
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
-static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, rounding_of_level = 6e-13;
+static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, least_slip = 0.02, rounding_of_level = 6e-13;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known from the second
  * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
 /* Above that chi slip may end everywhere within a step, and again: such errors fall with n^-2, irregularly. */
-static const double turning_back = 2, usual_error_then = 0.3;
+static const double turning_back = 2, all_but_even = 0.05, usual_error_then = 1;
 
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
@@ -197,12 +197,13 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
                        const struct run *before, const struct run *now, struct rst_outcome *outcome)
 {
     const double n = (double)now->levels, change = now->velocity - before->velocity;
-    const double usual = usual_error * (1 + thin_slip / (thin_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
+    const double usual = usual_error * (1 + thin_slip / (least_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
     outcome->shear_velocity = now->velocity + change * part_taken;
     outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
                         usual / (n * n * n) + rounding_of_level * (double)now->levels +
                         fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
-    if (problem->chi > turning_back) outcome->error_ex += usual_error_then / (n * n);
+    if (problem->chi > turning_back || fabs(problem->chi - 0.5) < all_but_even)
+        outcome->error_ex += usual_error_then / (n * n);
     outcome->spacing = sqrt(normal->depth) / (double)now->levels;
     outcome->step = outcome->contact_time / (2 * (double)now->levels);
     outcome->elements = now->levels;
