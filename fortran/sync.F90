@@ -5,5 +5,6 @@
 #include "sync_levels.f90"
 #include "sync_dense.f90"
 #include "sync_elements.f90"
+#include "sync_quadrature.f90"
 #include "sync_edge.f90"
 #include "sync_shear.f90"

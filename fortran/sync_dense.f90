@@ -120,7 +120,7 @@ contains
         call meet_edge(grid, path, node(l + q)%radius, t_before, t, motion(q), failed)
         if (failed) return
         x(q) = t - start_of_pair
-        level(l + q) = level_type(path%time + t, t - t_before, motion(q)%depth, motion(q)%velocity, 0.0_dp, 0.0_dp, 0.0_dp)
+        level(l + q) = level_type(path%time + t, t - t_before, motion(q)%depth, motion(q)%velocity, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
         node(l + q) = node_type(motion(q)%radius, node(l + q)%width*edge_advance(grid, node(l + q)%radius, motion(q)))
       end do
       resolved = merge(0.0_dp, longest_panel*grid%radius**2/real(n, dp), l < first_levels)
@@ -241,7 +241,7 @@ contains
       h = h + dx
     end do
     level = level_type(path%time + t + (h + dx), h + dx, motion%depth + dx*motion%velocity, &
-                       motion%velocity + dx*motion%acceleration, (2.0_dp/3.0_dp)*g_inf*radius**3, g_inf*radius**2, 0.0_dp)
+                       motion%velocity + dx*motion%acceleration, (2.0_dp/3.0_dp)*g_inf*radius**3, g_inf*radius**2, 0.0_dp, 0.0_dp)
     do k = 1, n_terms
       call shift_step(g(k), tau(k), h, dx, motion%velocity, trace(k))
       trace(k)%loading = trace(k)%fade*loaded(k, 0)%loading

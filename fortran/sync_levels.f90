@@ -35,9 +35,9 @@ module rst_sync_levels
 
   !> Where the sphere is at a level; step: time since the level before, with all its digits; force: int_0^A f dX. For the
   !> tangential problem: `fresh` is f + G_inf X^2 of an element that forgets nothing, `missing` what the sum over nodes lacks of the
-  !> force. Twin of `struct sync_level` in C.
+  !> force, `weight` see module rst_sync_quadrature. Twin of `struct sync_level` in C.
   type, bind(c) :: level_type
-    real(dp) :: time, step, depth, velocity, force, fresh, missing
+    real(dp) :: time, step, depth, velocity, force, fresh, missing, weight(0:3)
   end type level_type
 
   !> X_j and dX/dj. Twin of `struct sync_node` in C.
@@ -155,7 +155,7 @@ contains
   pure function at_level(time, step, depth, velocity, force) result(level)
     real(dp), intent(in) :: time, step, depth, velocity, force
     type(level_type) :: level
-    level = level_type(time, step, depth, velocity, force, 0.0_dp, 0.0_dp)
+    level = level_type(time, step, depth, velocity, force, 0.0_dp, 0.0_dp, 0.0_dp)
   end function at_level
 
   !> Levels l+1 and l+2 of the compression, by sweeps over: times at which the edge is on the grid, depth and velocity from the

@@ -21,6 +21,7 @@ module rst_sync_shear
   use rst_sync_dense, only: trace_type, fade_in_step
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
                                column_weight, column_alpha, column_kappa
+  use rst_sync_quadrature, only: spread_weights, starting_weights
   use rst_sync_edge, only: balance_levels, shear_force, find_front
   use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_integral, cubic_root
   implicit none (type, external)
@@ -47,7 +48,8 @@ contains
     integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
     call balance_levels(scene, body, trace, term, level)
-    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, from=0, &
+    call spread_weights(scene%n, level)
+    state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
                        step_before=0, force_before=0, normal_before=0, known=0, &
                        passive_weight=body(0, column_weight), passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
@@ -81,8 +83,7 @@ contains
     step%f = level(next)%fresh
     if (next > scene%n) call leave_node(scene, edge, trace, body, beta, term, state)
     call take_step(scene, elements, next > scene%n, node(edge)%radius, &
-                   weights_back(scene, level, next, state%known, state%from), level(next), trace, body, beta, faded, &
-                   term, step, state)
+                   level(next), trace, body, beta, faded, term, step, state)
     state%level = next
     if (next < scene%n) call enter_node(scene, edge, level(next)%velocity, trace(:, next), body, beta, faded, term, state)
   end subroutine advance_shear
@@ -155,7 +156,6 @@ contains
       h = 0
     end if
     state%time = level(l)%time + h
-    state%from = state%time
     state%shift = level(l)%depth + cubic_integral(velocity, h)
     state%velocity = target
     state%force = -cubic_slope(velocity, h)/mass_factor
@@ -231,37 +231,38 @@ contains
 
   !> Predict the force at the end of the step, move the elements, correct. Where force and velocity at the end of the step hang
   !> together closely (dashpots, few levels) the velocity is first found by Newton steps on trial moves.
-  subroutine take_step(scene, elements, restitution, radius, rate, normal, trace, body, beta, faded, term, step, state)
+  subroutine take_step(scene, elements, restitution, radius, normal, trace, body, beta, faded, term, step, state)
     type(scene_type), intent(in) :: scene
     procedure(element_loop) :: elements
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     logical, intent(in) :: restitution
     real(dp), intent(in) :: radius            !! of the contact at the new level
-    real(dp), intent(in) :: rate(0:3)         !! see impulse
     type(level_type), intent(in) :: normal    !! at the new level
     real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(inout), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change, grip
+    real(dp) :: push, force, velocity, shift, change, grip, weight(0:3)
     integer(ip) :: front_before, vanished
     type(sums_type) :: sums
     integer(ip) :: trial, k
 
     push = 2*mass_factor*scene%chi
+    weight = normal%weight
+    if (state%known < 3) weight = starting_weights([step%h, state%step_before])
     grip = 0
     vanished = 0
     front_before = state%front
     force = state%force
     if (state%known > 0) force = state%force + (state%force - state%force_before(1))*step%h/state%step_before(1)
-    velocity = state%velocity - push*impulse(force, normal, rate, grip, vanished, state)
+    velocity = state%velocity - push*impulse(force, normal, weight, grip, vanished, state)
     call move(scene, push, force, velocity, state, term, step, shift)
     if (push*step%h/2*step%end_response*radius > explicit_below) then
       do trial = 1, most_trials
         call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-        change = (state%velocity - push*impulse(force, normal, rate, grip, vanished, state) - velocity) &
+        change = (state%velocity - push*impulse(force, normal, weight, grip, vanished, state) - velocity) &
                  /(1 + push*step%h/2*step%end_response*sums%stuck)
         velocity = velocity + change
         force = force + change*step%end_response*sums%stuck
@@ -277,7 +278,7 @@ contains
       if (state%front < 0) vanished = merge(1, 2, front_before >= 0)
     end if
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-    velocity = state%velocity - push*impulse(force, normal, rate, grip, vanished, state)
+    velocity = state%velocity - push*impulse(force, normal, weight, grip, vanished, state)
     call move(scene, push, force, velocity, state, term, step, shift)
     do k = 1, scene%n_terms
       term(k)%stress = term(k)%next_stress
@@ -291,60 +292,6 @@ contains
     state%force_before = [state%force, state%force_before(1)]
     state%force = force
   end subroutine take_step
-
-  !> Weights of the forces at the new level and up to three before it in int S ds over the step: the polynomial through them of S ds/dy in
-  !> a measure y of time in which S is smooth also at first touch and at the end, where it goes like the root of time.
-  pure function weights_back(scene, level, next, known, from) result(w)
-    type(scene_type), intent(in) :: scene
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    integer(ip), intent(in) :: next, known
-    real(dp), intent(in) :: from
-    real(dp) :: w(0:3), y(0:3), c(0:3), t(0:3), g, h0, h1, h2, a, b, e, f
-    integer(ip) :: i
-    t = 0
-    do i = 0, min(3_ip, known + 1)
-      t(i) = level(next - i)%time
-    end do
-    if (known <= 2) t(known + 1) = from
-    if (next <= (2*scene%n)/3) then
-      y = sqrt(t)
-      c = 2*y
-    else if (2*scene%n - next <= (2*scene%n)/3) then
-      y = sqrt(max(level(2*scene%n)%time - t, 0.0_dp))
-      c = -2*y
-    else
-      y = t
-      c = 1
-    end if
-    h0 = y(0) - y(1)
-    h1 = y(1) - y(2)
-    h2 = y(2) - y(3)
-    w = 0
-    w(0:1) = h0/2
-    if (known >= 1) then
-      a = 1/h0
-      b = 1/h1
-      e = 1/(h0 + h1)
-      ! bend = (G0 a - G1 (a + b) + G2 b) e
-      g = -h0**3/6*e
-      if (known >= 2) then
-        f = -h0**3*(h0 + 2*h1)/12/(h0 + h1 + h2)
-        g = g + f*e
-      end if
-      w(0) = w(0) + g*a
-      w(1) = w(1) - g*(a + b)
-      w(2) = w(2) + g*b
-      if (known >= 2) then
-        a = 1/h1
-        b = 1/h2
-        e = 1/(h1 + h2)
-        w(1) = w(1) - f*e*a
-        w(2) = w(2) + f*e*(a + b)
-        w(3) = w(3) - f*e*b
-      end if
-    end if
-    w = w*c
-  end function weights_back
 
   pure function impulse(force, normal, weight, grip, vanished, state) result(sum)
     real(dp), intent(in) :: force

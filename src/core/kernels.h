@@ -52,7 +52,7 @@ struct sync_grid {
     double radius, start, turn;
 };
 struct sync_level {
-    double time, step, depth, velocity, force, fresh, missing;
+    double time, step, depth, velocity, force, fresh, missing, weight[4];
 };
 struct sync_node {
     double radius, width;
@@ -70,7 +70,7 @@ struct sync_scene {
     int64_t no_slip;
 };
 struct sync_shear {
-    double time, shift, velocity, force, from, step_before[2], force_before[2], normal_before[3];
+    double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3];
     double passive_weight, passive_alpha;
     int64_t known, level, first, front, updates;
 };
