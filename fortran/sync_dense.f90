@@ -191,6 +191,7 @@ contains
         h = max(0.1_dp*level(l - 1)%step, between(coarse, l - start, r) - t)
       else
         h = 2*level(l - 1)%step - level(l - 2)%step
+        if (l > n + 4) h = h + level(l - 1)%step - 2*level(l - 2)%step + level(l - 3)%step
         h = max(0.5_dp*level(l - 1)%step, h)
       end if
       call meet_free_edge(g_inf, eta, n_terms, g, tau, path, t, node(j)%radius, trace(:, j:j + 1), level(l - 1), trace(:, l - 1), &
