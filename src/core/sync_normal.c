@@ -14,7 +14,7 @@ static const double part_taken = 1.0 / 15;
 /* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that may be small
  * by chance, a part of n^-4.5, as the median error falls. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
  * small (docs/accuracy.md). */
-static const double share_of_difference = 0.25, usual_error = 5, share_of_change = 0.6, usual_error_of_two = 5;
+static const double share_of_difference = 0.5, usual_error = 2.5, share_of_change = 0.6, usual_error_of_two = 5;
 
 /* The levels have what extrapolation takes off; it is to be this part of the error that is wanted, and less for spheres that turn
  * easily, which swing sqrt(2 chi) times as often as the contact lasts. */
