@@ -25,7 +25,7 @@ static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, le
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
 /* Above that chi slip may end everywhere within a step, and again: such errors fall with n^-2, irregularly. */
-static const double turning_back = 2, all_but_even = 0.05, usual_error_then = 1;
+static const double turning_back = 1.8, all_but_even = 0.05, usual_error_then = 0.3;
 
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
@@ -191,6 +191,14 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
+/* Times n^-2. */
+static double second_order_error(double chi)
+{
+    if (fabs(chi - 0.5) < all_but_even) return 3 * usual_error_then;
+    if (chi <= turning_back) return 0;
+    return chi > 2 ? 3 * usual_error_then * sqrt(chi / 2) : usual_error_then;
+}
+
 /* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the first of them and
  * the one before it, 0 if there was none. */
 static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
@@ -202,8 +210,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
                         usual / (n * n * n) + rounding_of_level * (double)now->levels +
                         fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
-    if (problem->chi > turning_back || fabs(problem->chi - 0.5) < all_but_even)
-        outcome->error_ex += usual_error_then / (n * n);
+    outcome->error_ex += second_order_error(problem->chi) / (n * n);
     outcome->spacing = sqrt(normal->depth) / (double)now->levels;
     outcome->step = outcome->contact_time / (2 * (double)now->levels);
     outcome->elements = now->levels;

@@ -71,7 +71,7 @@ static int runs_with_an_order(const double *error, struct grid grid, const char 
     return 0;
 }
 
-/* Orders from `least` to 4 for e_x. e_z is extrapolated from fourth order, what is left falls at least as fast. Half an order: a part of the next order that is as large as the first one on the coarsest of four grids and an
+/* Orders from `least` to 5 for e_x, whose smooth parts are of fourth order and whose kinks of third. e_z is extrapolated from fourth order, what is left falls at least as fast. Half an order: a part of the next order that is as large as the first one on the coarsest of four grids and an
  * eighth of it on the finest would bend the line by that; above, cancellation may let errors fall faster. */
 static void check_orders(const restitute_impact impact[impacts], struct grid grid, double least, const char *what)
 {
@@ -79,7 +79,7 @@ static void check_orders(const restitute_impact impact[impacts], struct grid gri
     const int runs_z = runs_with_an_order(e.ez, grid, what), runs_x = runs_with_an_order(e.ex, grid, what);
     const double z = runs_z ? order_of(e.ez, runs_z) : 4, x = runs_x ? order_of(e.ex, runs_x) : 3;
     CHECK(z >= 3.5 && z <= 9, "%s: order %.2f of ez (%.1e to %.1e)", what, z, e.ez[0], e.ez[grid.runs - 1]);
-    CHECK(x >= least && x <= 4, "%s: order %.2f of ex (%.1e to %.1e)", what, x, e.ex[0], e.ex[grid.runs - 1]);
+    CHECK(x >= least && x <= 5, "%s: order %.2f of ex (%.1e to %.1e)", what, x, e.ex[0], e.ex[grid.runs - 1]);
 }
 
 static const struct grid usual = {32, 4, 1024};
@@ -91,7 +91,7 @@ static void check_standard(double delta1, double gamma, struct grid grid, double
     uint64_t random = 4;
     restitute_impact impact[impacts];
     for (int i = 0; i < impacts; i++)
-        impact[i] = impact_of(random_in(&random, 0.5, 2), some_psi(&random), delta1, gamma);
+        impact[i] = impact_of(random_in(&random, 0.6, 1.75), some_psi(&random), delta1, gamma);
     check_orders(impact, grid, least, what);
 }
 
