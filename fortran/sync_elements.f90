@@ -22,9 +22,10 @@ module rst_sync_elements
   !> Where the contact point is at a level. Twin of `struct sync_shear` in C.
   type, bind(c) :: shear_type
     real(dp) :: time, shift, velocity, force     !! s, U, U', int_0^A q dX
-    real(dp) :: step_before(2), force_before(2), normal_before(0:2)  !! of the two levels before
+    real(dp) :: step_before(2), force_before(2)  !! the steps that ended here and at the level before; S at the two levels before
+    real(dp) :: normal_before(0:2)               !! int_0^A f dX here and at the two levels before
     real(dp) :: passive_weight, passive_alpha    !! weighted sums over the passive nodes
-    integer(ip) :: known                         !! how many levels before there are, up to 3
+    integer(ip) :: known                         !! how many steps were made, up to 3
     integer(ip) :: level, first, front, updates  !! first: active node; front: outermost node that sticks, -1: none
   end type shear_type
 

@@ -13,7 +13,7 @@
 !> less: so the outermost one says when the first of them slips. From then on it is stepped (active), as are all elements that
 !> slip as they are touched. Passive are nodes 0 to first - 1, active the others in contact.
 !>
-!> Time. Depth and velocity of the contact point are integrated to third order from the forces of three levels.
+!> Time. Velocity and shift of the contact point follow from the forces of four levels (module rst_sync_quadrature).
 module rst_sync_shear
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
@@ -243,27 +243,25 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change, grip, weight(0:3)
-    integer(ip) :: front_before, vanished
+    real(dp) :: push, force, velocity, shift, change, passed, weight(0:3)
     type(sums_type) :: sums
+    logical :: stuck
     integer(ip) :: trial, k
 
     push = 2*mass_factor*scene%chi
     weight = normal%weight
     if (state%known < 3) weight = starting_weights([step%h, state%step_before])
-    grip = 0
-    vanished = 0
-    front_before = state%front
+    stuck = state%front >= 0
     force = state%force
     if (state%known > 0) force = state%force + (state%force - state%force_before(1))*step%h/state%step_before(1)
-    velocity = state%velocity - push*impulse(force, normal, weight, grip, vanished, state)
+    velocity = state%velocity - push*impulse(force, weight, state)
     call move(scene, push, force, velocity, state, term, step, shift)
     if (push*step%h/2*step%end_response*radius > explicit_below) then
       do trial = 1, most_trials
         call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-        change = (state%velocity - push*impulse(force, normal, weight, grip, vanished, state) - velocity) &
-                 /(1 + push*step%h/2*step%end_response*sums%stuck)
+        change = (state%velocity - push*impulse(force, weight, state) - velocity) &
+                 /(1 + push*weight(0)*step%end_response*sums%stuck)
         velocity = velocity + change
         force = force + change*step%end_response*sums%stuck
         call move(scene, push, force, velocity, state, term, step, shift)
@@ -273,12 +271,11 @@ contains
     if (scene%no_slip == 0) call wake_nodes(scene, trace, step, body, beta, faded, term, state)
     call move_nodes(scene, elements, 0_ip, term, step, body, beta, faded, state, sums)
     call find_front(scene, body(:, column_kappa), step%last, state)
-    if (restitution .and. scene%no_slip == 0 .and. state%front < step%last) then
-      grip = sign(1.0_dp, body(step%last, column_kappa))
-      if (state%front < 0) vanished = merge(1, 2, front_before >= 0)
-    end if
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-    velocity = state%velocity - push*impulse(force, normal, weight, grip, vanished, state)
+    passed = impulse(force, weight, state)
+    if (restitution .and. state%front < 0 .and. step%last >= 0) &
+      passed = sliding_impulse(sign(1.0_dp, body(step%last, column_kappa)), stuck, step%h, normal%force, weight, state)
+    velocity = state%velocity - push*passed
     call move(scene, push, force, velocity, state, term, step, shift)
     do k = 1, scene%n_terms
       term(k)%stress = term(k)%next_stress
@@ -286,35 +283,44 @@ contains
     state%shift = shift
     state%velocity = velocity
     state%time = normal%time
-    state%normal_before = [normal%force, state%normal_before(0:1)]
-    state%known = min(3_ip, state%known + 1)
-    state%step_before = [step%h, state%step_before(1)]
-    state%force_before = [state%force, state%force_before(1)]
-    state%force = force
+    call note_force(step%h, force, normal%force, state)
   end subroutine take_step
 
-  pure function impulse(force, normal, weight, grip, vanished, state) result(sum)
-    real(dp), intent(in) :: force
-    type(level_type), intent(in) :: normal
-    real(dp), intent(in) :: weight(0:3)
-    real(dp), intent(in) :: grip
-    integer(ip), intent(in) :: vanished
+  pure subroutine note_force(h, force, normal_force, state)
+    real(dp), intent(in) :: h, force, normal_force
+    type(shear_type), intent(inout) :: state
+    state%known = min(3_ip, state%known + 1)
+    state%step_before = [h, state%step_before(1)]
+    state%force_before = [state%force, state%force_before(1)]
+    state%normal_before = [normal_force, state%normal_before(0:1)]
+    state%force = force
+  end subroutine note_force
+
+  !> int S ds over the step.
+  pure function impulse(force, weight, state) result(passed)
+    real(dp), intent(in) :: force, weight(0:3)
     type(shear_type), intent(in) :: state
-    real(dp) :: sum, lost(2), left
-    if (vanished == 0) then
-      sum = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
-      return
-    end if
-    sum = grip*(weight(0)*normal%force + dot_product(weight(1:), state%normal_before))
-    if (vanished == 1) then
-      lost = [state%force - grip*state%normal_before(0), state%force_before(1) - grip*state%normal_before(1)]
-      left = 0.5_dp*normal%step
-      associate (z => abs(lost)**(2.0_dp/3.0_dp))
-        if (z(2) > z(1)) left = min(normal%step, state%step_before(1)*z(1)/(z(2) - z(1)))
-      end associate
-      sum = sum + 0.4_dp*lost(1)*left
-    end if
+    real(dp) :: passed
+    passed = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
   end function impulse
+
+  !> The same over a step at whose end the whole contact slips. If some of it stuck at the start, what S lacks of full friction
+  !> falls to nothing within the step, like the 3/2-th power of the time that is left to it, as the radius of stick does like its
+  !> root.
+  pure function sliding_impulse(direction, stuck, h, normal_force, weight, state) result(passed)
+    real(dp), intent(in) :: direction, h, normal_force, weight(0:3)
+    logical, intent(in) :: stuck  !! some of it, at the start
+    type(shear_type), intent(in) :: state
+    real(dp) :: passed, lack(2), left
+    passed = direction*(weight(0)*normal_force + dot_product(weight(1:), state%normal_before))
+    if (.not. stuck) return
+    lack = [state%force - direction*state%normal_before(0), state%force_before(1) - direction*state%normal_before(1)]
+    left = h/2
+    associate (z => abs(lack)**(2.0_dp/3.0_dp))
+      if (z(2) > z(1)) left = min(h, state%step_before(1)*z(1)/(z(2) - z(1)))
+    end associate
+    passed = passed + 0.4_dp*lack(1)*left
+  end function sliding_impulse
 
   !> U, M_k and Q at the new level for a velocity whose ends and slopes at both ends are known.
   pure subroutine move(scene, push, force, velocity, state, term, step, shift)

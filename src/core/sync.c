@@ -11,12 +11,12 @@
 #include "status.h"
 #include "sync_run.h"
 
-/* Tangential solutions at n and n/2 levels are compared. They are of third order where kinks fall regularly between nodes; half
- * of what that would take off is best. */
+/* Tangential solutions at n and n/2 levels are compared. Their errors are of third order or a little more, but irregular: this small
+ * part of what third order would take off is best on the average. */
 static const double part_taken = 1.0 / 25;
 
 /* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
- * so it does not stand alone: twice the error of the median impact, 30 max(1, chi)^(3/2) n^-3, is added, and twice that
+ * so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3, is added, and several times that
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
 static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, least_slip = 0.02, rounding_of_level = 6e-13;
 
@@ -24,7 +24,8 @@ static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, le
  * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
-/* Above that chi slip may end everywhere within a step, and again: such errors fall with n^-2, irregularly. */
+/* Above that chi slip may turn round within a step, or end everywhere; next to 1/2 gross slip hardly changes its velocity: such
+ * errors fall with n^-2, irregularly. */
 static const double turning_back = 1.8, all_but_even = 0.05, usual_error_then = 0.3;
 
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
@@ -191,7 +192,7 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
-/* Times n^-2. */
+/* What it adds to the estimate, times n^-2: at most three times the errors seen (docs/accuracy.md). */
 static double second_order_error(double chi)
 {
     if (fabs(chi - 0.5) < all_but_even) return 3 * usual_error_then;
