@@ -24,9 +24,9 @@ static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, le
  * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
-/* Above that chi slip may turn round within a step, or end everywhere; next to 1/2 gross slip hardly changes its velocity: such
+/* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its velocity: such
  * errors fall with n^-2, irregularly. */
-static const double turning_back = 1.8, all_but_even = 0.05, usual_error_then = 0.3;
+static const double turning_back = 1.8, all_but_even = 0.02, usual_error_then = 0.15;
 
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
@@ -195,9 +195,9 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
 /* What it adds to the estimate, times n^-2: at most three times the errors seen (docs/accuracy.md). */
 static double second_order_error(double chi)
 {
-    if (fabs(chi - 0.5) < all_but_even) return 3 * usual_error_then;
+    if (chi > 0.5 && chi < 0.5 + all_but_even) return 4 * usual_error_then;
     if (chi <= turning_back) return 0;
-    return chi > 2 ? 3 * usual_error_then * sqrt(chi / 2) : usual_error_then;
+    return chi > 2 ? 6 * usual_error_then * sqrt(chi / 2) : usual_error_then;
 }
 
 /* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the first of them and
@@ -532,13 +532,13 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return kept ? kept : status;
 }
 
-/* For a standard solid and four times the levels of the median impact; 32 terms are room for most polymers before they are merged. */
+/* For a standard solid and four and eight times the levels of the median impact; 32 terms are room for most polymers before they are merged. */
 static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
     const struct rst_problem usual = {
         .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
     struct store store;
-    const int64_t levels = multiple_of(2, 4 * rst_sync_levels_to_start(&usual));
+    const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(&usual));
     const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, usual.chi));
     return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
            rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
