@@ -18,7 +18,7 @@ static const double part_taken = 1.0 / 25;
 /* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
  * so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3, is added, and several times that
  * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
-static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.1, least_slip = 0.02, rounding_of_level = 6e-13;
+static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02, rounding_of_level = 6e-13;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known from the second
  * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
