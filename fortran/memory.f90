@@ -30,12 +30,15 @@ contains
     real(dp), intent(in) :: z
     type(memory_type) :: m
     real(dp), parameter :: series_below = 0.5_dp  !! beyond, the closed form loses less than two digits
+    real(dp), parameter :: short_series_below = 0.03_dp  !! there z^6/9! is nothing beside 1/6
     real(dp) :: z2
     integer(ip) :: i
     real(dp), parameter :: c(0:9) = [(1/gamma(i + 4.0_dp), i=0, 9)]  !! phi_3(z) = sum_i (-z)^i/(i+3)!
     if (z < series_below) then
       z2 = z*z
-      m%phi3 = (c(0) - z*c(1)) + z2*((c(2) - z*c(3)) + z2*((c(4) - z*c(5)) + z2*((c(6) - z*c(7)) + z2*(c(8) - z*c(9)))))
+      m%phi3 = 0
+      if (z > short_series_below) m%phi3 = z2*((c(6) - z*c(7)) + z2*(c(8) - z*c(9)))
+      m%phi3 = (c(0) - z*c(1)) + z2*((c(2) - z*c(3)) + z2*((c(4) - z*c(5)) + m%phi3))
       m%phi2 = 0.5_dp - z*m%phi3
       m%phi1 = 1 - z*m%phi2
       m%decay = 1 - z*m%phi1

@@ -170,7 +170,7 @@ contains
     real(dp), intent(inout) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
     logical, intent(out) :: failed
-    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), echo(2), change, previous, drag, resolved, next
+    real(dp) :: x(2), u(2), d(0:2), v(0:2), a(0:2), a3(0:2), rest(0:2), held(2), echo(2), change, previous, drag, resolved, next
     type(spacing_type) :: spacing
     type(parabola_type) :: push, cubes
     integer(ip) :: q, sweep
@@ -206,9 +206,9 @@ contains
         a3(q) = d(q)*a(q)
       end do
       if (x(2) <= x(1)) x(2) = 2*x(1)
-      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading(:, l:l + 2), echo)
+      call load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading(:, l:l + 2), held, echo)
       do q = 1, 2
-        next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + sum(loading(:, l + q)))
+        next = -mass_factor*((2.0_dp/3.0_dp)*g_inf*a3(q) + held(q))
         if (echo(q) > 0) next = rest(q) + (next - rest(q))/(1 + mass_factor*own_share(q, x)*echo(q)) ! as for the dashpot
         change = max(change, abs(next - rest(q))*x(2))
         rest(q) = next
@@ -275,16 +275,17 @@ contains
     x = x + dx
   end subroutine meet_edge
 
-  !> P_k at both points. `echo`: derivative of sum g_k P_k by the velocity.
-  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading, echo)
+  !> P_k at both points. `held`: sum g_k P_k, `echo`: its derivative by the velocity.
+  pure subroutine load_terms(n_terms, resolved, g, tau, x, v, a, a3, loading, held, echo)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: resolved  !! the panels of a run resolve longer relaxation times
     real(dp), intent(in) :: g(n_terms), tau(n_terms), x(2), v(0:2), a(0:2), a3(0:2)
     real(dp), intent(inout) :: loading(n_terms, 0:2)
-    real(dp), intent(out) :: echo(2)
+    real(dp), intent(out) :: held(2), echo(2)
     type(panel_type) :: panel
     type(memory_type) :: m
     integer(ip) :: k, q
+    held = 0
     echo = 0
     if (n_terms == 0) return
     panel = panel_of(x, v, a, a3)
@@ -297,6 +298,7 @@ contains
           loading(k, q) = m%decay*loading(k, 0) + g(k)*remembered(m, x(q), panel%sweeps)
           echo(q) = echo(q) + g(k)*a(q)*own_memory(m, q, x)
         end if
+        held(q) = held(q) + loading(k, q)
       end do
     end do
   end subroutine load_terms
