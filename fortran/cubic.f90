@@ -3,7 +3,7 @@ module rst_cubic
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: cubic_type, cubic_between, cubic_value, cubic_slope, cubic_integral, cubic_root
+  public :: cubic_type, cubic_between, cubic_value, cubic_slope, cubic_bend, cubic_integral, cubic_root
 
   !> In units of the interval h; d0 and d1: slopes times h.
   type :: cubic_type
@@ -34,6 +34,15 @@ contains
     x = t/c%h
     slope = (6*x*(1 - x)*(c%y1 - c%y0) + c%d0*(1 - x)*(1 - 3*x) + c%d1*x*(3*x - 2))/c%h
   end function cubic_slope
+
+  !> Second derivative.
+  pure function cubic_bend(c, t) result(bend)
+    type(cubic_type), intent(in) :: c
+    real(dp), intent(in) :: t
+    real(dp) :: bend, x
+    x = t/c%h
+    bend = ((6 - 12*x)*(c%y1 - c%y0) + c%d0*(6*x - 4) + c%d1*(6*x - 2))/c%h**2
+  end function cubic_bend
 
   !> int_0^t
   pure function cubic_integral(c, t) result(area)

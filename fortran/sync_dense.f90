@@ -196,6 +196,11 @@ contains
       end if
       call meet_free_edge(g_inf, eta, n_terms, g, tau, path, t, node(j)%radius, trace(:, j:j + 1), level(l - 1), trace(:, l - 1), &
                           h, level(l), trace(:, l), failed)
+      if (failed .and. l > n + 4) then ! the parabola of the steps leads astray
+        h = level(l - 1)%step
+        call meet_free_edge(g_inf, eta, n_terms, g, tau, path, t, node(j)%radius, trace(:, j:j + 1), level(l - 1), &
+                            trace(:, l - 1), h, level(l), trace(:, l), failed)
+      end if
       if (failed) return
       t = t + h
     end do

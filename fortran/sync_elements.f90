@@ -24,6 +24,7 @@ module rst_sync_elements
     real(dp) :: time, shift, velocity, force     !! s, U, U', int_0^A q dX
     real(dp) :: step_before(2), force_before(2)  !! the steps that ended here and at the level before; S at the two levels before
     real(dp) :: normal_before(0:2)               !! int_0^A f dX here and at the two levels before
+    real(dp) :: slope                            !! dS/ds at the end of gross slip
     real(dp) :: passive_weight, passive_alpha    !! weighted sums over the passive nodes
     integer(ip) :: known                         !! how many steps were made, up to 3
     integer(ip) :: level, first, front, updates  !! first: active node; front: outermost node that sticks, -1: none

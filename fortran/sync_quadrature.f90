@@ -7,9 +7,10 @@ module rst_sync_quadrature
   use rst_sync_levels, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, starting_weights
+  public :: spread_weights, starting_weights, parabolic_weights
 
-  integer(ip), parameter :: block = 32  !! levels at a time
+  integer(ip), parameter :: block = 32              !! levels at a time
+  real(dp), parameter :: steepest = 2               !! ratio of steps up to which four levels are better than three
 
 contains
 
@@ -86,6 +87,7 @@ contains
     !$omp simd private(twist, bend)
     do i = 0, last
       twist = -h(i)**3*(h(i) + 2*h(i - 1))/(12*(h(i) + h(i - 1) + h(i - 2)))
+      if (max(h(i)*once(i - 1), h(i - 1)*once(i - 2)) > steepest) twist = 0
       bend = (twist - h(i)**3/6)*twice(i)
       level(i)%weight(0) = dsdy(i)*(h(i)/2 + bend*once(i))
       level(i)%weight(1) = dsdy(i - 1)*(h(i)/2 - bend*(once(i) + once(i - 1)) - twist*twice(i - 1)*once(i - 1))
@@ -94,22 +96,44 @@ contains
     end do
   end subroutine weigh
 
-  !> The same for the first three steps, which know fewer forces: `steps` from the new level backwards, 0 before the start.
-  pure function starting_weights(steps) result(weight)
-    real(dp), intent(in) :: steps(3)
-    real(dp) :: weight(0:3), twist, bend
-    weight = 0
-    weight(0:1) = steps(1)/2
-    if (.not. steps(2) > 0) return
-    twist = 0
-    if (steps(3) > 0) twist = -steps(1)**3*(steps(1) + 2*steps(2))/(12*sum(steps))
-    bend = (twist - steps(1)**3/6)/(steps(1) + steps(2))
-    weight(0) = weight(0) + bend/steps(1)
-    weight(1) = weight(1) - bend*(1/steps(1) + 1/steps(2))
-    weight(2) = bend/steps(2)
-    if (.not. steps(3) > 0) return
-    weight(1) = weight(1) - twist/(steps(2)*(steps(2) + steps(3)))
-    weight(2) = weight(2) + twist/(steps(2)*steps(3))
-    weight(3) = -twist/(steps(3)*(steps(2) + steps(3)))
-  end function starting_weights
+  !> The same for the first three steps, in time: after `known` steps, the last of them `before`. Where the slope of the force at the
+  !> start is known, it has the weight slope_weight and `ease` is 1; where that slope jumps, as dashpots let it, 0.
+  pure subroutine starting_weights(known, h, before, ease, weight, slope_weight)
+    integer(ip), intent(in) :: known
+    real(dp), intent(in) :: h, before(2), ease
+    real(dp), intent(out) :: weight(0:3), slope_weight
+    real(dp) :: twist, bend
+    weight = [h/2, h/2, 0.0_dp, 0.0_dp]
+    slope_weight = 0
+    if (known == 0) then
+      weight(0:1) = weight(0:1) + ease*[-h, h]/6
+      slope_weight = ease*h*h/6
+    else if (known == 1) then
+      twist = -ease*h**3*(h + 2*before(1))/(12*(h + before(1)))
+      weight(0:2) = weight(0:2) + (twist - h**3/6)*bends(h, before(1)) + twist/before(1)**2*[0, -1, 1]
+      slope_weight = twist/before(1)
+    else
+      twist = 0
+      if (max(h/before(1), before(1)/before(2)) < steepest) twist = -h**3*(h + 2*before(1))/(12*(h + sum(before)))
+      bend = twist - h**3/6
+      weight(0:2) = weight(0:2) + bend*bends(h, before(1))
+      weight(1:3) = weight(1:3) - twist*bends(before(1), before(2))
+    end if
+  end subroutine starting_weights
+
+  !> The parabola through three levels, for one in time: what makes those that follow stable where force and velocity hang together so
+  !> closely that the cubic is not.
+  pure function parabolic_weights(h, before) result(weight)
+    real(dp), intent(in) :: h, before
+    real(dp) :: weight(0:3)
+    weight = [h/2, h/2, 0.0_dp, 0.0_dp]
+    if (before > 0) weight(0:2) = weight(0:2) - h**3/6*bends(h, before)
+  end function parabolic_weights
+
+  !> Second divided difference by the values at three levels, from the last one backwards.
+  pure function bends(h, before) result(share)
+    real(dp), intent(in) :: h, before
+    real(dp) :: share(3)
+    share = [1/h, -(1/h + 1/before), 1/before]/(h + before)
+  end function bends
 end module rst_sync_quadrature

@@ -21,9 +21,9 @@ module rst_sync_shear
   use rst_sync_dense, only: trace_type, fade_in_step
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
                                column_weight, column_alpha, column_kappa
-  use rst_sync_quadrature, only: spread_weights, starting_weights
+  use rst_sync_quadrature, only: spread_weights, starting_weights, parabolic_weights
   use rst_sync_edge, only: balance_levels, shear_force, find_front
-  use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_integral, cubic_root
+  use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_bend, cubic_integral, cubic_root
   implicit none (type, external)
   private
   public :: follow_shear
@@ -31,6 +31,9 @@ module rst_sync_shear
 
   real(dp), parameter :: explicit_below = 0.1_dp  !! feedback of a step below which one evaluation is enough
   integer(ip), parameter :: most_trials = 20
+  real(dp), parameter :: stiff_above = 1.5_dp      !! feedback of a step; the cubic through four levels is stable up to 3
+  real(dp), parameter :: shortest_start = 0.1_dp   !! of a step, after gross slip
+  real(dp), parameter :: slides_within = 1.0e-9_dp !! of full friction, what sums of rounding leave
 
 contains
 
@@ -50,7 +53,7 @@ contains
     call balance_levels(scene, body, trace, term, level)
     call spread_weights(scene%n, level)
     state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
-                       step_before=0, force_before=0, normal_before=0, known=0, &
+                       step_before=0, force_before=0, normal_before=0, slope=0, known=0, &
                        passive_weight=body(0, column_weight), passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
     do k = 1, scene%n_terms
@@ -160,6 +163,7 @@ contains
     state%velocity = target
     state%force = -cubic_slope(velocity, h)/mass_factor
     state%normal_before(0) = state%force
+    state%slope = -cubic_bend(velocity, h)/mass_factor
     state%level = l
     bend = 0
     if (h > 0) bend = -mass_factor*(state%force - level(l)%force)/(2*h)
@@ -243,24 +247,30 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change, passed, weight(0:3)
+    real(dp) :: push, force, velocity, shift, change, passed, start, weight(0:3)
     type(sums_type) :: sums
     logical :: stuck
     integer(ip) :: trial, k
 
     push = 2*mass_factor*scene%chi
     weight = normal%weight
-    if (state%known < 3) weight = starting_weights([step%h, state%step_before])
+    start = 0
+    if (push*step%h*step%end_response*radius > stiff_above) then
+      weight = parabolic_weights(step%h, state%step_before(1))
+    else if (state%known < 3) then
+      call starting_weights(state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), weight, start)
+      start = start*state%slope
+    end if
     stuck = state%front >= 0
     force = state%force
     if (state%known > 0) force = state%force + (state%force - state%force_before(1))*step%h/state%step_before(1)
-    velocity = state%velocity - push*impulse(force, weight, state)
+    velocity = state%velocity - push*(start + impulse(force, weight, state))
     call move(scene, push, force, velocity, state, term, step, shift)
     if (push*step%h/2*step%end_response*radius > explicit_below) then
       do trial = 1, most_trials
         call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-        change = (state%velocity - push*impulse(force, weight, state) - velocity) &
+        change = (state%velocity - push*(start + impulse(force, weight, state)) - velocity) &
                  /(1 + push*weight(0)*step%end_response*sums%stuck)
         velocity = velocity + change
         force = force + change*step%end_response*sums%stuck
@@ -272,9 +282,9 @@ contains
     call move_nodes(scene, elements, 0_ip, term, step, body, beta, faded, state, sums)
     call find_front(scene, body(:, column_kappa), step%last, state)
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
-    passed = impulse(force, weight, state)
-    if (restitution .and. state%front < 0 .and. step%last >= 0) &
-      passed = sliding_impulse(sign(1.0_dp, body(step%last, column_kappa)), stuck, step%h, normal%force, weight, state)
+    passed = start + impulse(force, weight, state)
+    if (restitution .and. state%front < 0 .and. step%last >= 0 .and. abs(abs(force) - normal%force) <= slides_within*normal%force) &
+      passed = sliding_impulse(sign(1.0_dp, force), stuck, step%h, normal%force, weight, state)
     velocity = state%velocity - push*passed
     call move(scene, push, force, velocity, state, term, step, shift)
     do k = 1, scene%n_terms
@@ -283,6 +293,7 @@ contains
     state%shift = shift
     state%velocity = velocity
     state%time = normal%time
+    if (step%h < shortest_start*normal%step) state%known = -1 ! as if it had begun here: such differences are none
     call note_force(step%h, force, normal%force, state)
   end subroutine take_step
 

@@ -70,7 +70,7 @@ struct sync_scene {
     int64_t no_slip;
 };
 struct sync_shear {
-    double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3];
+    double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;
     double passive_weight, passive_alpha;
     int64_t known, level, first, front, updates;
 };

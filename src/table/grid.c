@@ -241,16 +241,18 @@ static void compare(struct restitute_table_builder *b)
     }
 }
 
-/* Columns of a patch are to be better. */
+/* Columns of a patch are to be better. Where a coarser neighbour has just been divided the patch gets nodes that have no column yet. */
 static void raise_goals(struct rst_grid *g, int64_t p)
 {
     const int64_t octave[2] = {p / g->axis[1].cells, p % g->axis[1].cells}, *k = g->region[p].k;
     int64_t i[2];
     int along;
     for (i[0] = 0; i[0] <= rst_cubic << k[0]; i[0]++)
-        for (i[1] = 0; i[1] <= rst_cubic << k[1]; i[1]++)
-            if (rst_grid_coarser(g, p, i, &along) < 0)
-                rst_grid_column(g, rst_grid_at(octave[0], k[0], i[0]), rst_grid_at(octave[1], k[1], i[1]))->goal *= 0.6;
+        for (i[1] = 0; i[1] <= rst_cubic << k[1]; i[1]++) {
+            struct rst_column *column =
+                rst_grid_column(g, rst_grid_at(octave[0], k[0], i[0]), rst_grid_at(octave[1], k[1], i[1]));
+            if (column && rst_grid_coarser(g, p, i, &along) < 0) column->goal *= 0.6;
+        }
 }
 
 /* Divide patches where checks along an axis fail; where only others do, their columns get more points, or both. */
