@@ -31,7 +31,9 @@ module rst_sync_shear
 
   real(dp), parameter :: explicit_below = 0.1_dp  !! feedback of a step below which one evaluation is enough
   integer(ip), parameter :: most_trials = 20
-  real(dp), parameter :: stiff_above = 1.5_dp      !! feedback of a step; the cubic through four levels is stable up to 3
+  !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
+  !> end of the step always.
+  real(dp), parameter :: stiff_above = 1.5_dp, very_stiff_above = 6
   real(dp), parameter :: shortest_start = 0.1_dp   !! of a step, after gross slip
   real(dp), parameter :: slides_within = 1.0e-9_dp !! of full friction, what sums of rounding leave
 
@@ -257,6 +259,7 @@ contains
     start = 0
     if (push*step%h*step%end_response*radius > stiff_above) then
       weight = parabolic_weights(step%h, state%step_before(1))
+      if (push*step%h*step%end_response*radius > very_stiff_above) weight = [step%h, 0.0_dp, 0.0_dp, 0.0_dp]
     else if (state%known < 3) then
       call starting_weights(state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), weight, start)
       start = start*state%slope
