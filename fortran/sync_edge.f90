@@ -129,7 +129,8 @@ contains
     slack = max(0.0_dp, slack - abs(q))
   end subroutine node_forces
 
-  !> Error of the trapezoidal rule for int (f - |q|) dX, which falls to zero at a kink between the outermost node that sticks and the
+  !> Error of the trapezoidal rule for int (f - |q|) dX, which falls to zero at a kink between the outermost node that sticks and
+  !> the
   !> next one: by Bernoulli's polynomials of x, where the kink is between them, times its slope and curvature there. slack: of
   !> the three outermost nodes that stick, times their widths.
   pure function hinge(slack) result(error)
@@ -175,8 +176,9 @@ contains
                                                   + reach*((slope*widening + bend*width)/3 + reach*bend*widening/4)))
   end function stuck_edge
 
-  !> The contact is all but over: int q dX of an even function that is known at the centre and at the outermost node, which are evenly
-  !> spaced there. q: from that node inwards.
+  !> The contact is all but over: int q dX of an even function that is known at the centre and at the outermost node, as if they
+  !> were
+  !> evenly spaced, which all grids are near the centre or nearly. q: from that node inwards.
   pure function last_contact(radius, last, q) result(total)
     real(dp), intent(in) :: radius, q(0:2)
     integer(ip), intent(in) :: last  !! 0 to 2

@@ -1,4 +1,5 @@
-!> int S ds over a step from level to level, from the forces S at its ends and at the two levels before it: the cubic through S ds/dy
+!> int S ds over a step from level to level, from the forces S at its ends and at the two levels before it: the cubic through S
+!> ds/dy
 !> in a measure y of time in which S is smooth. From first touch on, where forces go like powers of the root of time, y is that
 !> root; towards the end, where the force of a contact that sticks goes like the root of the time that is left, y is that root;
 !> in between, time itself.
@@ -96,7 +97,8 @@ contains
     end do
   end subroutine weigh
 
-  !> The same for the first three steps, in time: after `known` steps, the last of them `before`. Where the slope of the force at the
+  !> The same for the first three steps, in time: after `known` steps, the last of them `before`. Where the slope of the force at
+  !> the
   !> start is known, it has the weight slope_weight and `ease` is 1; where that slope jumps, as dashpots let it, 0.
   pure subroutine starting_weights(known, h, before, ease, weight, slope_weight)
     integer(ip), intent(in) :: known
@@ -121,7 +123,8 @@ contains
     end if
   end subroutine starting_weights
 
-  !> The parabola through three levels, for one in time: what makes those that follow stable where force and velocity hang together so
+  !> The parabola through three levels, for one in time: what makes those that follow stable where force and velocity hang together
+  !> so
   !> closely that the cubic is not.
   pure function parabolic_weights(h, before) result(weight)
     real(dp), intent(in) :: h, before

@@ -142,8 +142,8 @@ contains
     type(cubic_type) :: velocity
     type(memory_type) :: m
     real(dp), parameter :: closest = 1.0e-9_dp  !! part of a step; one of no length would have no slopes
-    real(dp) :: target, h, bend, fade
-    integer(ip) :: l, i, k
+    real(dp) :: target, h, bend
+    integer(ip) :: l, k
 
     target = (2*scene%chi - scene%psi)/(2*scene%chi - 1)
     l = 0
@@ -174,6 +174,22 @@ contains
       term(k)%stress = m%decay*trace(k, l)%memory + g(k)*h*(level(l)%velocity*(m%phi1 - m%phi2) + target*m%phi2 &
                                                       + bend*h*h*(2*m%phi3 - m%phi2))
     end do
+    call stick_together(scene, l, tau, level, trace, body, beta, term, state)
+  end subroutine end_gross_slip
+
+  !> All elements in contact after the level l become passive, with q = f.
+  pure subroutine stick_together(scene, l, tau, level, trace, body, beta, term, state)
+    type(scene_type), intent(in) :: scene
+    integer(ip), intent(in) :: l
+    real(dp), intent(in) :: tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
+    real(dp), intent(inout) :: beta(0:scene%capacity - 1, scene%n_terms)
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    type(shear_type), intent(inout) :: state
+    real(dp) :: fade
+    integer(ip) :: i, k
     state%front = merge(l, 2*scene%n - l - 1, l < scene%n)
     state%first = state%front + 1
     do i = 0, state%front
@@ -194,7 +210,7 @@ contains
         fade = fade*trace(k, i)%decay
       end do
     end do
-  end subroutine end_gross_slip
+  end subroutine stick_together
 
   pure function between_levels(level) result(velocity)
     type(level_type), intent(in) :: level(2)

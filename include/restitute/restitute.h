@@ -242,7 +242,7 @@ typedef struct restitute_method restitute_method;
 /** `euler`, the default: the paper's foundation and explicit Euler, first order. */
 RESTITUTE_API const restitute_method *restitute_method_euler(void);
 
-/** `sync`: the normal motion without elements and elements that enter and leave exactly at a time step (third order): the fast and
+/** `sync`: the normal motion without elements and elements that enter and leave exactly at a time step (order 3 to 3.5): the fast and
  *  precise one, for tables, batches and tolerances below 1e-3. It chooses its steps itself: `time_step` must be 0. */
 RESTITUTE_API const restitute_method *restitute_method_sync(void);
 

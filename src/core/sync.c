@@ -1,6 +1,6 @@
-/* The method `sync`: the normal problem without elements (sync_normal.c), then the tangential one with elements at the places where
- * the edge of contact is at the levels of time (THEORY 4.3 to 4.6 and 6), refined until its error estimate is met.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* The method `sync`: the normal problem without elements (sync_normal.c), then the tangential one with elements at
+ * the places where the edge of contact is at the levels of time (THEORY 4.3 to 4.6 and 6), refined until its error
+ * estimate is met. SPDX-License-Identifier: BSD-3-Clause */
 #include "sync.h"
 
 #include <math.h>
@@ -11,34 +11,37 @@
 #include "status.h"
 #include "sync_run.h"
 
-/* Tangential solutions at n and n/2 levels are compared. Their errors are of third order or a little more, but irregular: this small
- * part of what third order would take off is best on the average. */
+/* Tangential solutions at n and n/2 levels are compared. Their errors are of third order or a little more, but
+ * irregular: this small part of what third order would take off is best on the average. */
 static const double part_taken = 1.0 / 25;
 
-/* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be small by chance,
- * so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3, is added, and several times that
- * where psi is so small that few nodes slip; and what rounding leaves of the velocity in a level. */
+/* The estimate is this part of the change, so that 95 of 100 are not too small (docs/accuracy.md). A change may be
+ * small by chance, so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3,
+ * is added, and several times that where psi is so small that few nodes slip; and what rounding leaves of the
+ * velocity in a level. */
 static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02, rounding_of_level = 6e-13;
 
-/* A change may be small by chance: it is not taken for less than that part of the change before it, which is known from the second
- * doubling on, and for impacts with so small a rebound from the first, since their times differ by decades. */
+/* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
+ * from the second doubling on, and for impacts with so small a rebound from the first, since their times differ by
+ * decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
-/* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its velocity: such
- * errors fall with n^-2, irregularly. */
+/* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its
+ * velocity: such errors fall with n^-2, irregularly. */
 static const double turning_back = 1.8, all_but_even = 0.02, usual_error_then = 0.15;
 
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
 
-/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a small
- * part of the tolerance. */
+/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
+ * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
 
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
 
-/* The normal problem is solved with a quarter of its levels too, which are to settle for a solid without strong damping. */
+/* The normal problem is solved with a quarter of its levels too, which are to settle for a solid without strong
+ * damping. */
 enum { least_normal = 16, least_told = 8 };
 
 static int64_t padded(int64_t count)
@@ -94,7 +97,8 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t leve
                                .no_slip = problem->mode == RST_NO_SLIP};
 }
 
-/* `ratio` times the levels of the normal problem, and `more` doubles behind them. Nonzero: an error, or a time was not found. */
+/* `ratio` times the levels of the normal problem, and `more` doubles behind them. Nonzero: an error, or a time was
+ * not found. */
 static int make_dense(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                       int64_t ratio, size_t more, struct store *store, double **room, restitute_error *error)
 {
@@ -200,8 +204,8 @@ static double second_order_error(double chi)
     return chi > 2 ? 6 * usual_error_then * sqrt(chi / 2) : usual_error_then;
 }
 
-/* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the first of them and
- * the one before it, 0 if there was none. */
+/* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the
+ * first of them and the one before it, 0 if there was none. */
 static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
                        const struct run *before, const struct run *now, struct rst_outcome *outcome)
 {
@@ -231,9 +235,9 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance;
 }
 
-/* A solid without equilibrium modulus that the sphere sinks into (THEORY 4.9). The tangential velocity ends at nothing too, unless it
- * slips to the end: with 2 chi > 1 it falls faster than the normal one, once the contact sticks. With 2 chi <= 1, rotation
- * being blocked, it falls more slowly and what is left has no closed form. */
+/* A solid without equilibrium modulus that the sphere sinks into (THEORY 4.9). The tangential velocity ends at
+ * nothing too, unless it slips to the end: with 2 chi > 1 it falls faster than the normal one, once the contact
+ * sticks. With 2 chi <= 1, rotation being blocked, it falls more slowly and what is left has no closed form. */
 static int solve_sunk(const struct rst_problem *problem, const struct scout *scout, struct rst_outcome *outcome,
                       restitute_error *error)
 {
@@ -256,8 +260,8 @@ static int64_t multiple_of(int64_t unit, double count)
     return unit * (int64_t)ceil(fmax(1, fmin(count, 2 * (double)rst_sync_most_levels) / (double)unit));
 }
 
-/* The counts that the median impact needs for its estimates to meet the tolerance (docs/accuracy.md). The tangential oscillation
- * in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
+/* The counts that the median impact needs for its estimates to meet the tolerance (docs/accuracy.md). The tangential
+ * oscillation in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
 static double normal_levels_to_start(double wanted, double chi)
 {
     return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / fmax(1, chi * 6 / 7), -0.25)));
@@ -268,9 +272,9 @@ double rst_sync_levels_to_start(const struct rst_problem *problem)
     return fmax(16, 3.1 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
 }
 
-/* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs, times the trials
- * of a step where chi is large and levels are few; the next has four times what the last took, or more trials. Without slip no element is
- * stepped. */
+/* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs,
+ * times the trials of a step where chi is large and levels are few; the next has four times what the last took, or
+ * more trials. Without slip no element is stepped. */
 static double updates_ahead(const struct rst_problem *problem, int64_t levels, int64_t last)
 {
     const double n = (double)levels, stepped = problem->mode == RST_NO_SLIP ? 2 : n;
@@ -317,8 +321,8 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
-/* The normal problem, to a part of the tolerance if the contact sticks. Between the levels of a graded grid the motion is not known
- * as well as at them: there the tangential problem has no more levels. */
+/* The normal problem, to a part of the tolerance if the contact sticks. Between the levels of a graded grid the
+ * motion is not known as well as at them: there the tangential problem has no more levels. */
 static int solve_normal(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                         restitute_error *error)
 {
@@ -362,8 +366,8 @@ static void run_half(const struct rst_problem *problem, const struct rst_workspa
     outcome->updates += run->updates;
 }
 
-/* Two runs on end: the first two, from the same levels, or one more after `now`. If the updates allowed may not be enough for both
- * of the first two, it is the half one alone, which tells what the other would take. */
+/* Two runs on end: the first two, from the same levels, or one more after `now`. If the updates allowed may not be
+ * enough for both of the first two, it is the half one alone, which tells what the other would take. */
 static int advance_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                         const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
                         double *change_before, struct rst_outcome *outcome, restitute_error *error)
@@ -390,8 +394,8 @@ static int advance_runs(const struct rst_problem *problem, struct rst_workspace 
     return RESTITUTE_OK;
 }
 
-/* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it where
- * its grid is graded. normal->levels is 0 if that does not settle. */
+/* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it
+ * where its grid is graded. normal->levels is 0 if that does not settle. */
 static int double_levels(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                          struct resolution *resolution, restitute_error *error)
 {
@@ -415,8 +419,8 @@ static int too_many(const struct rst_problem *problem, int64_t levels)
     return updates_ahead(problem, levels, 0) > (double)problem->max_updates;
 }
 
-/* Not less than the median impact needs, nor less than half of what the normal problem has if that is more; fewer if the updates
- * allowed do not suffice. */
+/* Not less than the median impact needs, nor less than half of what the normal problem has if that is more; fewer if
+ * the updates allowed do not suffice. */
 static struct resolution first_resolution(const struct rst_problem *problem, const struct normal *normal)
 {
     const int told = problem->elements > 0;
@@ -433,7 +437,8 @@ static struct resolution first_resolution(const struct rst_problem *problem, con
     return r;
 }
 
-/* Levels of the tangential problem are doubled until two runs on end agree. `ahead`: updates with a run that was not made. */
+/* Levels of the tangential problem are doubled until two runs on end agree. `ahead`: updates with a run that was not
+ * made. */
 static int refine_shear(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                         struct rst_outcome *outcome, double *ahead, restitute_error *error)
 {
@@ -495,8 +500,8 @@ static struct scout look_ahead(const struct rst_problem *problem, const struct r
     return scout;
 }
 
-/* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about psi, is no slip; the energies in x
- * are those parts of the whole, psi^2. */
+/* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about psi, is no slip; the
+ * energies in x are those parts of the whole, psi^2. */
 static int solve_strong_friction(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                                  struct rst_outcome *outcome, restitute_error *error)
 {
@@ -532,7 +537,8 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return kept ? kept : status;
 }
 
-/* For a standard solid and four and eight times the levels of the median impact; 32 terms are room for most polymers before they are merged. */
+/* For a standard solid and four (normal) and eight times (tangential problem) the levels to start with; 32 terms are
+ * room for most polymers before they are merged. */
 static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
     const struct rst_problem usual = {

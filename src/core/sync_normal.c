@@ -7,24 +7,24 @@
 #include "status.h"
 #include "sync_run.h"
 
-/* Solutions at n and n/2 levels are compared. The method is of fourth order: the change is 15 times the error of the finer one,
- * which is taken off. */
+/* Solutions at n and n/2 levels are compared. The method is of fourth order: the change is 15 times the error of the
+ * finer one, which is taken off. */
 static const double part_taken = 1.0 / 15;
 
-/* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that may be small
- * by chance, a part of n^-4.5, as the median error falls. With two runs it is a part of the change and more of n^-4. Such that 95 of 100 are not too
- * small (docs/accuracy.md). */
+/* Of three runs, two extrapolated velocities are compared: the estimate is this part of their difference and, as that
+ * may be small by chance, a part of n^-4.5, as the median error falls. With two runs it is a part of the change and
+ * more of n^-4. Such that 95 of 100 are not too small (docs/accuracy.md). */
 static const double share_of_difference = 0.5, usual_error = 2.5, share_of_change = 0.6, usual_error_of_two = 5;
 
-/* The levels have what extrapolation takes off; it is to be this part of the error that is wanted, and less for spheres that turn
- * easily, which swing sqrt(2 chi) times as often as the contact lasts. */
+/* The levels have what extrapolation takes off; it is to be this part of the error that is wanted, and less for
+ * spheres that turn easily, which swing sqrt(2 chi) times as often as the contact lasts. */
 static const double left_in_levels = 0.3;
 
 /* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
 static const double closeness = 0.002, rounding = 1e-12;
 
-/* The levels of the tangential problem are denser, and n of them move the edge by n^-2 at the turning point: what is left
- * unfinished is to be less than this part of it. */
+/* The levels of the tangential problem are denser, and n of them move the edge by n^-2 at the turning point: what is
+ * left unfinished is to be less than this part of it. */
 static const double unevenness = 1e-3;
 
 /* asinh of the impact speed over that of the creep at the turning point (sync_grid.turn): 1e8. */
@@ -42,8 +42,8 @@ static size_t doubles(size_t size, size_t count)
     return count * (size / sizeof(double));
 }
 
-/* What the solution in workspace->levels belongs to: impacts that differ in their tangential side alone, as in a table, share it.
- * Solids of more terms are not remembered. */
+/* What the solution in workspace->levels belongs to: impacts that differ in their tangential side alone, as in a
+ * table, share it. Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
 struct question {
     double g_inf, eta, n_terms, closeness, first, last, wanted, left, allowed;

@@ -23,8 +23,8 @@ struct normal {
     int64_t updates, ahead;     /* spent, and with the last run that was thought of */
 };
 
-/* Levels from `first` on doubled, up to `last`, until three on end have settled and the error is as wanted. Two on end at least
- * are a result; without, as for problem->max_updates too small, normal->levels is 0. */
+/* Levels from `first` on doubled, up to `last`, until three on end have settled and the error is as wanted. Two on
+ * end at least are a result; without, as for problem->max_updates too small, normal->levels is 0. */
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error);
 
@@ -64,8 +64,8 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t leve
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
                     restitute_error *error);
 
-/* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of both phases and
- * `more` besides. */
+/* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of
+ * both phases and `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
                     int64_t *levels, double **room, restitute_error *error);

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-/* Parts of the tolerance: what the last coefficients of a column may be worth, and how far a check may be off along an axis. */
+/* Parts of the tolerance: what the last coefficients of a column may be worth, and how far a check may be off along
+ * an axis. */
 static const double part_for_column = 0.5, part_along = 0.5;
 
 enum { lattice_nodes = rst_cubic << rst_finest_patch, most_failures = 8 };
@@ -241,7 +242,8 @@ static void compare(struct restitute_table_builder *b)
     }
 }
 
-/* Columns of a patch are to be better. Where a coarser neighbour has just been divided the patch gets nodes that have no column yet. */
+/* Columns of a patch are to be better. Where a coarser neighbour has just been divided the patch gets nodes that have
+ * no column yet. */
 static void raise_goals(struct rst_grid *g, int64_t p)
 {
     const int64_t octave[2] = {p / g->axis[1].cells, p % g->axis[1].cells}, *k = g->region[p].k;
