@@ -196,7 +196,8 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
-/* What it adds to the estimate, times n^-2: at most three times the errors seen (docs/accuracy.md). */
+/* What that adds to the estimate, times n^-2 and, as nothing turns round where damping is strong, at most twice the rebound: three
+ * times the errors seen, or more (docs/accuracy.md). */
 static double second_order_error(double chi)
 {
     if (chi > 0.5 && chi < 0.5 + all_but_even) return 4 * usual_error_then;
@@ -215,7 +216,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
                         usual / (n * n * n) + rounding_of_level * (double)now->levels +
                         fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
-    outcome->error_ex += second_order_error(problem->chi) / (n * n);
+    outcome->error_ex += fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
     outcome->spacing = sqrt(normal->depth) / (double)now->levels;
     outcome->step = outcome->contact_time / (2 * (double)now->levels);
     outcome->elements = now->levels;
