@@ -19,7 +19,8 @@ int64_t rst_grid_at(int64_t octave, int64_t k, int64_t i)
 
 struct rst_column *rst_grid_column(const struct rst_grid *g, int64_t at, int64_t by)
 {
-    return &g->column[g->column_at[at * g->lattice[1] + by] - 1];
+    const int32_t number = g->column_at[at * g->lattice[1] + by];
+    return number > 0 ? &g->column[number - 1] : NULL;
 }
 
 int rst_grid_create(struct restitute_table_builder *b)
