@@ -29,7 +29,7 @@ module rst_sync_shear
   public :: follow_shear
   public :: start_shear, advance_shear, place_nodes, measure_step  !! of the history and the ledger, level by level
 
-  real(dp), parameter :: explicit_below = 0.1_dp  !! feedback of a step below which one evaluation is enough
+  real(dp), parameter :: explicit_below = 0.2_dp  !! feedback of a step below which one evaluation is enough
   integer(ip), parameter :: most_trials = 20
   !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
   !> end of the step always.
@@ -265,27 +265,20 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change, passed, start, weight(0:3)
+    real(dp) :: push, force, velocity, shift, change, passed, start, feedback, weight(0:3)
     type(sums_type) :: sums
     logical :: stuck
     integer(ip) :: trial, k
 
     push = 2*mass_factor*scene%chi
-    weight = normal%weight
-    start = 0
-    if (push*step%h*step%end_response*radius > stiff_above) then
-      weight = parabolic_weights(step%h, state%step_before(1))
-      if (push*step%h*step%end_response*radius > very_stiff_above) weight = [step%h, 0.0_dp, 0.0_dp, 0.0_dp]
-    else if (state%known < 3) then
-      call starting_weights(state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), weight, start)
-      start = start*state%slope
-    end if
+    feedback = push*step%h*step%end_response*radius
+    call weigh_forces(scene, feedback, normal, step, state, weight, start)
     stuck = state%front >= 0
     force = state%force
     if (state%known > 0) force = state%force + (state%force - state%force_before(1))*step%h/state%step_before(1)
     velocity = state%velocity - push*(start + impulse(force, weight, state))
     call move(scene, push, force, velocity, state, term, step, shift)
-    if (push*step%h/2*step%end_response*radius > explicit_below) then
+    if (feedback > explicit_below) then
       do trial = 1, most_trials
         call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
@@ -315,6 +308,28 @@ contains
     if (step%h < shortest_start*normal%step) state%known = -1 ! as if it had begun here: such differences are none
     call note_force(step%h, force, normal%force, state)
   end subroutine take_step
+
+  !> Weights of the forces in int S ds over the step, and what a known slope at the start adds.
+  pure subroutine weigh_forces(scene, feedback, normal, step, state, weight, start)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: feedback
+    type(level_type), intent(in) :: normal
+    type(step_type), intent(in) :: step
+    type(shear_type), intent(in) :: state
+    real(dp), intent(out) :: weight(0:3), start
+    real(dp) :: slope_weight
+    start = 0
+    if (feedback > very_stiff_above) then
+      weight = [step%h, 0.0_dp, 0.0_dp, 0.0_dp]
+    else if (feedback > stiff_above) then
+      weight = parabolic_weights(step%h, state%step_before(1))
+    else if (state%known < 3) then
+      call starting_weights(state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), weight, slope_weight)
+      start = slope_weight*state%slope
+    else
+      weight = normal%weight
+    end if
+  end subroutine weigh_forces
 
   pure subroutine note_force(h, force, normal_force, state)
     real(dp), intent(in) :: h, force, normal_force
