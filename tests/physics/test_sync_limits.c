@@ -391,6 +391,24 @@ static void large_chi_keeps_its_estimate(void **state)
     }
 }
 
+/* A stiff dashpot answers a velocity with a force that takes it back many times over within a step: what integrates the force must damp.
+ * The ledger is of 512 levels at most, some thousandths for impacts that take more; 0.03 is twice the worst of these. */
+static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
+{
+    const double impacts[4][4] = {
+        {84.7227, 1.39769e-5, 3829.34, 0}, {61.748, 3.96424, 3138.84, 0}, {80, 0.01, 15, 0}, {57.898, 0.0017934, 13.78, 0}};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const double *n = impacts[i];
+        const struct solution s = solve_impact(sync_to(1e-3), impact_of(n[0], n[1], n[2], n[3]));
+        const restitute_result fine = solve_impact(sync_to(1e-5), impact_of(n[0], n[1], n[2], n[3])).result;
+        CHECK(s.status == RESTITUTE_OK, "impact %d: status %d", i, s.status);
+        CHECK_NEAR(s.result.ex, fine.ex, s.result.error_ex + fine.error_ex, "impact %d", i);
+        CHECK_NEAR(s.ledger.residual_x, 0, 0.03, "impact %d", i);
+        CHECK(s.ledger.friction_x >= 0, "impact %d: friction work %g", i, s.ledger.friction_x);
+    }
+}
+
 /* A sphere that is easily turned: its tangential oscillation is sqrt(2 chi) times as fast as the normal one, up to forty-five
  * times. The default method needs a second for the last ones. */
 static void extreme_chi_works(void **state)
@@ -458,6 +476,7 @@ int main(void)
         cmocka_unit_test(what_sinks_does_not_stop_what_friction_cannot),
         cmocka_unit_test(extreme_chi_works),
         cmocka_unit_test(large_chi_keeps_its_estimate),
+        cmocka_unit_test(stiff_dashpots_keep_the_sphere_from_swinging),
         cmocka_unit_test(slip_may_end_as_the_sphere_turns),
         cmocka_unit_test(polyisobutylene_agrees_with_euler_at_all_speeds),
     };
