@@ -265,7 +265,7 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
     type(shear_type), intent(inout) :: state
-    real(dp) :: push, force, velocity, shift, change, passed, start, feedback, weight(0:3)
+    real(dp) :: push, force, velocity, shift, change, passed, start, feedback, direction, weight(0:3)
     type(sums_type) :: sums
     logical :: stuck
     integer(ip) :: trial, k
@@ -295,8 +295,11 @@ contains
     call find_front(scene, body(:, column_kappa), step%last, state)
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
     passed = start + impulse(force, weight, state)
-    if (restitution .and. state%front < 0 .and. step%last >= 0 .and. abs(abs(force) - normal%force) <= slides_within*normal%force) &
-      passed = sliding_impulse(sign(1.0_dp, force), stuck, step%h, normal%force, weight, state)
+    if (restitution .and. scene%no_slip == 0 .and. state%front < step%last) then
+      direction = sign(1.0_dp, body(state%front + 1, column_kappa))
+      if (state%front >= 0 .or. abs(force - direction*normal%force) <= slides_within*normal%force) &
+        passed = impulse_near_sliding(direction, stuck, step%h, force, normal%force, passed, weight, state)
+    end if
     velocity = state%velocity - push*passed
     call move(scene, push, force, velocity, state, term, step, shift)
     do k = 1, scene%n_terms
@@ -349,23 +352,32 @@ contains
     passed = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
   end function impulse
 
-  !> The same over a step at whose end the whole contact slips. If some of it stuck at the start, what S lacks of full friction
-  !> falls to nothing within the step, like the 3/2-th power of the time that is left to it, as the radius of stick does like its
-  !> root.
-  pure function sliding_impulse(direction, stuck, h, normal_force, weight, state) result(passed)
-    real(dp), intent(in) :: direction, h, normal_force, weight(0:3)
+  !> The same where stick ends at the centre, in the step or soon after: its radius vanishes like the root of the time that is left to
+  !> it, and so what S lacks of full friction like the 3/2-th power. That is integrated by this law, full friction as before; the more
+  !> time is left, the more of the cubic there is.
+  pure function impulse_near_sliding(direction, stuck, h, force, normal_force, cubic, weight, state) result(passed)
+    real(dp), intent(in) :: direction, h, force, normal_force, cubic, weight(0:3)
     logical, intent(in) :: stuck  !! some of it, at the start
     type(shear_type), intent(in) :: state
-    real(dp) :: passed, lack(2), left
+    real(dp) :: passed, lack(0:2), z(0:2), left, share
     passed = direction*(weight(0)*normal_force + dot_product(weight(1:), state%normal_before))
-    if (.not. stuck) return
-    lack = [state%force - direction*state%normal_before(0), state%force_before(1) - direction*state%normal_before(1)]
-    left = h/2
-    associate (z => abs(lack)**(2.0_dp/3.0_dp))
+    if (state%front < 0 .and. .not. stuck) return
+    lack = [force - direction*normal_force, state%force - direction*state%normal_before(0), &
+            state%force_before(1) - direction*state%normal_before(1)]
+    if (state%front < 0) then
+      lack(0) = 0
+      z(1:2) = abs(lack(1:2))**(2.0_dp/3.0_dp)
+      left = h/2
       if (z(2) > z(1)) left = min(h, state%step_before(1)*z(1)/(z(2) - z(1)))
-    end associate
-    passed = passed + 0.4_dp*lack(1)*left
-  end function sliding_impulse
+      passed = passed + 0.4_dp*lack(1)*left
+    else
+      z(0:1) = abs(lack(0:1))**(2.0_dp/3.0_dp)
+      share = 0
+      if (z(0) < z(1)/2) share = 1 - 2*z(0)/z(1)
+      left = h*z(1)/max(z(1) - z(0), z(1)/2)
+      passed = share*(passed + 0.4_dp*(lack(1)*left - lack(0)*(left - h))) + (1 - share)*cubic
+    end if
+  end function impulse_near_sliding
 
   !> U, M_k and Q at the new level for a velocity whose ends and slopes at both ends are known.
   pure subroutine move(scene, push, force, velocity, state, term, step, shift)
