@@ -360,22 +360,21 @@ contains
     logical, intent(in) :: stuck  !! some of it, at the start
     type(shear_type), intent(in) :: state
     real(dp) :: passed, lack(0:2), z(0:2), left, share
+    lack = abs([force - direction*normal_force, state%force - direction*state%normal_before(0), &
+                state%force_before(1) - direction*state%normal_before(1)])
+    passed = cubic
+    if (state%front >= 0 .and. lack(0) >= 0.35_dp*lack(1)) return ! two steps and more are left, as lack^(2/3) tells
     passed = direction*(weight(0)*normal_force + dot_product(weight(1:), state%normal_before))
-    if (state%front < 0 .and. .not. stuck) return
-    lack = [force - direction*normal_force, state%force - direction*state%normal_before(0), &
-            state%force_before(1) - direction*state%normal_before(1)]
-    if (state%front < 0) then
-      lack(0) = 0
-      z(1:2) = abs(lack(1:2))**(2.0_dp/3.0_dp)
+    if (state%front >= 0) then
+      z(0:1) = lack(0:1)**(2.0_dp/3.0_dp)
+      share = max(0.0_dp, 1 - 2*z(0)/z(1))
+      left = h*z(1)/(z(1) - z(0))
+      passed = share*(passed - direction*0.4_dp*(lack(1)*left - lack(0)*(left - h))) + (1 - share)*cubic
+    else if (stuck) then
+      z(1:2) = lack(1:2)**(2.0_dp/3.0_dp)
       left = h/2
       if (z(2) > z(1)) left = min(h, state%step_before(1)*z(1)/(z(2) - z(1)))
-      passed = passed + 0.4_dp*lack(1)*left
-    else
-      z(0:1) = abs(lack(0:1))**(2.0_dp/3.0_dp)
-      share = 0
-      if (z(0) < z(1)/2) share = 1 - 2*z(0)/z(1)
-      left = h*z(1)/max(z(1) - z(0), z(1)/2)
-      passed = share*(passed + 0.4_dp*(lack(1)*left - lack(0)*(left - h))) + (1 - share)*cubic
+      passed = passed - direction*0.4_dp*lack(1)*left
     end if
   end function impulse_near_sliding
 
