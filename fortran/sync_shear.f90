@@ -34,7 +34,8 @@ module rst_sync_shear
   !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
   !> end of the step always.
   real(dp), parameter :: stiff_above = 1.5_dp, very_stiff_above = 6
-  real(dp), parameter :: shortest_start = 0.1_dp   !! of a step, after gross slip
+  !> Part of a step below which the first one after gross slip says nothing of slopes: their errors grow as it falls.
+  real(dp), parameter :: shortest_start = 0.1_dp
   real(dp), parameter :: slides_within = 1.0e-9_dp !! of full friction, what sums of rounding leave
 
 contains
