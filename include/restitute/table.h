@@ -287,16 +287,23 @@ typedef struct restitute_table_data {
     int64_t chi_cells;               /**< even cells of chi, with a cubic each; 0: one node */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
     int64_t nodes[4]; /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
-    const double *ez; /**< [speed][gamma]; with cells: [cell][4 nodes of delta1][4 of gamma] */
+    const double *ez; /**< [speed][gamma]; with cells: [cell of ez][4 nodes of w][4 of gamma] */
     const double *
         ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1); with cells: NULL */
 
-    int64_t cells; /**< 0; > 0: a table with axes of delta1 and gamma, divided by patches. Then `parts` is 1, 1, and
-                      nodes[0], nodes[1] are the number of cells and 16 */
-    const int64_t *
-        patches; /**< [octave of delta1][octave of gamma][3]: the first cell, k, l: 2^k by 2^l cells in [0, 5], those along gamma
-                               one after the other */
-    const float *ex_cells; /**< [cell][psi][chi][4 nodes of delta1][4 of gamma]: what `ex` is in other tables */
+    int64_t cells; /**< 0; > 0: a table with axes of delta1 and gamma, which are divided by trees of cells, one for ex and one for ez.
+                      Then `parts` is 1, 1, nodes[0], nodes[1] are the number of cells and 16, and the cells of chi and psi are not used */
+    int64_t rebound_cells; /**< the cells of ez */
+    int64_t w_width, w_first,
+        w_roots; /**< log2 of w = delta1 gamma^0.56 (1 + gamma)^0.44 is divided into `w_roots` roots, 2^w_width wide, from w_first
+                    2^w_width on; so is gamma into octaves, and psi into five sheets: psi from 0 to 1, then quarters of t: r(y) is 2 r(1/2) t
+                    up to t = 1/2, and r(1 - y) is 2 r(1/2) (1 - t) beyond */
+    int64_t chain_length, chain[32]; /**< along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi. Those of ez: always w */
+    const int64_t *leaves, *rebound_leaves; /**< [cell][7]: octave of gamma, root of w, sheet of psi (0 for ez); depth, path: the cell is what
+                                               `depth` halvings leave, bit (depth - 1 - d) of the path tells which half is taken
+                                               by halving d; level, part: which of the 2^level parts of the octave of gamma */
+    const float *ex_cells; /**< [cell][4 nodes of psi][of chi][of w][of gamma], evenly spaced from end to end of the cell, those of gamma in
+                              gamma itself; ex for psi <= 1, beyond it psi ex - y ez */
 } restitute_table_data;
 
 RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);

@@ -38,15 +38,9 @@ double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
     return start + (end - start) * (double)(i % rst_cubic) / rst_cubic;
 }
 
-/* r(1/2) */
-static double largest_r(void)
-{
-    return sqrt(0.5 + rst_soft * rst_soft) - rst_soft;
-}
-
 double rst_slip_node(int64_t cells, int64_t i)
 {
-    return (double)i / (double)(cells * rst_cubic) * largest_r();
+    return (double)i / (double)(cells * rst_cubic) * rst_largest_r;
 }
 
 double rst_slip_y(double r)
@@ -61,6 +55,9 @@ void rst_table_count(restitute_table *form)
     if (form->n_cells > 0) {
         form->n_speed = form->n_cells;
         form->n_gamma = rst_cell_nodes;
+        form->n_chi = form->chi_low < form->chi_high ? rst_cubic + 1 : 1;
+        form->n_psi = rst_cubic + 1;
+        return;
     }
     form->n_chi = form->chi_cells * rst_cubic + 1;
     form->start[0] = 0;
@@ -70,7 +67,7 @@ void rst_table_count(restitute_table *form)
     form->n_psi = form->start[2] + half;
     form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->n_psi > 1;
     form->psi_cells[0] = nextafter((double)form->stick_cells, 0);
-    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / largest_r(), 0);
+    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / rst_largest_r, 0);
 }
 
 double rst_chi_node(const restitute_table *form, int64_t i)
@@ -80,20 +77,18 @@ double rst_chi_node(const restitute_table *form, int64_t i)
     return form->chi_low + (form->chi_high - form->chi_low) * ((double)i / (double)last);
 }
 
-int64_t rst_patches_number(struct rst_patch *patch, int64_t count)
+double rst_table_h(double gamma)
 {
-    int64_t cells = 0;
-    for (int64_t i = 0; i < count; i++) {
-        patch[i].first = cells;
-        cells += INT64_C(1) << (patch[i].k[0] + patch[i].k[1]);
-    }
-    return cells;
+    return pow(gamma, 0.56) * pow(1 + gamma, 0.44);
 }
 
-double rst_patch_node(const struct rst_octaves *axis, int64_t octave, int64_t k, int64_t i)
+void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, int64_t width, struct rst_w_axis *w)
 {
-    const double start = rst_octaves_node(axis, octave * rst_cubic);
-    return start + start * (double)i / (double)(rst_cubic << k);
+    const double end = rst_octaves_node(gamma, gamma->cells * rst_cubic), scale = ldexp(1, -(int)width);
+    const double first = log2(low * rst_table_h(rst_octaves_node(gamma, 0))) * scale;
+    const double last = log2(high * rst_table_h(end)) * scale;
+    *w = (struct rst_w_axis){.first = (int64_t)floor(first), .width = width, .scale = scale};
+    w->roots = (int64_t)floor(last) + 1 - w->first;
 }
 
 /* Doubles that hold so many bytes. */
@@ -102,13 +97,34 @@ static size_t doubles(size_t bytes)
     return (bytes + sizeof(double) - 1) / sizeof(double);
 }
 
+/* Trees are planted already. */
+static restitute_table *allocate_cells(const restitute_table *form)
+{
+    const size_t n_ez = (size_t)form->rebound.leaves * rst_cell_nodes, n_term = 2 * (size_t)form->terms, line = 64;
+    const size_t n_ex = (size_t)form->n_cells * rst_cell_nodes * (size_t)(form->n_psi * form->n_chi);
+    const size_t along = (size_t)form->gamma.cells * rst_cubic + 1;
+    const size_t size = n_ez + n_term + along + doubles(n_ex * sizeof(float) + line);
+    restitute_table *table = malloc(sizeof *table + size * sizeof(double));
+    if (!table) return NULL;
+    *table = *form;
+    table->block_size = size;
+    table->ez = table->block;
+    table->term = table->ez + n_ez;
+    table->along = table->term + n_term;
+    for (size_t i = 0; i < along; i++)
+        table->along[i] = rst_table_h(rst_octaves_node(&form->gamma, (int64_t)i));
+    char *values = (char *)(table->along + along);
+    values += (line - (uintptr_t)values % line) % line; /* a node's values of w and gamma: one line */
+    table->ex_cells = (float *)(void *)values;
+    table->ex = NULL;
+    return table;
+}
+
 restitute_table *rst_table_allocate(const restitute_table *form)
 {
+    if (form->n_cells > 0) return allocate_cells(form);
     const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma, n_term = 2 * (size_t)form->terms;
-    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi, line = 64;
-    const size_t patches = form->n_cells > 0 ? (size_t)(form->speed.cells * form->gamma.cells) : 0;
-    const size_t n_values = form->n_cells > 0 ? doubles(n_ex * sizeof(float) + line) : n_ex;
-    const size_t size = n_ez + n_term + n_values + doubles(patches * sizeof(struct rst_patch));
+    const size_t size = n_ez + n_term + n_ez * (size_t)form->n_psi * (size_t)form->n_chi;
     restitute_table *table = malloc(sizeof *table + size * sizeof(double));
     if (!table) return NULL;
     *table = *form;
@@ -116,16 +132,13 @@ restitute_table *rst_table_allocate(const restitute_table *form)
     table->ez = table->block;
     table->term = table->ez + n_ez;
     table->ex = table->term + n_term;
-    if (form->n_cells == 0) return table;
-    table->patch = (struct rst_patch *)(void *)table->ex;
-    char *values = (char *)(table->patch + patches);
-    table->ex_cells =
-        (float *)(void *)(values + (line - (uintptr_t)values % line) % line); /* a node's cells: one line */
-    table->ex = NULL;
     return table;
 }
 
 void restitute_table_destroy(restitute_table *table)
 {
+    if (!table) return;
+    rst_tree_fell(&table->rebound);
+    rst_tree_fell(&table->tangent);
     free(table);
 }

@@ -6,12 +6,11 @@
  * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
  * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
  *
- * A table with axes of delta1 and of gamma is divided further where it needs it: ex has lines across which a higher derivative jumps,
- * oblique in (delta1, gamma) and elsewhere for every psi and chi. A patch is one octave of each; it has 2^k cells along delta1 and
- * 2^l along gamma, with k and l of its own. A cell keeps all of its 4 x 4 nodes side by side, in single precision for ex: a lookup then
- * reads runs of memory. Where a patch meets one of fewer cells, its nodes are put on the polynomials of that one.
+ * A table with axes of delta1 and gamma has a tree of cells for ez and one for ex (tree.h). A cell keeps all of its nodes side by side, in
+ * single precision for ex: a lookup then reads runs of memory.
  *
- * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c.
+ * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c. In cells of a tree that is
+ * psi ex - y ez beyond psi = 1, which is ex at psi = 1 and 0 at psi_c, where ex is ez/psi_c: continuous there whatever the error of ez.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
@@ -22,17 +21,19 @@
 
 #include <restitute/table.h>
 
+#include "tree.h"
+
 enum {
     rst_cubic = 3, /* degree along all axes */
     rst_most_chi = 33,
-    rst_cell_nodes = 16,
-    rst_finest_patch = 5 /* largest k and l of a patch */
+    rst_cell_nodes = 16
 };
 
-/* One octave of delta1 and of gamma. */
-struct rst_patch {
-    int64_t first; /* its first cell; along gamma they follow each other */
-    int64_t k[2];
+/* log2 of w = delta1 h(gamma), divided into roots of a tree. */
+struct rst_w_axis {
+    int64_t first, roots; /* the first begins at log2 w = first 2^width */
+    int64_t width;        /* log2 of the octaves of a root */
+    double scale;         /* 2^-width */
 };
 
 /* An axis by octaves. */
@@ -73,10 +74,11 @@ struct restitute_table {
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
 
-    int64_t
-        n_cells; /* > 0: patches; then speed and gamma have octaves, n_speed is n_cells, n_gamma the nodes of a cell */
-    struct rst_patch *patch; /* [octave of delta1][octave of gamma] */
-    float *ex_cells;         /* [cell][psi][chi][node]; ez is [cell][node] */
+    int64_t n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the nodes along w and gamma */
+    struct rst_w_axis w;
+    struct rst_tree rebound, tangent;
+    double *along;   /* h at the nodes of the octaves of gamma; ez is [leaf of rebound][w][gamma] */
+    float *ex_cells; /* [leaf of tangent][psi][chi][w][gamma] */
     size_t block_size;       /* doubles in `block` */
     double block[];
 };
@@ -100,11 +102,11 @@ double rst_chi_node(const restitute_table *form, int64_t i);
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
 
-/* Number the cells of the patches, one after the other; how many there are. */
-int64_t rst_patches_number(struct rst_patch *patch, int64_t count);
+/* h: delta1 h(gamma) = 1/3 is about where ex turns sharply; a power of gamma for small gamma, gamma itself for large. */
+double rst_table_h(double gamma);
 
-/* Number at a node of a patch whose octave along the axis is `octave`; 0 <= i <= 3 2^k. */
-double rst_patch_node(const struct rst_octaves *axis, int64_t octave, int64_t k, int64_t i);
+/* Set the roots so that they hold delta1 in [low, high] for all gamma of the axis. width: log2 of their octaves. */
+void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, int64_t width, struct rst_w_axis *w);
 
 /* Counts and starts of nodes from the cells. */
 void rst_table_count(restitute_table *form);
@@ -127,19 +129,6 @@ static inline double rst_octaves_find(const struct rst_octaves *axis, double num
     return (double)(bits & axis->mask) * axis->scale;
 }
 
-/* Cell of a table of patches, and places in [0, 3] in it. */
-static inline int64_t rst_cell_find(const restitute_table *t, double speed, double gamma, double s[2])
-{
-    int64_t i, j;
-    const double x = rst_octaves_find(&t->speed, speed, &i), y = rst_octaves_find(&t->gamma, gamma, &j);
-    const struct rst_patch *p = &t->patch[i * t->gamma.cells + j];
-    const double u = x * (double)(INT64_C(1) << p->k[0]), v = y * (double)(INT64_C(1) << p->k[1]);
-    const int64_t a = (int64_t)(u * (1.0 / rst_cubic)), b = (int64_t)(v * (1.0 / rst_cubic));
-    s[0] = u - (double)(a * rst_cubic);
-    s[1] = v - (double)(b * rst_cubic);
-    return p->first + (a << p->k[1]) + b;
-}
-
 /* Weights of the four nodes s = 0, 1, 2, 3. */
 static inline void rst_cubic_weights(double s, double w[4])
 {
@@ -149,6 +138,34 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[1] = s * bc * 0.5;
     w[2] = ab * c * -0.5;
     w[3] = ab * b * (1.0 / 6);
+}
+
+/* Places in [0, 1) of an octave of gamma and of a root of w. */
+struct rst_spot {
+    int64_t octave, root;
+    double gamma, w;
+};
+
+/* The largest number below 1 */
+static const double rst_below_one = 1 - 0x1p-53;
+
+static inline void rst_spot_find(const restitute_table *t, double delta1, double gamma, struct rst_spot *spot)
+{
+    double h[4];
+    const double s = rst_octaves_find(&t->gamma, gamma, &spot->octave);
+    const double *along = t->along + spot->octave * rst_cubic;
+    delta1 = !(delta1 > t->speed.low) ? t->speed.low : delta1;
+    delta1 = delta1 > t->speed.high ? t->speed.high : delta1;
+    rst_cubic_weights(s, h);
+    const double w = delta1 * ((h[0] * along[0] + h[1] * along[1]) + (h[2] * along[2] + h[3] * along[3]));
+    double u = log2(w) * t->w.scale - (double)t->w.first;
+    u = u > 0 ? u : 0;
+    int64_t root = (int64_t)u;
+    root = root < t->w.roots ? root : t->w.roots - 1;
+    u -= (double)root;
+    spot->root = root;
+    spot->w = u < rst_below_one ? u : rst_below_one;
+    spot->gamma = s * (1.0 / rst_cubic);
 }
 
 /* First node of the cell of chi, which is in the table's range, and place s in [0, 3] in it. */
@@ -184,6 +201,32 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
     const int64_t cell = (int64_t)u;
     *s = (u - (double)cell) * rst_cubic;
     return t->start[slips + (slips & (other < y))] + cell * rst_cubic;
+}
+
+/* r(1/2) */
+static const double rst_largest_r = 0.6916543936097672;
+
+/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y and `quotient` as above, y = 0 for psi <= 1. The
+ * sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. */
+static inline int64_t rst_sheet_find(double sliding, double v_n, double width, double *place, double *y,
+                                     double *quotient)
+{
+    const int slips = sliding > v_n;
+    const double beyond = sliding - v_n, most = width * v_n;
+    const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
+    const double at = ratio < 1 ? ratio : 1, other = 1 - at;
+    const double root = sqrt((other < at ? other : at) + rst_soft * rst_soft) - rst_soft;
+    const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
+    const double quarters = root * (0.5 * rst_slip_sheets / rst_largest_r);
+    *quotient = smaller / (larger > rst_least ? larger : rst_least);
+    *y = at;
+    const double u = slips ? 1 + (other < at ? rst_slip_sheets - quarters : quarters) : *quotient;
+    int64_t sheet = (int64_t)u;
+    sheet = sheet < slips ? slips : sheet;
+    sheet = sheet > slips * rst_slip_sheets ? slips * rst_slip_sheets : sheet;
+    const double left = u - (double)sheet;
+    *place = left > 0 ? left < rst_below_one ? left : rst_below_one : 0;
+    return sheet;
 }
 
 #endif
