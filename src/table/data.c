@@ -10,6 +10,11 @@
 static const int64_t most_cells_of_psi = 1 << 20, most_terms = 1 << 20;
 static const double most_values = 1e11;
 
+/* Of tables with cells: parts of gamma in all roots; the highest delta1 and gamma, whose w must be finite; widths of roots and where they
+ * begin, far beyond any w. */
+static const double most_parts = 1 << 24, most_of_axis = 1 << 30;
+static const int64_t narrowest_root = -8, widest_root = 4, farthest_root = 1 << 20;
+
 void restitute_table_data_init(restitute_table_data *data)
 {
     if (!data) return;
@@ -30,6 +35,20 @@ static void view_axis(const struct rst_octaves *axis, int i, restitute_table_dat
     d->low[i] = rst_octaves_node(axis, 0);
     d->high[i] = rst_octaves_node(axis, axis->cells * rst_cubic);
     d->parts[i] = axis->cells > 0 ? INT64_C(1) << (52 - axis->shift) : 0;
+}
+
+/* Leaves are numbers and no more: the view is of the tree's own. */
+static void view_trees(const restitute_table *t, restitute_table_data *d)
+{
+    d->rebound_cells = t->rebound.leaves;
+    d->w_width = t->w.width;
+    d->w_first = t->w.first;
+    d->w_roots = t->w.roots;
+    d->chain_length = t->tangent.chain_length;
+    for (int64_t i = 0; i < d->chain_length; i++)
+        d->chain[i] = t->tangent.chain[i];
+    d->leaves = &t->tangent.leaf->octave;
+    d->rebound_leaves = &t->rebound.leaf->octave;
 }
 
 int restitute_table_to_data(const restitute_table *table, restitute_table_data *data, restitute_error *error)
@@ -68,50 +87,13 @@ int restitute_table_to_data(const restitute_table *table, restitute_table_data *
                                    .ez = table->ez,
                                    .ex = table->ex,
                                    .cells = table->n_cells,
-                                   .patches = table->n_cells > 0 ? &table->patch->first : NULL,
                                    .ex_cells = table->ex_cells};
     memcpy(data->range, table->asked, sizeof data->range);
     memcpy(data->version, table->version, sizeof data->version);
     view_axis(&table->speed, 0, data);
     view_axis(&table->gamma, 1, data);
+    if (table->n_cells > 0) view_trees(table, data);
     return rst_done(error);
-}
-
-/* delta1 or gamma at the nodes of all cells. */
-static void cell_nodes(const restitute_table *t, int axis, double *place)
-{
-    const int64_t patches = t->speed.cells * t->gamma.cells;
-    for (int64_t p = 0; p < patches; p++) {
-        const int64_t octave = axis ? p % t->gamma.cells : p / t->gamma.cells, *k = t->patch[p].k;
-        for (int64_t cell = 0; cell < INT64_C(1) << (k[0] + k[1]); cell++) {
-            const int64_t first = rst_cubic * (axis ? cell % (INT64_C(1) << k[1]) : cell >> k[1]);
-            for (int64_t m = 0; m < rst_cell_nodes; m++)
-                *place++ =
-                    rst_patch_node(axis ? &t->gamma : &t->speed, octave, k[axis], first + (axis ? m % 4 : m / 4));
-        }
-    }
-}
-
-int restitute_table_nodes(const restitute_table *table, int axis, double *places)
-{
-    if (!table || !places) return RESTITUTE_ERROR_NULL;
-    if (axis < 0 || axis > 3) return RESTITUTE_ERROR_DOMAIN;
-    if (axis < 2 && table->n_cells > 0) {
-        cell_nodes(table, axis, places);
-        return RESTITUTE_OK;
-    }
-    for (int64_t i = 0; axis < 2 && i < (axis ? table->n_gamma : table->n_speed); i++)
-        places[i] = rst_octaves_node(axis ? &table->gamma : &table->speed, i);
-    for (int64_t i = 0; axis == 2 && i < table->n_chi; i++)
-        places[i] = rst_chi_node(table, i);
-    for (int64_t i = 0; axis == 3 && i < table->n_psi; i++) {
-        const double root = i >= table->start[2]   ? rst_slip_node(table->slip_cells, i - table->start[2])
-                            : i >= table->start[1] ? rst_slip_node(table->slip_cells, i - table->start[1])
-                                                   : 0;
-        const double stick = table->stick_cells ? (double)i / (double)(table->stick_cells * rst_cubic) : 0;
-        places[i] = i >= table->start[2] ? 2 - rst_slip_y(root) : i >= table->start[1] ? 1 + rst_slip_y(root) : stick;
-    }
-    return RESTITUTE_OK;
 }
 
 /* ---- from outside */
@@ -164,30 +146,72 @@ static int check_values(const double *value, size_t n, double low, double high, 
     return RESTITUTE_OK;
 }
 
-/* Both axes of octaves: patches, and all of their values in cells. */
-static int set_cells(const restitute_table_data *d, restitute_table *form, restitute_error *error)
+/* The order of halvings. */
+static int check_chain(const restitute_table_data *d, restitute_error *error)
 {
-    const int64_t patches = form->speed.cells * form->gamma.cells;
-    if (patches == 0 && d->cells == 0) return RESTITUTE_OK;
-    const int octaves = patches > 0 && d->parts[0] == 1 && d->parts[1] == 1;
-    if (!octaves || d->of_contact || d->stick_cells == 0 || d->cells < patches ||
-        d->cells > patches << (2 * rst_finest_patch))
-        return refuse(error, "number of cells");
-    form->n_cells = d->cells;
+    int halvings[rst_alongs] = {0};
+    if (d->chain_length < 0 || d->chain_length > rst_deepest) return refuse(error, "chain");
+    for (int64_t i = 0; i < d->chain_length; i++) {
+        const int64_t along = d->chain[i];
+        const int good = along >= 0 && along < rst_alongs && (along != RST_ALONG_CHI || d->chi_low < d->chi_high);
+        if (!good || ++halvings[along] > rst_most_halvings) return refuse(error, "chain");
+    }
     return RESTITUTE_OK;
 }
 
-/* Numbered and divided as a table's are. */
-static int check_patches(const restitute_table_data *d, int64_t patches, restitute_error *error)
+/* Axes of delta1 and gamma: roots of the trees of cells, and no other values. */
+static int set_cells(const restitute_table_data *d, restitute_table *form, restitute_error *error)
 {
-    int64_t cells = 0;
-    for (int64_t p = 0; p < patches; p++) {
-        const int64_t first = d->patches[3 * p], k = d->patches[3 * p + 1], l = d->patches[3 * p + 2];
-        if (first != cells || k < 0 || k > rst_finest_patch || l < 0 || l > rst_finest_patch)
-            return refuse(error, "patches");
-        cells += INT64_C(1) << (k + l);
-    }
-    return cells == d->cells ? RESTITUTE_OK : refuse(error, "patches");
+    const int both = form->speed.cells > 0 && form->gamma.cells > 0;
+    if (!both && d->cells == 0) return RESTITUTE_OK;
+    const int64_t most = INT32_MAX - 1;
+    if (!both || d->parts[0] != 1 || d->parts[1] != 1 || d->of_contact || d->cells <= 0 || d->cells > most ||
+        d->rebound_cells <= 0 || d->rebound_cells > most || d->high[0] > most_of_axis || d->high[1] > most_of_axis)
+        return refuse(error, "number of cells");
+    const double octaves = (double)form->gamma.cells;
+    if (d->w_width < narrowest_root || d->w_width > widest_root || d->w_first < -farthest_root ||
+        d->w_first > farthest_root || d->w_roots <= 0 || d->w_roots > farthest_root ||
+        octaves * (double)d->w_roots * rst_sheets * (1 << rst_finest_part) > most_parts)
+        return refuse(error, "roots of w");
+    form->w = (struct rst_w_axis){.first = d->w_first,
+                                  .roots = d->w_roots,
+                                  .width = d->w_width,
+                                  .scale = ldexp(1, -(int)d->w_width)};
+    form->n_cells = d->cells;
+    return check_chain(d, error);
+}
+
+/* Leaves that are in the roots and do not overlap. Whether they fill the roots is not asked, since a build leaves out what no delta1 of its
+ * range reaches: where there is none a lookup takes another, so that it cannot leave the arrays. */
+static int plant(const int64_t *leaves, int64_t count, const char *name, struct rst_tree *tree, restitute_error *error)
+{
+    const struct rst_leaf *leaf = (const struct rst_leaf *)(const void *)leaves;
+    for (int64_t i = 0; i < count; i++)
+        if (!rst_tree_takes(tree, &leaf[i])) return refuse(error, name);
+    const int failed = rst_tree_plant(tree, leaf, count);
+    if (failed == 1) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    return failed ? refuse(error, name) : RESTITUTE_OK;
+}
+
+static void fell_trees(restitute_table *form)
+{
+    rst_tree_fell(&form->rebound);
+    rst_tree_fell(&form->tangent);
+}
+
+static int plant_trees(const restitute_table_data *d, restitute_table *form, restitute_error *error)
+{
+    int8_t chain[rst_deepest], by_w[rst_most_halvings];
+    for (int64_t i = 0; i < d->chain_length; i++)
+        chain[i] = (int8_t)d->chain[i];
+    memset(by_w, RST_ALONG_W, sizeof by_w);
+    const struct rst_roots roots = {form->gamma.cells, form->w.roots, rst_sheets}, flat = {roots.octaves, roots.roots, 1};
+    rst_tree_begin(roots, chain, d->chain_length, &form->tangent);
+    rst_tree_begin(flat, by_w, rst_most_halvings, &form->rebound);
+    int status = plant(d->leaves, d->cells, "leaves", &form->tangent, error);
+    if (!status) status = plant(d->rebound_leaves, d->rebound_cells, "rebound_leaves", &form->rebound, error);
+    if (status) fell_trees(form);
+    return status;
 }
 
 static int set_form(const restitute_table_data *d, restitute_table *form, restitute_error *error)
@@ -256,42 +280,61 @@ int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4
     return rst_done(error);
 }
 
+/* How many values there are. */
+static size_t count_ez(const restitute_table_data *d, const restitute_table *form)
+{
+    return form->n_cells > 0 ? (size_t)d->rebound_cells * rst_cell_nodes
+                             : (size_t)form->n_speed * (size_t)form->n_gamma;
+}
+
+static size_t count_ex(const restitute_table *form)
+{
+    return (size_t)form->n_speed * (size_t)form->n_gamma * (size_t)form->n_psi * (size_t)form->n_chi;
+}
+
+/* Interpolation may overshoot by the error; beyond psi = 1 the difference of two ex is kept. */
+static int check_arrays(const restitute_table_data *d, const restitute_table *form, restitute_error *error)
+{
+    const int cells = form->n_cells > 0;
+    if (!d->ez || (cells ? !d->ex_cells || !d->leaves || !d->rebound_leaves : !d->ex) ||
+        (d->terms > 0 && (!d->relaxation_time || !d->modulus)))
+        return rst_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
+    if (d->of_contact && !(d->psi_factor >= 0)) return refuse(error, "psi_factor");
+    const int status = check_values(d->ez, count_ez(d, form), -0.5, 1.5, "ez", error);
+    if (status) return status;
+    return cells ? check_singles(d->ex_cells, count_ex(form), -1e4F, 1e4F, "ex_cells", error)
+                 : check_values(d->ex, count_ex(form), -1e4, 1e4, "ex", error);
+}
+
+static void copy_values(const restitute_table_data *d, restitute_table *made)
+{
+    const size_t terms = (size_t)made->terms * sizeof *made->term;
+    memcpy(made->ez, d->ez, count_ez(d, made) * sizeof *made->ez);
+    if (made->n_cells > 0)
+        memcpy(made->ex_cells, d->ex_cells, count_ex(made) * sizeof *made->ex_cells);
+    else
+        memcpy(made->ex, d->ex, count_ex(made) * sizeof *made->ex);
+    if (terms == 0) return;
+    memcpy(made->term, d->relaxation_time, terms);
+    memcpy(made->term + made->terms, d->modulus, terms);
+}
+
 int restitute_table_from_data(const restitute_table_data *data, restitute_table **table, restitute_error *error)
 {
     restitute_table form;
     if (!data || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "table" : "data");
     int status = check_size(data, error);
     if (!status) status = set_form(data, &form, error);
-    if (status) return status;
-    const int cells = form.n_cells > 0;
-    if (!data->ez || (cells ? !data->ex_cells || !data->patches : !data->ex) ||
-        (data->terms > 0 && (!data->relaxation_time || !data->modulus)))
-        return rst_report(error, RESTITUTE_ERROR_NULL, "an array of restitute_table_data is NULL");
-    const size_t n_ez = (size_t)form.n_speed * (size_t)form.n_gamma;
-    const size_t n_ex = n_ez * (size_t)form.n_psi * (size_t)form.n_chi;
-    if (data->of_contact && !(data->psi_factor >= 0)) return refuse(error, "psi_factor");
-    /* interpolation may overshoot by the error; beyond psi = 1 the difference of two ex is kept */
-    status = check_values(data->ez, n_ez, -0.5, 1.5, "ez", error);
-    const int64_t patches = form.speed.cells * form.gamma.cells;
-    if (!status && cells) status = check_patches(data, patches, error);
-    if (!status)
-        status = cells ? check_singles(data->ex_cells, n_ex, -1e4F, 1e4F, "ex_cells", error)
-                       : check_values(data->ex, n_ex, -1e4, 1e4, "ex", error);
+    if (!status) status = check_arrays(data, &form, error);
+    if (!status && form.n_cells > 0) status = plant_trees(data, &form, error);
     if (status) return status;
     set_numbers(data, &form);
     restitute_table *made = rst_table_allocate(&form);
-    if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
-    memcpy(made->ez, data->ez, n_ez * sizeof *made->ez);
-    if (cells) {
-        memcpy(made->patch, data->patches, (size_t)patches * sizeof *made->patch);
-        memcpy(made->ex_cells, data->ex_cells, n_ex * sizeof *made->ex_cells);
-    } else {
-        memcpy(made->ex, data->ex, n_ex * sizeof *made->ex);
+    if (!made) {
+        fell_trees(&form);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     }
-    if (form.terms > 0) {
-        memcpy(made->term, data->relaxation_time, (size_t)form.terms * sizeof *made->term);
-        memcpy(made->term + form.terms, data->modulus, (size_t)form.terms * sizeof *made->term);
-    }
+    copy_values(data, made);
     *table = made;
     return rst_done(error);
 }

@@ -6,8 +6,7 @@
 
 #include "table_form.h"
 
-/* Weights and their derivatives for nodes s = 0..3, by products without one factor, or without two. */
-static void cubic_slopes(double s, double w[4], double dw[4])
+void rst_cubic_slopes(double s, double w[4], double dw[4])
 {
     for (int k = 0; k <= rst_cubic; k++) {
         double scale = 1, product = 1, sum = 0;
@@ -29,20 +28,9 @@ struct direction {
     int n;
 };
 
-/* Both, and the cell in a table of patches. */
 struct directions {
     struct direction speed, gamma;
-    int64_t cell;
 };
-
-static void set_weights(const struct rst_octaves *axis, double number, double s, double width, struct direction *d)
-{
-    d->n = 4;
-    cubic_slopes(s, d->w, d->dw);
-    const int inside = number >= axis->low && number <= axis->high;
-    for (int i = 0; i < 4; i++)
-        d->dw[i] *= inside ? rst_cubic / width : 0;
-}
 
 static struct direction find_direction(const struct rst_octaves *axis, double number)
 {
@@ -51,46 +39,24 @@ static struct direction find_direction(const struct rst_octaves *axis, double nu
     int64_t cell;
     const double s = rst_octaves_find(axis, number, &cell);
     d.node = cell * rst_cubic;
-    set_weights(axis, number, s, rst_octaves_node(axis, d.node + rst_cubic) - rst_octaves_node(axis, d.node), &d);
-    return d;
-}
-
-/* Width of the cells of the patch at a number: an octave is as wide as its start. */
-static double cell_width(const restitute_table *t, double speed, double gamma, int axis)
-{
-    int64_t i, j;
-    rst_octaves_find(&t->speed, speed, &i);
-    rst_octaves_find(&t->gamma, gamma, &j);
-    const double octave = rst_octaves_node(axis ? &t->gamma : &t->speed, (axis ? j : i) * rst_cubic);
-    return ldexp(octave, -(int)t->patch[i * t->gamma.cells + j].k[axis]);
-}
-
-static struct directions find_directions(const restitute_table *t, double speed, double gamma)
-{
-    struct directions d = {.cell = 0};
-    if (t->n_cells == 0) {
-        d.speed = find_direction(&t->speed, speed);
-        d.gamma = find_direction(&t->gamma, gamma);
-        return d;
-    }
-    double s[2];
-    d.cell = rst_cell_find(t, speed, gamma, s);
-    set_weights(&t->speed, speed, s[0], cell_width(t, speed, gamma, 0), &d.speed);
-    set_weights(&t->gamma, gamma, s[1], cell_width(t, speed, gamma, 1), &d.gamma);
+    d.n = 4;
+    rst_cubic_slopes(s, d.w, d.dw);
+    const double width = rst_octaves_node(axis, d.node + rst_cubic) - rst_octaves_node(axis, d.node);
+    const int inside = number >= axis->low && number <= axis->high;
+    for (int i = 0; i < 4; i++)
+        d.dw[i] *= inside ? rst_cubic / width : 0;
     return d;
 }
 
 /* Which of the ez is at a node. */
 static int64_t corner_of(const restitute_table *t, const struct directions *d, int i, int j)
 {
-    if (t->n_cells > 0) return d->cell * rst_cell_nodes + 4 * i + j;
     return (d->speed.node + i) * t->n_gamma + d->gamma.node + j;
 }
 
 static double ex_at(const restitute_table *t, const struct directions *d, int i, int j, int64_t psi, int64_t chi)
 {
-    if (t->n_cells == 0) return t->ex[(corner_of(t, d, i, j) * t->n_psi + psi) * t->n_chi + chi];
-    return (double)t->ex_cells[((d->cell * t->n_psi + psi) * t->n_chi + chi) * rst_cell_nodes + 4 * i + j];
+    return t->ex[(corner_of(t, d, i, j) * t->n_psi + psi) * t->n_chi + chi];
 }
 
 static double sum_ez(const restitute_table *t, const struct directions *d, const double *by_speed)
@@ -131,7 +97,11 @@ static double slip_stretch(const restitute_table *t, double y)
 void rst_table_slope(const restitute_table *t, double speed, double gamma, double chi, double psi,
                      struct rst_slope *slope)
 {
-    const struct directions d = find_directions(t, speed, gamma);
+    if (t->n_cells > 0) {
+        rst_cell_slope(t, speed, gamma, chi, psi, slope);
+        return;
+    }
+    const struct directions d = {find_direction(&t->speed, speed), find_direction(&t->gamma, gamma)};
     const double ez = sum_ez(t, &d, d.speed.w);
     double chi_w[4] = {1}, s;
     double quotient;
@@ -154,7 +124,7 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
         y = (psi - 1) / (critical - 1);
         p.node = rst_psi_find(t, psi, 1, critical - 1, &s, &quotient);
         p.n = 4;
-        cubic_slopes(s, p.w, p.dw);
+        rst_cubic_slopes(s, p.w, p.dw);
         stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);
     }
     slope->ex_speed = sum_ex(t, &d, d.speed.dw, chi_w, chi_node, &p, p.w);

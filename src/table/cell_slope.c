@@ -1,0 +1,126 @@
+/* Derivatives in a table with axes of delta1 and gamma: those of the cubics of the cells that a lookup takes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "slope.h"
+
+#include "table_form.h"
+
+/* Weights of a cell's four nodes along an axis, and their derivatives by the number that the axis goes by. */
+struct edge {
+    double w[4], dw[4];
+};
+
+/* stretch: how the place u in the root goes with that number. */
+static void set_edge(double u, int halvings, double stretch, struct edge *e)
+{
+    rst_cubic_slopes(rst_tree_place(u, halvings), e->w, e->dw);
+    for (int i = 0; i < 4; i++)
+        e->dw[i] *= ldexp(rst_cubic * stretch, halvings);
+}
+
+/* Of log2 w by delta1; 0 outside of the table. */
+static double w_stretch(const restitute_table *t, double delta1)
+{
+    return delta1 >= t->speed.low && delta1 <= t->speed.high ? t->w.scale / (delta1 * log(2)) : 0;
+}
+
+/* ez, and its derivative by delta1. */
+static double rebound(const restitute_table *t, const struct rst_spot *spot, double stretch, double *slope)
+{
+    const uint32_t code = rst_tree_code(&t->rebound, RST_ALONG_W, spot->w);
+    const int64_t leaf = rst_tree_find(&t->rebound, spot->octave, spot->root, 0, spot->gamma, code);
+    const struct rst_shape shape = t->rebound.shape[leaf];
+    const double *v = t->ez + leaf * rst_cell_nodes;
+    struct edge w, gamma;
+    set_edge(spot->w, t->rebound.halvings[RST_ALONG_W][shape.depth], stretch, &w);
+    set_edge(spot->gamma, shape.level, 0, &gamma);
+    double ez = 0, by_delta1 = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            ez += w.w[i] * gamma.w[j] * v[4 * i + j];
+            by_delta1 += w.dw[i] * gamma.w[j] * v[4 * i + j];
+        }
+    *slope = ez > 0 && ez < 1 ? by_delta1 : 0;
+    return fmin(1, fmax(0, ez));
+}
+
+/* Where in the tree of ex, and how the place on the sheet goes with psi, or beyond psi = 1 with y. */
+struct seat {
+    int64_t sheet;
+    double chi, psi, y, stretch;
+};
+
+static struct seat find_seat(const restitute_table *t, double chi, double psi, double width)
+{
+    double quotient;
+    struct seat seat = {.stretch = 1};
+    seat.sheet = rst_sheet_find(psi, 1, width, &seat.psi, &seat.y, &quotient);
+    if (seat.sheet > 0)
+        seat.stretch = 0.25 * rst_slip_sheets / rst_largest_r /
+                       sqrt(fmin(seat.y, 1 - seat.y) + rst_soft * rst_soft);
+    if (t->n_chi > 1) seat.chi = fmin(rst_below_one, (chi - t->chi_low) / (t->chi_high - t->chi_low));
+    return seat;
+}
+
+/* What is kept: its value, and its derivatives by delta1 and by psi or y. */
+struct kept {
+    double value, by_delta1, by_psi;
+};
+
+static struct kept sum_cell(const restitute_table *t, const struct rst_spot *spot, double stretch,
+                            const struct seat *seat)
+{
+    const struct rst_tree *tree = &t->tangent;
+    const uint32_t code = rst_tree_code(tree, RST_ALONG_W, spot->w) | rst_tree_code(tree, RST_ALONG_CHI, seat->chi) |
+                          rst_tree_code(tree, RST_ALONG_PSI, seat->psi);
+    const int64_t leaf = rst_tree_find(tree, spot->octave, spot->root, seat->sheet, spot->gamma, code);
+    const int depth = tree->shape[leaf].depth;
+    const float *v = t->ex_cells + leaf * t->n_psi * t->n_chi * rst_cell_nodes;
+    struct edge w, gamma, chi = {.w = {1}}, psi;
+    struct kept sum = {0, 0, 0};
+    set_edge(spot->w, tree->halvings[RST_ALONG_W][depth], stretch, &w);
+    set_edge(spot->gamma, tree->shape[leaf].level, 0, &gamma);
+    if (t->n_chi > 1) set_edge(seat->chi, tree->halvings[RST_ALONG_CHI][depth], 0, &chi);
+    set_edge(seat->psi, tree->halvings[RST_ALONG_PSI][depth], seat->stretch, &psi);
+    for (int k = 0; k < 4; k++)
+        for (int64_t l = 0; l < t->n_chi; l++)
+            for (int i = 0; i < 4; i++)
+                for (int j = 0; j < 4; j++) {
+                    const double part = gamma.w[j] * chi.w[l] * (double)*v++;
+                    sum.value += w.w[i] * psi.w[k] * part;
+                    sum.by_delta1 += w.dw[i] * psi.w[k] * part;
+                    sum.by_psi += w.w[i] * psi.dw[k] * part;
+                }
+    return sum;
+}
+
+/* Beyond psi = 1: psi ex is what is kept and y ez; y moves with psi_c, which moves with ez. */
+static void slip_slope(const struct kept *kept, double y, double ez, double psi, double width, double width_by_ez,
+                       struct rst_slope *slope)
+{
+    const double ex = (kept->value + y * ez) / psi, by_y = kept->by_psi + ez;
+    const double y_by_delta1 = -y * width_by_ez * slope->ez_speed / width;
+    slope->ex_speed = (kept->by_delta1 + by_y * y_by_delta1 + y * slope->ez_speed) / psi;
+    slope->ex_psi = (by_y / width - ex) / psi;
+}
+
+void rst_cell_slope(const restitute_table *t, double delta1, double gamma, double chi, double psi,
+                    struct rst_slope *slope)
+{
+    struct rst_spot spot;
+    const double stretch = w_stretch(t, delta1);
+    rst_spot_find(t, delta1, gamma, &spot);
+    *slope = (struct rst_slope){.ez_speed = 0};
+    const double ez = rebound(t, &spot, stretch, &slope->ez_speed);
+    chi = fmin(fmax(chi, t->chi_low), t->chi_high);
+    const double full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
+    if (psi >= critical) { /* psi^2 could overflow */
+        slope->ex_speed = 2 * chi * slope->ez_speed / psi;
+        slope->ex_psi = -full / psi / psi;
+        return;
+    }
+    const struct seat seat = find_seat(t, chi, psi, critical - 1);
+    const struct kept kept = sum_cell(t, &spot, stretch, &seat);
+    slope->ex_speed = kept.by_delta1;
+    slope->ex_psi = kept.by_psi;
+    if (psi > 1) slip_slope(&kept, seat.y, ez, psi, critical - 1, 2 * chi - 1, slope);
+}
