@@ -1,5 +1,5 @@
 /* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only functions of
- * libm are the fifth root of the speed in tables of ranges, and none of them can set errno for what gets here.
+ * libm are, in tables of ranges, the fifth root of the speed and a logarithm, and none of them can set errno for what gets here.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 
@@ -127,30 +127,33 @@ typedef float four __attribute__((__vector_size__(16)));
 #error "lookup.c needs the vector types of gcc and clang"
 #endif
 
-/* Cell, and weights along delta1 and gamma. */
+/* A leaf of a tree, and weights along w and gamma. */
 struct cell_place {
     int64_t cell;
-    double speed[4], gamma[4];
+    double w[4], gamma[4];
 };
 
-static inline void find_cell(const restitute_table *t, double speed, double gamma, struct cell_place *p)
+static inline void find_cell(const struct rst_tree *tree, const struct rst_spot *spot, int64_t sheet, uint32_t code,
+                             struct cell_place *p)
 {
-    double s[2];
-    p->cell = rst_cell_find(t, speed, gamma, s);
-    rst_cubic_weights(s[0], p->speed);
-    rst_cubic_weights(s[1], p->gamma);
+    p->cell = rst_tree_find(tree, spot->octave, spot->root, sheet, spot->gamma, code);
+    const struct rst_shape shape = tree->shape[p->cell];
+    rst_cubic_weights(rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]), p->w);
+    rst_cubic_weights(rst_tree_place(spot->gamma, shape.level), p->gamma);
 }
 
-static inline double rebound_in_cell(const restitute_table *t, const struct cell_place *p)
+static inline double rebound_in_cell(const restitute_table *t, const struct rst_spot *spot)
 {
-    const double *v = t->ez + p->cell * rst_cell_nodes, *g = p->gamma;
+    struct cell_place p;
+    find_cell(&t->rebound, spot, 0, rst_tree_code(&t->rebound, RST_ALONG_W, spot->w), &p);
+    const double *v = t->ez + p.cell * rst_cell_nodes, *g = p.gamma;
     double sum = 0;
     for (int i = 0; i < 4; i++, v += 4)
-        sum += p->speed[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
+        sum += p.w[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
     return clamp(sum, 0, 1);
 }
 
-/* First over psi and chi, all nodes of delta1 and gamma side by side. */
+/* First over psi and chi, all nodes of w and gamma side by side. */
 static inline double sum_cell(const restitute_table *t, const float *v, const double w[4], const double x[4], int m,
                               const struct cell_place *p)
 {
@@ -166,24 +169,30 @@ static inline double sum_cell(const restitute_table *t, const float *v, const do
     const double *g = p->gamma;
     double total = 0;
     for (int i = 0; i < 4; i++)
-        total += p->speed[i] * ((g[0] * (double)sum[i][0] + g[1] * (double)sum[i][1]) +
+        total += p->w[i] * ((g[0] * (double)sum[i][0] + g[1] * (double)sum[i][1]) +
                                 (g[2] * (double)sum[i][2] + g[3] * (double)sum[i][3]));
     return total;
 }
 
-static inline double tangential_in_cell(const restitute_table *t, const struct cell_place *p, double chi, int64_t node,
-                                        double s)
+/* At a place on a sheet; chi: in [0, 1). */
+static inline double tangential_in_cell(const restitute_table *t, const struct rst_spot *spot, double chi,
+                                        int64_t sheet, double psi)
 {
-    double w[4], x[4] = {1}, chi_s;
-    const float *v = t->ex_cells + (p->cell * t->n_psi + node) * t->n_chi * rst_cell_nodes;
-    rst_cubic_weights(s, w);
-    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, p);
-    v += rst_chi_find(t, chi, &chi_s) * rst_cell_nodes;
-    rst_cubic_weights(chi_s, x);
-    return sum_cell(t, v, w, x, 4, p);
+    const struct rst_tree *tree = &t->tangent;
+    const uint32_t code = rst_tree_code(tree, RST_ALONG_W, spot->w) | rst_tree_code(tree, RST_ALONG_CHI, chi) |
+                          rst_tree_code(tree, RST_ALONG_PSI, psi);
+    struct cell_place p;
+    double w[4], x[4] = {1};
+    find_cell(tree, spot, sheet, code, &p);
+    const int depth = tree->shape[p.cell].depth;
+    const float *v = t->ex_cells + p.cell * t->n_psi * t->n_chi * rst_cell_nodes;
+    rst_cubic_weights(rst_tree_place(psi, tree->halvings[RST_ALONG_PSI][depth]), w);
+    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, &p);
+    rst_cubic_weights(rst_tree_place(chi, tree->halvings[RST_ALONG_CHI][depth]), x);
+    return sum_cell(t, v, w, x, 4, &p);
 }
 
-/* A table of patches. */
+/* A table of trees. */
 #if defined(__GNUC__)
 __attribute__((__noinline__))
 #endif
@@ -191,19 +200,20 @@ static void
 evaluate_cells(const restitute_table *t, double speed, double gamma, double chi, double sliding, double v_n,
                restitute_table_value *pair)
 {
-    struct cell_place p;
-    double s, quotient;
-    find_cell(t, speed, gamma, &p);
+    struct rst_spot spot;
+    double psi, y, quotient;
+    rst_spot_find(t, speed, gamma, &spot);
     chi = chi_in_table(t, chi);
-    const double ez = rebound_in_cell(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
+    const double ez = rebound_in_cell(t, &spot), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     pair->ez = ez;
     if (sliding > critical * v_n) {
         pair->ex = clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
         return;
     }
-    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient);
-    const double closed = (sliding > v_n) * (full * quotient - 1);
-    pair->ex = clamp(tangential_in_cell(t, &p, chi, node, s) + closed, -1, 1);
+    const int64_t sheet = rst_sheet_find(sliding, v_n, critical - 1, &psi, &y, &quotient);
+    const double by_chi = t->n_chi > 1 ? clamp((chi - t->chi_low) / (t->chi_high - t->chi_low), 0, rst_below_one) : 0;
+    const double kept = tangential_in_cell(t, &spot, by_chi, sheet, psi);
+    pair->ex = clamp(sheet > 0 ? (kept + y * ez) * quotient : kept, -1, 1);
 }
 
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
@@ -247,9 +257,9 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
 {
     struct place p;
     if (table->n_cells > 0) {
-        struct cell_place place;
-        find_cell(table, speed, gamma, &place);
-        return rebound_in_cell(table, &place);
+        struct rst_spot spot;
+        rst_spot_find(table, speed, gamma, &spot);
+        return rebound_in_cell(table, &spot);
     }
     find_place(table, speed, gamma, &p);
     return rebound(table, &p);
