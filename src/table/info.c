@@ -23,6 +23,15 @@ static void describe_contact(const restitute_table *t, restitute_table_info *i)
     }
 }
 
+/* Of what a tree takes. */
+static size_t bytes_of(const struct rst_tree *t)
+{
+    if (!t->room) return 0;
+    const size_t starts = (size_t)((t->of.octaves * t->of.roots * t->of.sheets) << t->part_bits);
+    return (size_t)t->leaves * (sizeof *t->leaf + sizeof *t->shape) + (size_t)t->fans * sizeof *t->fan +
+           starts * sizeof *t->start;
+}
+
 int restitute_table_describe(const restitute_table *table, restitute_table_info *info, restitute_error *error)
 {
     if (!table || !info) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
@@ -43,7 +52,8 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
                                    .impacts = table->impacts,
                                    .checks = table->checks,
                                    .nodes = {table->n_speed, table->n_gamma, table->n_chi, table->n_psi},
-                                   .bytes = sizeof *table + table->block_size * sizeof(double)};
+                                   .bytes = sizeof *table + table->block_size * sizeof(double) +
+                                            bytes_of(&table->rebound) + bytes_of(&table->tangent)};
     memcpy(info->version, table->version, sizeof info->version);
     copy_range(info->chi, table->asked[2]);
     if (table->of_contact)
