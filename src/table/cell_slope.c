@@ -55,8 +55,7 @@ static struct seat find_seat(const restitute_table *t, double chi, double psi, d
     struct seat seat = {.stretch = 1};
     seat.sheet = rst_sheet_find(psi, 1, width, &seat.psi, &seat.y, &quotient);
     if (seat.sheet > 0)
-        seat.stretch = 0.25 * rst_slip_sheets / rst_largest_r /
-                       sqrt(fmin(seat.y, 1 - seat.y) + rst_soft * rst_soft);
+        seat.stretch = 0.25 * rst_slip_sheets / rst_largest_r / sqrt(fmin(seat.y, 1 - seat.y) + rst_soft * rst_soft);
     if (t->n_chi > 1) seat.chi = fmin(rst_below_one, (chi - t->chi_low) / (t->chi_high - t->chi_low));
     return seat;
 }

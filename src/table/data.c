@@ -173,10 +173,8 @@ static int set_cells(const restitute_table_data *d, restitute_table *form, resti
         d->w_first > farthest_root || d->w_roots <= 0 || d->w_roots > farthest_root ||
         octaves * (double)d->w_roots * rst_sheets * (1 << rst_finest_part) > most_parts)
         return refuse(error, "roots of w");
-    form->w = (struct rst_w_axis){.first = d->w_first,
-                                  .roots = d->w_roots,
-                                  .width = d->w_width,
-                                  .scale = ldexp(1, -(int)d->w_width)};
+    form->w = (struct rst_w_axis){
+        .first = d->w_first, .roots = d->w_roots, .width = d->w_width, .scale = ldexp(1, -(int)d->w_width)};
     form->n_cells = d->cells;
     return check_chain(d, error);
 }
@@ -205,7 +203,8 @@ static int plant_trees(const restitute_table_data *d, restitute_table *form, res
     for (int64_t i = 0; i < d->chain_length; i++)
         chain[i] = (int8_t)d->chain[i];
     memset(by_w, RST_ALONG_W, sizeof by_w);
-    const struct rst_roots roots = {form->gamma.cells, form->w.roots, rst_sheets}, flat = {roots.octaves, roots.roots, 1};
+    const struct rst_roots roots = {form->gamma.cells, form->w.roots, rst_sheets},
+                           flat = {roots.octaves, roots.roots, 1};
     rst_tree_begin(roots, chain, d->chain_length, &form->tangent);
     rst_tree_begin(flat, by_w, rst_most_halvings, &form->rebound);
     int status = plant(d->leaves, d->cells, "leaves", &form->tangent, error);

@@ -62,9 +62,9 @@ static double *leaf_nodes(const restitute_table *t, const struct rst_leaf *l, in
         *place++ = axis ? gamma : delta1_of_leaf(t, l, m / 4, h);
     }
     for (int m = 0; axis == 2 && m < t->n_chi; m++)
-        *place++ = t->n_chi == 1 ? t->chi_low
-                                 : t->chi_low + (t->chi_high - t->chi_low) *
-                                                    place_in_root(&t->tangent, l, RST_ALONG_CHI, m);
+        *place++ = t->n_chi == 1
+                       ? t->chi_low
+                       : t->chi_low + (t->chi_high - t->chi_low) * place_in_root(&t->tangent, l, RST_ALONG_CHI, m);
     for (int m = 0; axis == 3 && m < t->n_psi; m++)
         *place++ = psi_of_sheet(l->sheet, place_in_root(&t->tangent, l, RST_ALONG_PSI, m));
     return place;

@@ -7,6 +7,9 @@
 
 static const char title[] = "unfinished table";
 
+/* Builders of schema 1 asked for other impacts. */
+enum { oldest_schema = 2 };
+
 static int write_journal(const restitute_table_builder *builder, const char *settings, const char *path,
                          restitute_error *error)
 {
@@ -18,8 +21,8 @@ static int write_journal(const restitute_table_builder *builder, const char *set
     if (status) return status;
     const int failed = rst_put_text(file.file, "settings", settings) ||
                        rst_put_text(file.file, "restitute_version", restitute_version()) ||
-                       rst_put_numbers(file.file, "impacts", 2, size, count ? journal : nothing, "1",
-                                       "ez, ex, estimated error of ez, of ex");
+                       rst_put_values(file.file, "impacts", RST_DOUBLES, 2, size, count ? journal : nothing, "1",
+                                      "ez, ex, estimated error of ez, of ex");
     return rst_new_file_end(&file, !failed, title, path, error);
 }
 
@@ -53,9 +56,9 @@ static int read_journal(hid_t file, restitute_table_builder *builder, const char
     if (!same_text(file, "settings", settings) || !same_text(file, "restitute_version", restitute_version()))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%.120s: was begun with other settings or by another version",
                           path);
-    const int64_t count = rst_count_numbers(file, "impacts");
+    const int64_t count = rst_count_values(file, "impacts", RST_DOUBLES);
     double *journal = count >= 0 ? malloc((size_t)(count + 1) * sizeof *journal) : NULL;
-    if (!journal || count % 4 != 0 || (count > 0 && rst_get_numbers(file, "impacts", count, journal))) {
+    if (!journal || count % 4 != 0 || (count > 0 && rst_get_values(file, "impacts", RST_DOUBLES, count, journal))) {
         free(journal);
         return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no impacts", path);
     }
@@ -74,7 +77,7 @@ int restitute_table_builder_read(restitute_table_builder *builder, const char *s
                           : !settings ? "settings"
                                       : "path");
     const struct rst_quiet quiet = rst_quiet_begin();
-    int status = rst_old_file_open(path, title, &file, error);
+    int status = rst_old_file_open(path, title, oldest_schema, &file, error);
     if (!status) {
         status = read_journal(file.file, builder, settings, path, error);
         rst_old_file_close(&file);

@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { block_size = 512, schema = 1 };
+enum { block_size = 512, schema = 2 };
 
 struct rst_quiet rst_quiet_begin(void)
 {
@@ -39,14 +39,14 @@ static uint64_t checksum(const unsigned char *bytes, size_t size)
     return hash;
 }
 
-static void make_block(const char *title, const unsigned char *bytes, size_t size, char block[block_size])
+static void make_block(const char *title, int version, uint64_t sum, size_t size, char block[block_size])
 {
     memset(block, 0, block_size);
     snprintf(block, block_size,
              "restitute %s, schema %d, checksum %016" PRIx64
              ", bytes %zu\nHDF5 begins at byte 512 (a user block of HDF5); h5py "
              "and h5dump read this file as it is.\n",
-             title, schema, checksum(bytes, size), size);
+             title, version, sum, size);
 }
 
 /* ---- reading bytes */
@@ -80,7 +80,8 @@ static int read_all(const char *path, struct rst_old_file *file, restitute_error
 }
 
 /* Not what was expected: say how far it is from it. */
-static int refuse_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
+static int refuse_block(const char *path, const char *title, int oldest, const struct rst_old_file *file,
+                        restitute_error *error)
 {
     char start[64];
     int version = 0;
@@ -95,27 +96,36 @@ static int refuse_block(const char *path, const char *title, const struct rst_ol
             error, RESTITUTE_ERROR_FORMAT,
             "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged", path,
             version, schema);
+    if (version > 0 && version < oldest)
+        return rst_report(
+            error, RESTITUTE_ERROR_FORMAT,
+            "%.120s: schema %d: this library reads from %d on; it was written by an earlier one, or is damaged", path,
+            version, oldest);
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 
-static int check_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
+static int check_block(const char *path, const char *title, int oldest, struct rst_old_file *file,
+                       restitute_error *error)
 {
     char block[block_size];
-    if (file->size > block_size) {
-        make_block(title, file->bytes + block_size, file->size - block_size, block);
+    const size_t size = file->size > block_size ? file->size - block_size : 0;
+    const uint64_t sum = size > 0 ? checksum(file->bytes + block_size, size) : 0;
+    for (file->schema = schema; size > 0 && file->schema >= oldest; file->schema--) {
+        make_block(title, file->schema, sum, size, block);
         if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
     }
-    return refuse_block(path, title, file, error);
+    return refuse_block(path, title, oldest, file, error);
 }
 
 /* HDF5 wants a name even for what is in memory, and that there is no such file. */
 static const char no_file[] = "/dev/null/in_memory";
 
-int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
+int rst_old_file_open(const char *path, const char *title, int oldest_schema, struct rst_old_file *file,
+                      restitute_error *error)
 {
     *file = (struct rst_old_file){.file = -1};
     int status = read_all(path, file, error);
-    if (!status) status = check_block(path, title, file, error);
+    if (!status) status = check_block(path, title, oldest_schema, file, error);
     if (!status) {
         const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
         if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&
@@ -191,7 +201,8 @@ static int put_block(const char *path, const char *title)
         free(whole.bytes);
         return 1;
     }
-    make_block(title, whole.bytes + block_size, whole.size - block_size, block);
+    const size_t size = whole.size - block_size;
+    make_block(title, schema, checksum(whole.bytes + block_size, size), size, block);
     free(whole.bytes);
     FILE *stream = fopen(path, "r+b");
     if (!stream) return 1;

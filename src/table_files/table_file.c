@@ -1,6 +1,5 @@
-/* A table in a file: schema 1 of table_files.h.
+/* A table in a file: schema 2 of table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +8,20 @@
 
 static const char title[] = "table";
 
+/* Tables of schema 1 are the same but for those with cells. */
+enum { schema = 2, oldest_schema = 1 };
+
 /* Members that are attributes of the root. */
 #define NUMBERS(X)                                                                                                     \
     X(tolerance)                                                                                                       \
     X(error_ez)                                                                                                        \
     X(error_ex)                                                                                                        \
-    X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor)    \
-        X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(psi_factor)                                                                                                      \
+    X(own_chi)                                                                                                         \
+    X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor) X(chi_low) X(chi_high)      \
+        X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells) X(cells)
+#define CELL_INTEGERS(X) X(rebound_cells) X(w_width) X(w_first) X(w_roots) /* with cells alone */
 
 static const char units_of_attributes[] = "speeds m/s; duration s (of the contact at 1 m/s); radius m; mass kg; "
                                           "equilibrium_modulus Pa; parallel_viscosity Pa s; "
@@ -39,13 +44,16 @@ static int put_attributes(hid_t f, const restitute_table_data *d)
 {
     int failed = rst_put_text(f, "kind", d->of_contact ? "contact" : "ranges");
     failed |= rst_put_text(f, "restitute_version", d->version);
-    failed |= rst_put_integer(f, "schema", 1);
+    failed |= rst_put_integer(f, "schema", schema);
     failed |= rst_put_text(f, "units", units_of_attributes);
 #define PUT(member) failed |= rst_put_number(f, #member, d->member);
     NUMBERS(PUT)
 #undef PUT
 #define PUT(member) failed |= rst_put_integer(f, #member, d->member);
     INTEGERS(PUT)
+    if (d->cells > 0) {
+        CELL_INTEGERS(PUT)
+    }
 #undef PUT
     failed |= rst_put_integer(f, "parts_first", d->parts[0]);
     failed |= rst_put_integer(f, "parts_gamma", d->parts[1]);
@@ -54,62 +62,62 @@ static int put_attributes(hid_t f, const restitute_table_data *d)
     return failed;
 }
 
-static int put_axes(hid_t f, const restitute_table *table, const restitute_table_data *d)
+/* Places of nodes; with cells: those of each cell. */
+static int put_axis(hid_t f, const restitute_table *table, const restitute_table_data *d, int axis)
 {
-    static const char *const names[] = {NULL, "gamma", "chi", "psi"};
-    static const char *const texts[] = {"nodes of the first axis", "nodes of gamma (23)", "nodes of chi (22)",
+    static const char *const names[] = {"delta1", "gamma", "chi", "psi"};
+    static const char *const texts[] = {"nodes of delta1 (23)", "nodes of gamma (23)", "nodes of chi (22)",
                                         "nodes of psi (22) up to 1, then 1 + y, y = (psi - 1)/(psi_c - 1)"};
-    int failed = 0;
-    for (int axis = 0; axis < 4 && !failed; axis++) {
-        const int by_cells = axis < 2 && d->cells > 0; /* [cell][16] */
-        const int64_t size[2] = {d->nodes[by_cells ? 0 : axis], by_cells ? d->nodes[1] : 1};
-        double *place = malloc((size_t)(size[0] * size[1]) * sizeof *place);
-        if (!place) return 1;
-        const char *name = axis ? names[axis] : d->of_contact ? "speed" : "delta1";
-        failed =
-            restitute_table_nodes(table, axis, place) ||
-            rst_put_numbers(f, name, 1 + by_cells, size, place, axis == 0 && d->of_contact ? "m/s" : "1", texts[axis]);
-        free(place);
-    }
+    const int speed = axis == 0 && d->of_contact, cells = d->cells > 0, by_w = cells && axis < 2;
+    const int64_t size[3] = {cells ? d->cells : d->nodes[axis], by_w ? 4 : d->nodes[axis], 4};
+    double *place = malloc((size_t)(size[0] * (cells ? size[1] : 1) * (by_w ? size[2] : 1)) * sizeof *place);
+    if (!place) return 1;
+    const int failed = restitute_table_nodes(table, axis, place) ||
+                       rst_put_values(f, speed ? "speed" : names[axis], RST_DOUBLES, 1 + cells + by_w, size, place,
+                                      speed ? "m/s" : "1", speed ? "nodes of the speed" : texts[axis]);
+    free(place);
     return failed;
 }
 
-static const char text_of_ex[] =
-    "ex for psi <= 1, then ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone";
+static const char
+    text_of_ex[] = "ex for psi <= 1, then ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone",
+    text_of_cells[] =
+        "ex for psi <= 1, then psi ex - y ez; from psi_c on 2 chi (1 + ez)/psi - 1. Its nodes: those of psi, chi, w "
+        "and gamma of each cell",
+    text_of_leaves[] =
+        "octave of gamma, root of w, sheet of psi, halvings along the chain, their path, level and part of "
+        "gamma: see restitute_table_data";
 
-/* A table with cells: numbers of the patches as numbers, ex in single precision as in the table itself. */
+/* A table with cells: ex in single precision as in the table itself. */
 static int put_cells(hid_t f, const restitute_table_data *d)
 {
-    const int64_t octaves[3] = {(int64_t)round(log2(d->high[0] / d->low[0])),
-                                (int64_t)round(log2(d->high[1] / d->low[1])), 3};
-    const int64_t size[2] = {d->cells, d->nodes[1]}, size_ex[4] = {d->cells, d->nodes[3], d->nodes[2], d->nodes[1]};
-    const int64_t count = octaves[0] * octaves[1] * octaves[2];
-    double *number = malloc((size_t)count * sizeof *number);
-    if (!number) return 1;
-    for (int64_t i = 0; i < count; i++)
-        number[i] = (double)d->patches[i];
-    const int failed = rst_put_numbers(f, "patches", 3, octaves, number, "1",
-                                       "[octave of delta1][octave of gamma]: first cell, k, l: 2^k by 2^l cells") ||
-                       rst_put_numbers(f, "ez", 2, size, d->ez, "1", "ez at [cell][node]") ||
-                       rst_put_singles(f, "ex", 4, size_ex, d->ex_cells, "1", text_of_ex);
-    free(number);
-    return failed;
+    const int64_t size_ez[3] = {d->rebound_cells, 4, 4}, leaves[2] = {d->cells, 7}, rebound[2] = {d->rebound_cells, 7};
+    const int64_t size_ex[4] = {d->cells, d->nodes[3], d->nodes[2], d->nodes[1]};
+    return rst_put_values(f, "ez", RST_DOUBLES, 3, size_ez, d->ez, "1", "ez at [cell][w][gamma]") ||
+           rst_put_values(f, "ex", RST_SINGLES, 4, size_ex, d->ex_cells, "1", text_of_cells) ||
+           rst_put_values(f, "leaves", RST_INTEGERS, 2, leaves, d->leaves, "1", text_of_leaves) ||
+           rst_put_values(f, "rebound_leaves", RST_INTEGERS, 2, rebound, d->rebound_leaves, "1", text_of_leaves) ||
+           rst_put_values(f, "chain", RST_INTEGERS, 1, &d->chain_length, d->chain, "1",
+                          "along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi");
 }
 
 static int put_dense(hid_t f, const restitute_table_data *d)
 {
     const int64_t size[4] = {d->nodes[0], d->nodes[1], d->nodes[3], d->nodes[2]};
-    return rst_put_numbers(f, "ez", 2, size, d->ez, "1", "ez at [speed or delta1][gamma]") ||
-           rst_put_numbers(f, "ex", 4, size, d->ex, "1", text_of_ex);
+    return rst_put_values(f, "ez", RST_DOUBLES, 2, size, d->ez, "1", "ez at [speed or delta1][gamma]") ||
+           rst_put_values(f, "ex", RST_DOUBLES, 4, size, d->ex, "1", text_of_ex);
 }
 
 static int put_table(hid_t f, const restitute_table *table, const restitute_table_data *d)
 {
-    const int failed = put_attributes(f, d) || put_axes(f, table, d) || (d->cells > 0 ? put_cells : put_dense)(f, d);
+    int failed = put_attributes(f, d);
+    for (int axis = 0; axis < 4 && !failed; axis++)
+        failed = put_axis(f, table, d, axis);
+    if (!failed) failed = (d->cells > 0 ? put_cells : put_dense)(f, d);
     if (failed || d->terms == 0) return failed;
-    return rst_put_numbers(f, "relaxation_time", 1, &d->terms, d->relaxation_time, "s",
-                           "of the material's Prony series") ||
-           rst_put_numbers(f, "modulus", 1, &d->terms, d->modulus, "Pa", "of the material's Prony series");
+    return rst_put_values(f, "relaxation_time", RST_DOUBLES, 1, &d->terms, d->relaxation_time, "s",
+                          "of the material's Prony series") ||
+           rst_put_values(f, "modulus", RST_DOUBLES, 1, &d->terms, d->modulus, "Pa", "of the material's Prony series");
 }
 
 static int write_table(const restitute_table *table, const restitute_table_data *d, const char *path,
@@ -144,6 +152,9 @@ static int get_attributes(hid_t f, restitute_table_data *d)
 #undef GET
 #define GET(member) failed |= rst_get_integer(f, #member, &d->member);
     INTEGERS(GET)
+    if (!failed && d->cells > 0) {
+        CELL_INTEGERS(GET)
+    }
 #undef GET
     failed |= rst_get_integer(f, "parts_first", &d->parts[0]);
     failed |= rst_get_integer(f, "parts_gamma", &d->parts[1]);
@@ -152,88 +163,94 @@ static int get_attributes(hid_t f, restitute_table_data *d)
     return failed;
 }
 
-/* All datasets in one block; their sizes are those that the file says. */
-enum { SET_EZ, SET_EX, SET_TIMES, SET_MODULI, SET_PATCHES, SETS };
-struct arrays {
-    int64_t count[SETS];
-    double *start[SETS];
-    float *ex_cells;
-    int64_t *patches;
-};
-
-static const char *const set_names[SETS] = {"ez", "ex", "relaxation_time", "modulus", "patches"};
-
-static int count_arrays(hid_t f, const restitute_table_data *d, struct arrays *a)
+/* The halvings; no more than there is room for. */
+static int get_chain(hid_t f, restitute_table_data *d)
 {
-    for (int i = 0; i < SETS; i++) {
-        const int absent = (i == SET_TIMES || i == SET_MODULI) ? d->terms == 0 : i == SET_PATCHES && d->cells == 0;
-        a->count[i] = absent ? 0 : rst_count_numbers(f, set_names[i]);
-        if (a->count[i] < 0) return 1;
-    }
-    return d->terms > 0 && (a->count[SET_TIMES] != d->terms || a->count[SET_MODULI] != d->terms);
+    if (d->cells == 0) return 0;
+    d->chain_length = rst_count_values(f, "chain", RST_INTEGERS);
+    if (d->chain_length < 0 || d->chain_length > (int64_t)(sizeof d->chain / sizeof *d->chain)) return 1;
+    return rst_get_values(f, "chain", RST_INTEGERS, d->chain_length, d->chain);
 }
 
-static int get_arrays(hid_t f, struct arrays *a)
+/* A dataset, and how many values it must have. */
+enum { SET_EZ, SET_EX, SET_TIMES, SET_MODULI, SET_LEAVES, SET_REBOUND_LEAVES, SETS };
+struct set {
+    const char *name;
+    enum rst_kind kind;
+    int64_t count;
+    void *value;
+};
+
+static void expect_sets(const restitute_table_data *d, const int64_t n[4], struct set set[SETS])
 {
-    int64_t total = 0; /* of few counts, each bounded by the bytes of the file */
-    for (int i = 0; i < SETS; i++)
-        total += a->count[i];
-    a->start[0] = malloc((size_t)(total + 1) * sizeof(double));
-    if (!a->start[0]) return 1;
+    const int cells = d->cells > 0;
+    const struct set all[SETS] = {{"ez", RST_DOUBLES, cells ? 16 * d->rebound_cells : n[0] * n[1], NULL},
+                                  {"ex", cells ? RST_SINGLES : RST_DOUBLES, n[0] * n[1] * n[2] * n[3], NULL},
+                                  {"relaxation_time", RST_DOUBLES, d->terms, NULL},
+                                  {"modulus", RST_DOUBLES, d->terms, NULL},
+                                  {"leaves", RST_INTEGERS, cells ? 7 * d->cells : 0, NULL},
+                                  {"rebound_leaves", RST_INTEGERS, cells ? 7 * d->rebound_cells : 0, NULL}};
+    memcpy(set, all, sizeof all);
+}
+
+/* A count is compared with that of the file before room is made. */
+static int get_set(hid_t f, struct set *set)
+{
+    const size_t bytes = set->kind == RST_SINGLES ? sizeof(float) : 8;
+    if (set->count == 0) return 0;
+    if (rst_count_values(f, set->name, set->kind) != set->count) return 1;
+    set->value = malloc((size_t)set->count * bytes);
+    return !set->value || rst_get_values(f, set->name, set->kind, set->count, set->value);
+}
+
+static int make_table(restitute_table_data *d, const struct set set[SETS], restitute_table **table,
+                      restitute_error *why)
+{
+    d->ez = set[SET_EZ].value;
+    if (d->cells > 0)
+        d->ex_cells = set[SET_EX].value;
+    else
+        d->ex = set[SET_EX].value;
+    d->relaxation_time = set[SET_TIMES].value;
+    d->modulus = set[SET_MODULI].value;
+    d->leaves = set[SET_LEAVES].value;
+    d->rebound_leaves = set[SET_REBOUND_LEAVES].value;
+    return restitute_table_from_data(d, table, why);
+}
+
+/* Everything of the file, in `d` and `set`; else why not. */
+static int get_table(hid_t f, restitute_table_data *d, struct set set[SETS], restitute_error *why)
+{
+    const restitute_error missing = {.message = "parts are missing"};
+    int64_t nodes[4];
+    *why = missing;
+    if (get_attributes(f, d) || get_chain(f, d) || restitute_table_data_nodes(d, nodes, why)) return 1;
+    *why = missing;
+    expect_sets(d, nodes, set);
     int failed = 0;
-    for (int i = 0; i < SETS; i++) {
-        if (i > 0) a->start[i] = a->start[i - 1] + a->count[i - 1];
-        if (a->count[i] > 0) failed |= rst_get_numbers(f, set_names[i], a->count[i], a->start[i]);
-    }
+    for (int i = 0; i < SETS && !failed; i++)
+        failed = get_set(f, &set[i]);
     return failed;
 }
 
-/* The sizes that follow from the axes must be those of the arrays, before room is made for the arrays. */
-static int sizes_agree(const restitute_table_data *d, const struct arrays *a)
-{
-    int64_t nodes[4];
-    if (restitute_table_data_nodes(d, nodes, NULL)) return 0;
-    if (d->cells > 0 &&
-        (double)a->count[SET_PATCHES] != 3 * round(log2(d->high[0] / d->low[0])) * round(log2(d->high[1] / d->low[1])))
-        return 0;
-    return a->count[SET_EZ] == nodes[0] * nodes[1] && a->count[SET_EX] == a->count[SET_EZ] * nodes[2] * nodes[3];
-}
-
-/* What is not kept in double precision. Nonzero: out of memory, or what is no whole number. */
-static int convert_cells(struct arrays *a)
-{
-    a->ex_cells = malloc((size_t)a->count[SET_EX] * sizeof *a->ex_cells);
-    a->patches = malloc((size_t)a->count[SET_PATCHES] * sizeof *a->patches);
-    if (!a->ex_cells || !a->patches) return 1;
-    for (int64_t i = 0; i < a->count[SET_EX]; i++)
-        a->ex_cells[i] = (float)a->start[SET_EX][i];
-    for (int64_t i = 0; i < a->count[SET_PATCHES]; i++) {
-        if (!(fabs(a->start[SET_PATCHES][i]) < 1e15)) return 1;
-        a->patches[i] = (int64_t)a->start[SET_PATCHES][i];
-    }
-    return 0;
-}
-
-static int read_table(const char *path, hid_t f, restitute_table **table, restitute_error *error)
+static int read_table(const char *path, const struct rst_old_file *file, restitute_table **table,
+                      restitute_error *error)
 {
     restitute_table_data d;
-    struct arrays a = {.count = {0}};
-    int status = RESTITUTE_ERROR_FORMAT;
-    restitute_error why = {.message = "parts are missing"};
+    struct set set[SETS] = {{0}};
+    restitute_error why;
+    int64_t cells = 0;
+    if (file->schema < schema && !rst_get_integer(file->file, "cells", &cells) && cells > 0)
+        return rst_report(
+            error, RESTITUTE_ERROR_FORMAT,
+            "%.120s: schema %d: tables with axes of delta1 and gamma are read from schema %d on; build it "
+            "again",
+            path, file->schema, schema);
     restitute_table_data_init(&d);
-    if (!get_attributes(f, &d) && d.terms >= 0 && !count_arrays(f, &d, &a) && sizes_agree(&d, &a) &&
-        !get_arrays(f, &a) && (d.cells == 0 || !convert_cells(&a))) {
-        d.ez = a.start[SET_EZ];
-        d.ex = a.start[SET_EX];
-        d.ex_cells = a.ex_cells;
-        d.patches = a.patches;
-        d.relaxation_time = a.start[SET_TIMES];
-        d.modulus = a.start[SET_MODULI];
-        status = restitute_table_from_data(&d, table, &why);
-    }
-    free(a.start[0]);
-    free(a.ex_cells);
-    free(a.patches);
+    const int failed = get_table(file->file, &d, set, &why);
+    const int status = failed ? RESTITUTE_ERROR_FORMAT : make_table(&d, set, table, &why);
+    for (int i = 0; i < SETS; i++)
+        free(set[i].value);
     if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%.120s: out of memory", path);
     if (status) return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
     return RESTITUTE_OK;
@@ -244,9 +261,9 @@ int restitute_table_read(const char *path, restitute_table **table, restitute_er
     struct rst_old_file file;
     if (!path || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "table" : "path");
     const struct rst_quiet quiet = rst_quiet_begin();
-    int status = rst_old_file_open(path, title, &file, error);
+    int status = rst_old_file_open(path, title, oldest_schema, &file, error);
     if (!status) {
-        status = read_table(path, file.file, table, error);
+        status = read_table(path, &file, table, error);
         rst_old_file_close(&file);
     }
     rst_quiet_end(quiet);

@@ -1,4 +1,4 @@
-/* Numbers and texts in HDF5: little-endian doubles, 64-bit integers, fixed strings.
+/* Numbers and texts in HDF5: little-endian doubles and singles, 64-bit integers, fixed strings.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -77,17 +77,16 @@ static int describe_set(hid_t place, const char *name, const char *units, const 
     return close_all(good, set, -1, -1);
 }
 
-int rst_put_numbers(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
-                    const char *units, const char *description)
+static hid_t type_in_memory(enum rst_kind kind)
 {
-    return put_set(place, name, rank, size, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, value) ||
-           describe_set(place, name, units, description);
+    return kind == RST_INTEGERS ? H5T_NATIVE_INT64 : kind == RST_SINGLES ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
 }
 
-int rst_put_singles(hid_t place, const char *name, int rank, const int64_t *size, const float *value, const char *units,
-                    const char *description)
+int rst_put_values(hid_t place, const char *name, enum rst_kind kind, int rank, const int64_t *size, const void *value,
+                   const char *units, const char *description)
 {
-    return put_set(place, name, rank, size, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, value) ||
+    const hid_t in_file = kind == RST_INTEGERS ? H5T_STD_I64LE : kind == RST_SINGLES ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    return put_set(place, name, rank, size, in_file, type_in_memory(kind), value) ||
            describe_set(place, name, units, description);
 }
 
@@ -147,21 +146,22 @@ static int fits(hid_t place, int64_t count)
     return good;
 }
 
-int64_t rst_count_numbers(hid_t place, const char *name)
+int64_t rst_count_values(hid_t place, const char *name, enum rst_kind kind)
 {
     const hid_t set = open_set(place, name);
     if (set < 0) return -1;
     const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
+    const H5T_class_t wanted = kind == RST_INTEGERS ? H5T_INTEGER : H5T_FLOAT;
     int64_t count = -1;
-    if (type >= 0 && space >= 0 && H5Tget_class(type) == H5T_FLOAT) count = H5Sget_simple_extent_npoints(space);
+    if (type >= 0 && space >= 0 && H5Tget_class(type) == wanted) count = H5Sget_simple_extent_npoints(space);
     close_all(1, set, type, space);
     return fits(place, count) ? count : -1;
 }
 
-int rst_get_numbers(hid_t place, const char *name, int64_t count, double *value)
+int rst_get_values(hid_t place, const char *name, enum rst_kind kind, int64_t count, void *value)
 {
-    if (rst_count_numbers(place, name) != count) return -1;
+    if (rst_count_values(place, name, kind) != count) return -1;
     const hid_t set = open_set(place, name);
-    const int good = H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
+    const int good = H5Dread(set, type_in_memory(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
     return close_all(good, set, -1, -1);
 }

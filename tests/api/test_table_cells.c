@@ -48,9 +48,10 @@ static void lookups_are_the_functions(void **state)
 
 static void beyond_the_ranges_the_ends_are_taken(void **state)
 {
-    static const double beyond[][4] = {{0.1, 0, 0.6, 0.3},      {1, 0, 0, 0},          {2, 0, 1e9, 1e300},
-                                       {INFINITY, 1, INFINITY, INFINITY}, {0.5, 3, 0.1, 100}};
-    static const double end[][4] = {{1, 0, 0.6, 0.3}, {1, 0, 0.6, 0.3}, {1.6, 0, 3, 0.9}, {1.6, 1, 3, 0.9}, {1, 3, 0.6, 0.9}};
+    static const double beyond[][4] = {
+        {0.1, 0, 0.6, 0.3}, {1, 0, 0, 0}, {2, 0, 1e9, 1e300}, {INFINITY, 1, INFINITY, INFINITY}, {0.5, 3, 0.1, 100}};
+    static const double end[][4] = {
+        {1, 0, 0.6, 0.3}, {1, 0, 0.6, 0.3}, {1.6, 0, 3, 0.9}, {1.6, 1, 3, 0.9}, {1, 3, 0.6, 0.9}};
     (void)state;
     for (int i = 0; i < 5; i++) {
         restitute_table_value pair, expected;
@@ -98,7 +99,8 @@ static void slopes_are_those_of_the_functions(void **state)
         CHECK_NEAR(slope.ex_tangential, by_tangent / (2 * d), 1e-4, "psi = %.17g", psi);
         kinds[psi > 1 ? psi > critical ? 2 : 1 : 0]++;
     }
-    CHECK(kinds[0] > 1000 && kinds[1] > 1000 && kinds[2] > 1000, "%d, %d, %d of each side", kinds[0], kinds[1], kinds[2]);
+    CHECK(kinds[0] > 1000 && kinds[1] > 1000 && kinds[2] > 1000, "%d, %d, %d of each side", kinds[0], kinds[1],
+          kinds[2]);
 }
 
 /* A lookup at the place of a node gives the value of the node, whose psi beyond 1 is given by y. */

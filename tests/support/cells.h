@@ -102,7 +102,7 @@ static inline void cells_add(struct cells_leaves *to, const int64_t leaf[7])
 static inline void cells_grow(struct cells_leaves *to, const int64_t leaf[7], int64_t deepest, uint64_t *state)
 {
     const double chance = random_in(state, 0, 1);
-    const int along_chain = chance < 0.5 && leaf[3] < deepest, along_gamma = chance > 0.88 && leaf[5] < 4;
+    const int along_chain = chance < 0.5 && leaf[3]<deepest, along_gamma = chance> 0.88 && leaf[5] < 4;
     if (!along_chain && !along_gamma) {
         cells_add(to, leaf);
         return;
