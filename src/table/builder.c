@@ -1,6 +1,6 @@
 /* The machine of builder.h: it solves what a stage asks for, and goes to the next when all of it is there.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "grid.h"
+#include "cells.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -9,10 +9,10 @@
 /* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that those that
  * are interpolated may take all of the tolerance; those of the checks have theirs added to the difference. Where checks fail for
  * no other reason, the first is lessened (docs/table.md). */
-static const double part_for_filling = 1, part_for_checks = 0.5, part_for_grid_checks = 0.2;
+static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
-/* For columns, whose last coefficients tell how many points they need: the solver's errors must not be taken for them. */
-static const double part_for_columns = 0.4;
+/* For cells, which are halved where a few impacts miss: the solver's errors must not be taken for that. */
+static const double part_for_cells = 0.15;
 
 /* Times that points are added after a check. */
 static const int most_rounds = 12;
@@ -126,9 +126,9 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     if (!status) {
         set_axes(b);
         set_probes(b);
-        const int patches = b->active[RST_SPEED] && b->active[RST_GAMMA];
-        b->filling_tolerance = (patches ? part_for_columns : part_for_filling) * options->tolerance;
-        if (patches ? rst_grid_create(b) : rst_plan_probes(b))
+        const int cells = b->active[RST_SPEED] && b->active[RST_GAMMA];
+        b->filling_tolerance = (cells ? part_for_cells : part_for_filling) * options->tolerance;
+        if (cells ? rst_cells_create(b) : rst_plan_probes(b))
             status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status) {
@@ -148,7 +148,7 @@ void restitute_table_builder_destroy(restitute_table_builder *builder)
     free(builder->solved);
     free(builder->journal);
     rst_memo_clear(&builder->memo);
-    rst_grid_free(builder->grid);
+    rst_cells_free(builder->cells);
     free(builder);
 }
 
@@ -158,17 +158,9 @@ struct place {
     double speed, gamma, chi, psi;
 };
 
-/* In the build of a table of patches the numbers themselves are kept. */
-static struct place place_in_grid(const struct restitute_table_builder *b, const struct rst_point *p)
-{
-    struct place at = {.speed = p->u[0], .gamma = p->u[1], .chi = p->u[2], .psi = p->s};
-    if (p->slips) at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, b->grid->column[p->column].ez) - 1);
-    return at;
-}
-
 static struct place place_of(const struct restitute_table_builder *b, const struct rst_point *p)
 {
-    if (b->grid) return place_in_grid(b, p);
+    if (b->cells) return (struct place){.speed = p->u[0], .gamma = p->u[1], .chi = p->u[2], .psi = p->s};
     struct place at = {.speed = rst_builder_number(b, RST_SPEED, p->u[0]),
                        .gamma = rst_builder_number(b, RST_GAMMA, p->u[1]),
                        .chi = rst_builder_number(b, RST_CHI, p->u[2]),
@@ -282,7 +274,7 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options options;
     restitute_options_init(&options);
     options.method = restitute_method_sync();
-    const double for_checks = (b->grid ? part_for_grid_checks : part_for_checks) * b->options.tolerance;
+    const double for_checks = (b->cells ? part_for_cell_checks : part_for_checks) * b->options.tolerance;
     options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
     const size_t n = (size_t)p->count;
     int status =
@@ -486,7 +478,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
 
 static int next_stage(struct restitute_table_builder *b, restitute_error *error)
 {
-    if (b->grid) return rst_grid_next(b, error);
+    if (b->cells) return rst_cells_next(b, error);
     if (b->part == 0) {
         begin_part(b, 1);
         return RESTITUTE_OK;
@@ -591,7 +583,7 @@ int64_t restitute_table_builder_expected(const restitute_table_builder *builder)
     if (builder->part == 0)
         for (int64_t i = 0; i < builder->next; i++)
             ahead += builder->point[i].slips && !builder->point[i].known;
-    if (builder->stage == RST_PROBING || builder->grid) return builder->used + ahead;
+    if (builder->stage == RST_PROBING || builder->cells) return builder->used + ahead;
     return builder->used + ahead + (builder->stage == RST_FILLING ? points_of_checks(builder) : 0);
 }
 

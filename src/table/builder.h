@@ -41,8 +41,8 @@ int rst_panels_halve(struct rst_panels *p, int panel);
 struct rst_point {
     double u[3];
     double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
-    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does. grid.h: the column */
-    int64_t slot;   /* grid.h: where in the column, or which check */
+    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
+    int64_t slot;   /* cells.h: which node or check; u and s are the numbers themselves */
     int slips;
     int known; /* solved in an earlier round */
 };
@@ -88,7 +88,7 @@ struct restitute_table_builder {
     int failing[2][rst_most_panels];       /* panels in which a check failed */
     double filling_tolerance;
     struct rst_memo memo;
-    struct rst_grid *grid; /* NULL: no table of patches */
+    struct rst_cells *cells; /* NULL: no table of trees */
     double worst_ez, worst_ex;
 };
 

@@ -1,0 +1,321 @@
+/* The stages of the build of a table of trees (cells.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "cells.h"
+
+#include <stdlib.h>
+
+/* Parts of the tolerance that the cubics of a cell may miss half way between nodes, all axes together: ez shifts psi_c. */
+static const double part_for_rebound = 0.15, part_for_tangent = 0.6;
+
+/* Checks: at least that many in all, and 2 to 48 a cell. Rounds of them that may fail. */
+enum { least_checks = 3000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12 };
+
+/* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
+enum { widest = 1, narrowest = -5 };
+
+/* Nodes of cells at the ends of the range of delta1 may lie outside: no farther than by this factor. */
+static const double beyond_range = 4;
+
+static int64_t width_of(const double range[2])
+{
+    const double octaves = log2(range[1] / range[0]);
+    int64_t width = widest;
+    while (width > narrowest && ldexp(1, (int)width) > octaves)
+        width--;
+    return width;
+}
+
+int rst_cells_create(struct restitute_table_builder *b)
+{
+    struct rst_cells *c = calloc(1, sizeof *c);
+    b->cells = c;
+    if (!c) return 1;
+    rst_octaves_set(b->seam_low[1], b->seam_high[1], 0, &c->gamma);
+    rst_w_axis_set(b->family.range[0][0], b->family.range[0][1], &c->gamma, width_of(b->family.range[0]), &c->w);
+    c->rebound.part = part_for_rebound;
+    c->rebound.of.sheets = 1;
+    c->rebound.active[RST_W] = c->rebound.active[RST_G] = 1;
+    c->tangent.part = part_for_tangent;
+    c->tangent.of.sheets = rst_sheets;
+    for (int a = 0; a < rst_cell_axes; a++)
+        c->tangent.active[a] = a != RST_C || b->active[RST_CHI];
+    return rst_growth_begin(&c->rebound, c, b);
+}
+
+void rst_cells_free(struct rst_cells *c)
+{
+    if (!c) return;
+    rst_growth_free(&c->rebound);
+    rst_growth_free(&c->tangent);
+    restitute_table_destroy(c->ez);
+    free(c->check);
+    free(c);
+}
+
+/* ---- places */
+
+/* y at t in [0, 1] of the slip side. */
+static double y_of(double t)
+{
+    const double y = rst_slip_y((t <= 0.5 ? t : 1 - t) * 2 * rst_largest_r);
+    return t <= 0.5 ? y : 1 - y;
+}
+
+/* As a lookup takes it from the nodes of the octave. */
+static double h_of(const struct rst_octaves *gamma, int64_t octave, double place)
+{
+    double weight[4], h = 0;
+    rst_cubic_weights(place * rst_cubic, weight);
+    for (int i = 0; i < 4; i++)
+        h += weight[i] * rst_table_h(rst_octaves_node(gamma, octave * rst_cubic + i));
+    return h;
+}
+
+void rst_cells_numbers(const struct restitute_table_builder *b, const double at[rst_cell_axes], struct rst_place *p)
+{
+    const struct rst_cells *c = b->cells;
+    const double g = at[RST_G] / rst_lattice, sheet = at[RST_P] / rst_lattice, *range = b->family.range[0];
+    int64_t octave = (int64_t)g;
+    if (octave == c->gamma.cells) octave--;
+    const double start = rst_octaves_node(&c->gamma, octave * rst_cubic), part = g - (double)octave;
+    const double w = exp2(((double)c->w.first + at[RST_W] / rst_lattice) / c->w.scale);
+    p->gamma = start * (1 + part);
+    p->delta1 = w / h_of(&c->gamma, octave, part);
+    p->delta1 = fmin(fmax(p->delta1, range[0] / beyond_range), range[1] * beyond_range);
+    p->chi = rst_builder_number(b, RST_CHI, at[RST_C] / rst_lattice);
+    p->y = sheet > 1 ? y_of((sheet - 1) / rst_slip_sheets) : 0;
+    p->psi = sheet;
+    p->ez = 0;
+    if (!c->ez || sheet <= 1) return;
+    p->ez = rst_table_rebound(c->ez, p->delta1, p->gamma);
+    p->psi = 1 + p->y * (restitute_critical_psi(p->chi, p->ez) - 1);
+}
+
+int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma)
+{
+    const double(*range)[2] = b->family.range;
+    return delta1 >= range[0][0] && delta1 <= range[0][1] && gamma >= range[1][0] && gamma <= range[1][1];
+}
+
+/* ---- nodes */
+
+static struct rst_growth *growing(struct rst_cells *c)
+{
+    return c->ez ? &c->tangent : &c->rebound;
+}
+
+static struct rst_place numbers_at(const struct restitute_table_builder *b, const struct rst_lattice_node *node)
+{
+    struct rst_place p;
+    const int32_t *at = node->spot.at;
+    rst_cells_numbers(b, (double[]){at[0], at[1], at[2], at[3]}, &p);
+    return p;
+}
+
+/* Far beyond psi_c: the normal problem alone. */
+static const double full_slip_psi = 1e9;
+
+static int add_node(struct restitute_table_builder *b, struct rst_growth *g, int64_t number)
+{
+    struct rst_lattice_node *node = &g->nodes.node[number];
+    const struct rst_place p = numbers_at(b, node);
+    if (g == &b->cells->tangent && p.y >= 1 && 2 * p.chi > 1) {
+        node->value = 0; /* psi_c */
+        return 0;
+    }
+    const struct rst_point point = {.u = {p.delta1, p.gamma, p.chi},
+                                    .s = g == &b->cells->rebound ? full_slip_psi : p.psi,
+                                    .column = -1,
+                                    .slot = number};
+    return rst_plan_add(b, point);
+}
+
+static int plan_nodes(struct restitute_table_builder *b)
+{
+    struct rst_growth *g = growing(b->cells);
+    int failed = 0;
+    rst_plan_begin(b);
+    if (rst_growth_need(g, b)) return 1;
+    int64_t *number = rst_nodes_new(&g->nodes);
+    for (int64_t i = 0; number && i < g->nodes.count - g->nodes.solved && !failed; i++)
+        failed = add_node(b, g, number[i]);
+    free(number);
+    return failed || !number;
+}
+
+static void collect_nodes(struct restitute_table_builder *b)
+{
+    struct rst_growth *g = growing(b->cells);
+    for (int64_t i = 0; i < b->points; i++) {
+        struct rst_lattice_node *node = &g->nodes.node[b->point[i].slot];
+        const struct rst_place p = numbers_at(b, node);
+        if (g == &b->cells->rebound)
+            node->value = fmin(1, fmax(0, b->solved[i].ez));
+        else
+            node->value = p.y > 0 ? p.psi * b->solved[i].ex - p.y * p.ez : b->solved[i].ex;
+    }
+    g->nodes.solved = g->nodes.count;
+}
+
+/* ---- checks */
+
+static int add_check(struct restitute_table_builder *b, struct rst_check check)
+{
+    struct rst_cells *c = b->cells;
+    if (c->checks == c->check_capacity) {
+        const int64_t capacity = c->checks ? 2 * c->checks : 1024;
+        struct rst_check *checks = realloc(c->check, (size_t)capacity * sizeof *checks);
+        if (!checks) return 1;
+        c->check = checks;
+        c->check_capacity = capacity;
+    }
+    const struct rst_point p = {
+        .u = {check.delta1, check.gamma, check.chi}, .s = check.psi, .column = -1, .slot = c->checks};
+    c->check[c->checks++] = check;
+    return rst_plan_add(b, p);
+}
+
+/* Additive recurrences of the plastic number's kind for four axes: evenly spread, and no period of the cells. */
+static const double spread[rst_cell_axes] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                             0.5385972572236101};
+
+/* At arbitrary places in a cell; those that nobody asks for are left out. */
+static int check_cell(struct restitute_table_builder *b, int64_t k)
+{
+    const struct rst_growth *g = &b->cells->tangent;
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    struct rst_place p;
+    rst_cell_place(g, &g->cell[k].at, &corner, step);
+    for (int64_t i = 0; i < b->cells->checks_a_cell; i++) {
+        double at[rst_cell_axes];
+        for (int a = 0; a < rst_cell_axes; a++)
+            at[a] = corner.at[a] + rst_cubic * step[a] * fmod(spread[a] * (double)(k * most_a_cell + i + 1), 1);
+        rst_cells_numbers(b, at, &p);
+        if (!rst_cells_asked(b, p.delta1, p.gamma)) continue;
+        const struct rst_check check = {.delta1 = p.delta1, .gamma = p.gamma, .chi = p.chi, .psi = p.psi, .cell = k};
+        if (add_check(b, check)) return 1;
+    }
+    return 0;
+}
+
+/* How many checks a cell has: known when there are cells. */
+static int64_t checks_for(const struct rst_growth *g)
+{
+    int64_t leaves = 0;
+    for (int64_t k = 0; k < g->count; k++)
+        leaves += g->cell[k].state == RST_SETTLED;
+    const int64_t wanted = least_checks / (leaves > 0 ? leaves : 1) + 1;
+    return wanted < least_a_cell ? least_a_cell : wanted > most_a_cell ? most_a_cell : wanted;
+}
+
+static int plan_checks(struct restitute_table_builder *b)
+{
+    struct rst_growth *g = &b->cells->tangent;
+    rst_plan_begin(b);
+    if (b->cells->checks_a_cell == 0) b->cells->checks_a_cell = checks_for(g);
+    for (int64_t k = 0; k < g->count; k++) {
+        if (g->cell[k].state != RST_SETTLED || g->cell[k].checked) continue;
+        g->cell[k].checked = 1;
+        if (check_cell(b, k)) return 1;
+    }
+    return 0;
+}
+
+/* Largest differences to all impacts of the checks; cells where they are too large fail. */
+static int compare(struct restitute_table_builder *b)
+{
+    struct rst_cells *c = b->cells;
+    int any = 0;
+    for (int64_t i = 0; i < b->points; i++)
+        c->check[b->point[i].slot].solved = b->solved[i];
+    b->worst_ez = b->worst_ex = 0;
+    for (int64_t i = 0; i < c->checks; i++) {
+        const struct rst_check *check = &c->check[i];
+        struct rst_cell *cell = &c->tangent.cell[check->cell];
+        restitute_table_value pair;
+        rst_table_evaluate(b->draft, check->delta1, check->gamma, check->chi, check->psi, &pair);
+        const double ez = fabs(pair.ez - check->solved.ez) + check->solved.error_ez;
+        const double ex = fabs(pair.ex - check->solved.ex) + check->solved.error_ex;
+        b->worst_ez = fmax(b->worst_ez, ez);
+        b->worst_ex = fmax(b->worst_ex, ex);
+        if (ex <= b->options.tolerance || cell->state != RST_SETTLED) continue;
+        cell->state = RST_FAILING;
+        any = 1;
+    }
+    return any;
+}
+
+/* ---- stages */
+
+static int out_of_memory(restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+}
+
+static int finish(struct restitute_table_builder *b)
+{
+    rst_plan_begin(b);
+    b->stage = RST_FINISHED;
+    return RESTITUTE_OK;
+}
+
+static int begin_filling(struct restitute_table_builder *b, restitute_error *error)
+{
+    b->stage = RST_FILLING;
+    if (plan_nodes(b)) return out_of_memory(error);
+    if (b->used + b->points <= b->options.max_impacts) return RESTITUTE_OK;
+    if (b->draft) return finish(b);
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
+                      "or narrow the ranges",
+                      (long long)b->options.max_impacts, (long long)b->used);
+}
+
+static int begin_tangent(struct restitute_table_builder *b, restitute_error *error)
+{
+    if (rst_cells_make_rebound(b) || rst_growth_begin(&b->cells->tangent, b->cells, b)) return out_of_memory(error);
+    return begin_filling(b, error);
+}
+
+static int begin_checking(struct restitute_table_builder *b, restitute_error *error)
+{
+    restitute_table *table;
+    if (rst_cells_make(b, &table)) return out_of_memory(error);
+    restitute_table_destroy(b->draft);
+    b->draft = table;
+    if (plan_checks(b)) return out_of_memory(error);
+    b->stage = RST_CHECKING;
+    return RESTITUTE_OK;
+}
+
+static int after_filling(struct restitute_table_builder *b, restitute_error *error)
+{
+    int more;
+    collect_nodes(b);
+    if (rst_growth_judge(growing(b->cells), b, &more)) return out_of_memory(error);
+    if (more) return begin_filling(b, error);
+    return b->cells->ez ? begin_checking(b, error) : begin_tangent(b, error);
+}
+
+static int after_checking(struct restitute_table_builder *b, restitute_error *error)
+{
+    int more = 0;
+    const int failing = compare(b);
+    b->draft->checks = b->cells->checks;
+    if (!failing || b->cells->rounds++ >= most_rounds) return finish(b);
+    if (rst_growth_judge(&b->cells->tangent, b, &more)) return out_of_memory(error);
+    return more ? begin_filling(b, error) : finish(b);
+}
+
+int rst_cells_next(struct restitute_table_builder *b, restitute_error *error)
+{
+    switch (b->stage) {
+    case RST_PROBING:
+        return begin_filling(b, error);
+    case RST_CHECKING:
+        return after_checking(b, error);
+    default:
+        return after_filling(b, error);
+    }
+}

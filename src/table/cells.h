@@ -1,0 +1,95 @@
+/* The build of a table with axes of delta1 and of gamma: trees of cells (tree.h), halved where they need it.
+ *
+ *   nodes      Impacts at the nodes of all cells of a depth, and half way between them along each axis. Where these differ too much from the
+ *              cubics of the cell, it is halved. Along what is the same for all cells of a depth: what most of them ask for. An octave of
+ *              gamma is halved along gamma where most of its cells ask for that.
+ *   rebound    First the tree of ez alone; then, with psi_c from that, the tree of ex.
+ *   checking   The table is compared with impacts at arbitrary places in every new cell; cells where that fails are halved, too. All checks that
+ *              were ever made are compared with the last table.
+ *
+ * The order of all depends on nothing but family and options.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_TABLE_CELLS_H
+#define RST_TABLE_CELLS_H
+
+#include "builder.h"
+#include "nodes.h"
+
+enum rst_cell_state {
+    RST_TO_JUDGE,  /* its nodes may be missing */
+    RST_FAILING,   /* waits for what its octave decides */
+    RST_TO_HALVE,  /* waits for the chain */
+    RST_SETTLED,   /* a leaf */
+    RST_DONE_WITH /* has been halved */
+};
+
+struct rst_cell {
+    struct rst_leaf at;
+    double error[rst_cell_axes]; /* what its cubics miss half way between nodes */
+    int8_t state;
+    int8_t checked;
+};
+
+struct rst_check {
+    double delta1, gamma, chi, psi;
+    int64_t cell;
+    struct rst_solved solved;
+};
+
+/* One tree that grows. */
+struct rst_growth {
+    struct rst_roots of;
+    int active[rst_cell_axes]; /* whether a cell has four nodes along it, or one */
+    double part;               /* of the tolerance, that a cell may be off by half way between its nodes */
+    int8_t chain[rst_deepest];
+    int64_t chain_length;
+    int8_t *level;  /* [octave][depth]: the finest level of gamma so far; */
+    int8_t *closed; /* [octave][depth]: nonzero if there will be no finer one */
+    struct rst_cell *cell;
+    int64_t count, capacity;
+    struct rst_nodes nodes;
+};
+
+struct rst_cells {
+    struct rst_octaves gamma;
+    struct rst_w_axis w;
+    struct rst_growth rebound, tangent;
+    restitute_table *ez; /* the finished tree of ez, in a table without ex */
+    struct rst_check *check;
+    int64_t checks, check_capacity, checks_a_cell;
+    int rounds;
+};
+
+/* The machine's stages (cells.c). Nonzero: a status, or out of memory. */
+int rst_cells_create(struct restitute_table_builder *b);
+void rst_cells_free(struct rst_cells *c);
+int rst_cells_next(struct restitute_table_builder *b, restitute_error *error);
+
+/* Growth (growth.c). Nonzero: out of memory. */
+int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b);
+void rst_growth_free(struct rst_growth *g);
+/* What all cells to be judged need. */
+int rst_growth_need(struct rst_growth *g, const struct restitute_table_builder *b);
+/* Judge these cells, and halve what fails; nonzero in `more` if there are new ones. */
+int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder *b, int *more);
+
+/* Corner of a cell and the distance of its nodes on the lattice. */
+void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
+                    int32_t step[rst_cell_axes]);
+
+/* The numbers at a place on the lattice, counted in its steps. Beyond psi = 1 psi follows from y and the table of ez; while that grows it is
+ * so large that the contact slips to the end. */
+struct rst_place {
+    double delta1, gamma, chi, psi, y, ez;
+};
+void rst_cells_numbers(const struct restitute_table_builder *b, const double at[rst_cell_axes],
+                       struct rst_place *place);
+
+/* Whether a place is in what was asked for. */
+int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma);
+
+/* From the trees that have grown to a table (seams.c); the first: of ez alone. Nonzero: out of memory. */
+int rst_cells_make_rebound(struct restitute_table_builder *b);
+int rst_cells_make(struct restitute_table_builder *b, restitute_table **table);
+
+#endif

@@ -1,0 +1,311 @@
+/* A tree of cells that grows: which impacts its cells need, which of them fail, and how these are halved (cells.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+
+#include "cells.h"
+
+/* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
+static const double share_for_gamma = 0.7;
+
+/* Half way between nodes: so many places along each axis. */
+enum { places_an_axis = 6 };
+
+/* The cubic through the nodes, half way between two of them. */
+static const double half_way[3][4] = {{0.3125, 0.9375, -0.3125, 0.0625},
+                                      {-0.0625, 0.5625, 0.5625, -0.0625},
+                                      {0.0625, -0.3125, 0.9375, 0.3125}};
+
+/* ---- cells */
+
+void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
+                    int32_t step[rst_cell_axes])
+{
+    static const int axis_of[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
+    int32_t size[rst_cell_axes] = {rst_lattice, rst_lattice >> at->level, rst_lattice, rst_lattice};
+    corner->at[RST_W] = (int32_t)at->root * rst_lattice;
+    corner->at[RST_G] = (int32_t)at->octave * rst_lattice + (int32_t)at->part * size[RST_G];
+    corner->at[RST_C] = 0;
+    corner->at[RST_P] = (int32_t)at->sheet * rst_lattice;
+    for (int64_t d = 0; d < at->depth; d++) {
+        const int axis = axis_of[g->chain[d]];
+        size[axis] /= 2;
+        if (at->path >> (at->depth - 1 - d) & 1) corner->at[axis] += size[axis];
+    }
+    for (int a = 0; a < rst_cell_axes; a++)
+        step[a] = g->active[a] ? size[a] / rst_cubic : 0;
+}
+
+/* Whether any of it is in what was asked for. h grows with gamma. */
+static int is_asked(const struct restitute_table_builder *b, const struct rst_spot_on_lattice *corner,
+                    const int32_t step[rst_cell_axes])
+{
+    const double margin = 1e-9;
+    double at[2][rst_cell_axes];
+    struct rst_place low, high;
+    for (int a = 0; a < rst_cell_axes; a++) {
+        at[0][a] = corner->at[a];
+        at[1][a] = corner->at[a] + rst_cubic * step[a];
+    }
+    rst_cells_numbers(b, (double[]){at[0][RST_W], at[1][RST_G], 0, 0}, &low);
+    rst_cells_numbers(b, (double[]){at[1][RST_W], at[0][RST_G], 0, 0}, &high);
+    const double(*range)[2] = b->family.range;
+    return low.delta1 <= range[0][1] * (1 + margin) && high.delta1 >= range[0][0] * (1 - margin) &&
+           high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin);
+}
+
+static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at)
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(g, &at, &corner, step);
+    if (!is_asked(b, &corner, step)) return 0;
+    if (g->count == g->capacity) {
+        const int64_t capacity = g->capacity ? 2 * g->capacity : 1024;
+        struct rst_cell *cell = realloc(g->cell, (size_t)capacity * sizeof *cell);
+        if (!cell) return 1;
+        g->cell = cell;
+        g->capacity = capacity;
+    }
+    g->cell[g->count++] = (struct rst_cell){.at = at, .state = RST_TO_JUDGE};
+    return 0;
+}
+
+int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b)
+{
+    const size_t marks = (size_t)c->gamma.cells * (rst_deepest + 1);
+    g->of.octaves = c->gamma.cells;
+    g->of.roots = c->w.roots;
+    g->level = calloc(marks, sizeof *g->level);
+    g->closed = calloc(marks, sizeof *g->closed);
+    if (!g->level || !g->closed) return 1;
+    const int64_t sheets = b->active[RST_SLIP] ? g->of.sheets : 1;
+    for (int64_t o = 0; o < g->of.octaves; o++)
+        for (int64_t r = 0; r < g->of.roots; r++)
+            for (int64_t s = 0; s < sheets; s++)
+                if (add_cell(g, b, (struct rst_leaf){.octave = o, .root = r, .sheet = s})) return 1;
+    return 0;
+}
+
+void rst_growth_free(struct rst_growth *g)
+{
+    free(g->level);
+    free(g->closed);
+    free(g->cell);
+    rst_nodes_clear(&g->nodes);
+}
+
+/* ---- what cells need */
+
+/* The same for the same cell, as if it were by chance. */
+static uint32_t chance(int64_t cell, int axis, int n)
+{
+    uint64_t h = ((uint64_t)cell * 64 + (uint64_t)(axis * places_an_axis + n) + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    h ^= h >> 31;
+    h *= UINT64_C(0xbf58476d1ce4e5b9);
+    return (uint32_t)(h >> 40);
+}
+
+/* A place half way between two nodes along an axis, and the node at the start of that line. */
+static void half_way_place(const struct rst_growth *g, int64_t cell, int axis, int n, struct rst_spot_on_lattice *start,
+                           struct rst_spot_on_lattice *place, int32_t step[rst_cell_axes])
+{
+    uint32_t bits = chance(cell, axis, n);
+    rst_cell_place(g, &g->cell[cell].at, start, step);
+    for (int a = 0; a < rst_cell_axes; a++, bits >>= 2)
+        if (a != axis) start->at[a] += (int32_t)(bits & 3) * step[a];
+    *place = *start;
+    place->at[axis] += step[axis] / 2 * (2 * (n % 3) + 1);
+}
+
+static int is_asked_place(const struct restitute_table_builder *b, const struct rst_spot_on_lattice *place,
+                          struct rst_place *numbers)
+{
+    rst_cells_numbers(b, (double[]){place->at[0], place->at[1], place->at[2], place->at[3]}, numbers);
+    return rst_cells_asked(b, numbers->delta1, numbers->gamma);
+}
+
+static int need_nodes(struct rst_growth *g, int64_t cell)
+{
+    struct rst_spot_on_lattice corner, spot;
+    int32_t step[rst_cell_axes], i[rst_cell_axes];
+    int last[rst_cell_axes];
+    rst_cell_place(g, &g->cell[cell].at, &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++)
+        last[a] = g->active[a] ? rst_cubic : 0;
+    for (i[0] = 0; i[0] <= last[0]; i[0]++)
+        for (i[1] = 0; i[1] <= last[1]; i[1]++)
+            for (i[2] = 0; i[2] <= last[2]; i[2]++)
+                for (i[3] = 0; i[3] <= last[3]; i[3]++) {
+                    for (int a = 0; a < rst_cell_axes; a++)
+                        spot.at[a] = corner.at[a] + i[a] * step[a];
+                    if (rst_nodes_need(&g->nodes, spot) < 0) return 1;
+                }
+    return 0;
+}
+
+int rst_growth_need(struct rst_growth *g, const struct restitute_table_builder *b)
+{
+    struct rst_spot_on_lattice start, place;
+    struct rst_place numbers;
+    int32_t step[rst_cell_axes];
+    for (int64_t k = 0; k < g->count; k++) {
+        if (g->cell[k].state != RST_TO_JUDGE) continue;
+        if (need_nodes(g, k)) return 1;
+        for (int axis = 0; axis < rst_cell_axes; axis++)
+            for (int n = 0; g->active[axis] && n < places_an_axis; n++) {
+                half_way_place(g, k, axis, n, &start, &place, step);
+                if (is_asked_place(b, &place, &numbers) && rst_nodes_need(&g->nodes, place) < 0) return 1;
+            }
+    }
+    return 0;
+}
+
+/* ---- what fails */
+
+/* By how much the cubic along an axis misses, at most; beyond psi = 1 the value is psi ex. */
+static double missed_along(const struct rst_growth *g, const struct restitute_table_builder *b, int64_t cell, int axis)
+{
+    struct rst_spot_on_lattice start, place;
+    struct rst_place numbers;
+    int32_t step[rst_cell_axes];
+    double worst = 0;
+    for (int n = 0; n < places_an_axis; n++) {
+        half_way_place(g, cell, axis, n, &start, &place, step);
+        if (!is_asked_place(b, &place, &numbers)) continue;
+        double sum = -rst_nodes_value(&g->nodes, place);
+        for (int i = 0; i < 4; i++, start.at[axis] += step[axis])
+            sum += half_way[n % 3][i] * rst_nodes_value(&g->nodes, start);
+        worst = fmax(worst, fabs(sum) / fmax(1, numbers.psi));
+    }
+    return worst;
+}
+
+static void judge(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k)
+{
+    double sum = 0;
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (g->active[a]) sum += g->cell[k].error[a] = missed_along(g, b, k, a);
+    g->cell[k].state = sum <= g->part * b->options.tolerance ? RST_SETTLED : RST_FAILING;
+}
+
+/* ---- how it is halved */
+
+static int asks_for(const struct rst_cell *cell)
+{
+    int most = RST_W;
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (cell->error[a] > cell->error[most]) most = a;
+    return most;
+}
+
+static int64_t mark_of(const struct rst_leaf *at)
+{
+    return at->octave * (rst_deepest + 1) + at->depth;
+}
+
+/* Octaves decide, for each depth, whether their failing cells are halved along gamma or with the chain. */
+static int decide_on_gamma(struct rst_growth *g)
+{
+    const size_t marks = (size_t)g->of.octaves * (rst_deepest + 1);
+    int32_t(*votes)[2] = calloc(marks, sizeof *votes);
+    if (!votes) return 1;
+    for (int64_t k = 0; k < g->count; k++) {
+        const struct rst_cell *cell = &g->cell[k];
+        if (cell->state == RST_FAILING && cell->at.level == g->level[mark_of(&cell->at)])
+            votes[mark_of(&cell->at)][asks_for(cell) == RST_G]++;
+    }
+    for (size_t i = 0; i < marks; i++) {
+        if (g->closed[i] || votes[i][0] + votes[i][1] == 0) continue;
+        if (votes[i][1] > share_for_gamma * votes[i][0] && g->level[i] < rst_finest_part) {
+            g->level[i]++;
+        } else {
+            g->closed[i] = 1;
+            if (i % (rst_deepest + 1) < rst_deepest && g->level[i + 1] < g->level[i]) g->level[i + 1] = g->level[i];
+        }
+    }
+    free(votes);
+    return 0;
+}
+
+static int halve_along_gamma(struct rst_growth *g, const struct restitute_table_builder *b, int *more)
+{
+    const int64_t count = g->count;
+    for (int64_t k = 0; k < count; k++) {
+        struct rst_leaf at = g->cell[k].at;
+        if (g->cell[k].state != RST_FAILING) continue;
+        if (at.level >= g->level[mark_of(&at)]) {
+            g->cell[k].state = RST_TO_HALVE;
+            continue;
+        }
+        g->cell[k].state = RST_DONE_WITH;
+        at.level++;
+        at.part *= 2;
+        for (int half = 0; half < 2; half++, at.part++)
+            if (add_cell(g, b, at)) return 1;
+        *more = 1;
+    }
+    return 0;
+}
+
+static int times_in_chain(const struct rst_growth *g, int along)
+{
+    int times = 0;
+    for (int64_t d = 0; d < g->chain_length; d++)
+        times += g->chain[d] == along;
+    return times;
+}
+
+/* One more halving: along what most of those ask for that wait for it. Nonzero: none is left. */
+static int lengthen_chain(struct rst_growth *g)
+{
+    static const int axis_of[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
+    int64_t votes[rst_alongs] = {0};
+    int best = -1;
+    for (int64_t k = 0; k < g->count; k++) {
+        const struct rst_cell *cell = &g->cell[k];
+        if (cell->state != RST_TO_HALVE || cell->at.depth != g->chain_length) continue;
+        int most = 0;
+        for (int along = 0; along < rst_alongs; along++)
+            if (cell->error[axis_of[along]] > cell->error[axis_of[most]]) most = along;
+        votes[most]++;
+    }
+    for (int along = 0; along < rst_alongs; along++) {
+        if (!g->active[axis_of[along]] || times_in_chain(g, along) >= rst_most_halvings) continue;
+        if (best < 0 || votes[along] > votes[best]) best = along;
+    }
+    if (best < 0 || g->chain_length >= rst_deepest) return 1;
+    g->chain[g->chain_length++] = (int8_t)best;
+    return 0;
+}
+
+static int halve_with_chain(struct rst_growth *g, const struct restitute_table_builder *b, int *more)
+{
+    const int64_t count = g->count;
+    for (int64_t k = 0; k < count; k++) {
+        struct rst_leaf at = g->cell[k].at;
+        if (g->cell[k].state != RST_TO_HALVE || at.depth >= g->chain_length) continue;
+        g->cell[k].state = RST_DONE_WITH;
+        at.depth++;
+        at.path *= 2;
+        for (int half = 0; half < 2; half++, at.path++)
+            if (add_cell(g, b, at)) return 1;
+        *more = 1;
+    }
+    return 0;
+}
+
+int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder *b, int *more)
+{
+    int waiting = 0;
+    *more = 0;
+    for (int64_t k = 0; k < g->count; k++)
+        if (g->cell[k].state == RST_TO_JUDGE) judge(g, b, k);
+    if (decide_on_gamma(g) || halve_along_gamma(g, b, more) || halve_with_chain(g, b, more)) return 1;
+    for (int64_t k = 0; k < g->count; k++)
+        waiting |= g->cell[k].state == RST_TO_HALVE;
+    if (*more || !waiting) return 0;
+    if (!lengthen_chain(g)) return halve_with_chain(g, b, more);
+    for (int64_t k = 0; k < g->count; k++)
+        if (g->cell[k].state == RST_TO_HALVE) g->cell[k].state = RST_SETTLED;
+    return 0;
+}

@@ -1,0 +1,278 @@
+/* From trees that have grown to a table (cells.h). Of two cells that touch, the deeper one is nowhere wider (tree.h): its nodes on their
+ * common face are put on the polynomials of the other. Cells are finished from the shallowest on, so that those are final.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <stdlib.h>
+
+#include "cells.h"
+
+/* A tree with the values at the nodes of its leaves, [leaf][psi][chi][w][gamma]. */
+struct harvest {
+    const struct rst_growth *growth;
+    struct rst_tree *tree;
+    double *value;
+    int64_t nodes;                /* of a leaf */
+    int64_t stride[rst_cell_axes];
+    int count[rst_cell_axes];
+};
+
+/* ---- leaves, and what was solved at their nodes */
+
+/* By place: a root after the other, and what is close in it is close in memory. */
+static int by_place(const void *a, const void *b)
+{
+    const struct rst_leaf *x = a, *y = b;
+    const int64_t keys[5][2] = {{x->octave, y->octave},
+                                {x->root, y->root},
+                                {x->sheet, y->sheet},
+                                {x->path << (rst_deepest - x->depth), y->path << (rst_deepest - y->depth)},
+                                {x->part << (rst_finest_part - x->level), y->part << (rst_finest_part - y->level)}};
+    for (int i = 0; i < 5; i++)
+        if (keys[i][0] != keys[i][1]) return keys[i][0] < keys[i][1] ? -1 : 1;
+    return 0;
+}
+
+static int plant(const struct rst_growth *g, const int8_t *chain, int64_t length, struct rst_tree *tree)
+{
+    int64_t leaves = 0;
+    struct rst_leaf *leaf = malloc((size_t)(g->count + 1) * sizeof *leaf);
+    if (!leaf) return 1;
+    for (int64_t k = 0; k < g->count; k++)
+        if (g->cell[k].state == RST_SETTLED) leaf[leaves++] = g->cell[k].at;
+    qsort(leaf, (size_t)leaves, sizeof *leaf, by_place);
+    rst_tree_begin(g->of, chain, length, tree);
+    const int status = rst_tree_plant(tree, leaf, leaves);
+    free(leaf);
+    return status;
+}
+
+static int64_t node_of(const struct harvest *h, const int i[rst_cell_axes])
+{
+    int64_t sum = 0;
+    for (int a = 0; a < rst_cell_axes; a++)
+        sum += i[a] * h->stride[a];
+    return sum;
+}
+
+static void take_values(struct harvest *h, int64_t leaf)
+{
+    struct rst_spot_on_lattice corner, spot;
+    int32_t step[rst_cell_axes];
+    int i[rst_cell_axes];
+    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
+    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
+        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
+            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
+                for (i[3] = 0; i[3] < h->count[3]; i[3]++) {
+                    for (int a = 0; a < rst_cell_axes; a++)
+                        spot.at[a] = corner.at[a] + i[a] * step[a];
+                    h->value[leaf * h->nodes + node_of(h, i)] = rst_nodes_value(&h->growth->nodes, spot);
+                }
+}
+
+/* ---- neighbours */
+
+enum { directions = 81 };
+
+static void direction_of(int number, int d[rst_cell_axes])
+{
+    for (int a = 0; a < rst_cell_axes; a++, number /= 3)
+        d[a] = number % 3 - 1;
+}
+
+/* The leaf that holds a place on the lattice; -1: none. */
+static int64_t leaf_at(const struct harvest *h, const double at[rst_cell_axes])
+{
+    static const enum rst_along along[rst_cell_axes] = {[RST_W] = RST_ALONG_W, [RST_C] = RST_ALONG_CHI, [RST_P] = RST_ALONG_PSI};
+    const struct rst_tree *t = h->tree;
+    const int64_t most[rst_cell_axes] = {t->of.roots, t->of.octaves, 1, t->of.sheets};
+    int64_t whole[rst_cell_axes];
+    double part[rst_cell_axes];
+    uint32_t code = 0;
+    for (int a = 0; a < rst_cell_axes; a++) {
+        whole[a] = (int64_t)floor(at[a] / rst_lattice);
+        if (whole[a] < 0 || whole[a] >= most[a]) return -1;
+        part[a] = at[a] / rst_lattice - (double)whole[a];
+        if (a != RST_G) code |= rst_tree_code(t, along[a], part[a]);
+    }
+    const int64_t leaf = rst_tree_find(t, whole[RST_G], whole[RST_W], whole[RST_P], part[RST_G], code);
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(h->growth, &t->leaf[leaf], &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (h->growth->active[a] && (at[a] < corner.at[a] || at[a] > corner.at[a] + rst_cubic * step[a])) return -1;
+    return leaf;
+}
+
+static int is_shallower(const struct rst_leaf *a, const struct rst_leaf *b)
+{
+    return a->depth < b->depth || (a->depth == b->depth && a->level < b->level);
+}
+
+/* The shallowest leaf that touches the part of the boundary which lies in a direction, if it is shallower than the leaf itself; else -1. */
+static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[directions])
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    int64_t beside[directions];
+    int d[rst_cell_axes], e[rst_cell_axes];
+    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
+    for (int n = 0; n < directions; n++) {
+        double at[rst_cell_axes];
+        int inside = 1, possible = 1;
+        direction_of(n, d);
+        for (int a = 0; a < rst_cell_axes; a++) {
+            at[a] = corner.at[a] + 0.5 * rst_cubic * step[a] * (1 + d[a]) + 0.25 * d[a];
+            inside &= d[a] == 0;
+            possible &= d[a] == 0 || h->growth->active[a];
+        }
+        beside[n] = inside || !possible ? -1 : leaf_at(h, at);
+    }
+    for (int n = 0; n < directions; n++) {
+        master[n] = -1;
+        direction_of(n, d);
+        for (int m = 0; m < directions; m++) {
+            int touches = beside[m] >= 0;
+            direction_of(m, e);
+            for (int a = 0; a < rst_cell_axes; a++)
+                touches &= e[a] == 0 || e[a] == d[a];
+            if (!touches) continue;
+            const struct rst_leaf *best = &h->tree->leaf[master[n] >= 0 ? master[n] : leaf];
+            if (is_shallower(&h->tree->leaf[beside[m]], best)) master[n] = beside[m];
+        }
+    }
+}
+
+/* ---- nodes on faces */
+
+static double polynomial(const struct harvest *h, int64_t leaf, const struct rst_spot_on_lattice *spot)
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    double w[rst_cell_axes][4] = {{1}, {1}, {1}, {1}}, sum = 0;
+    int i[rst_cell_axes];
+    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (h->count[a] > 1) rst_cubic_weights((double)(spot->at[a] - corner.at[a]) / step[a], w[a]);
+    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
+        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
+            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
+                for (i[3] = 0; i[3] < h->count[3]; i[3]++)
+                    sum += w[0][i[0]] * w[1][i[1]] * w[2][i[2]] * w[3][i[3]] *
+                           h->value[leaf * h->nodes + node_of(h, i)];
+    return sum;
+}
+
+static void put_on_neighbours(struct harvest *h, int64_t leaf)
+{
+    int64_t master[directions];
+    struct rst_spot_on_lattice corner, spot;
+    int32_t step[rst_cell_axes];
+    int i[rst_cell_axes];
+    find_masters(h, leaf, master);
+    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
+    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
+        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
+            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
+                for (i[3] = 0; i[3] < h->count[3]; i[3]++) {
+                    int number = 0;
+                    for (int a = rst_cell_axes - 1; a >= 0; a--) {
+                        number = 3 * number + (h->count[a] == 1 ? 1 : i[a] == 0 ? 0 : i[a] == rst_cubic ? 2 : 1);
+                        spot.at[a] = corner.at[a] + i[a] * step[a];
+                    }
+                    if (master[number] >= 0)
+                        h->value[leaf * h->nodes + node_of(h, i)] = polynomial(h, master[number], &spot);
+                }
+}
+
+static int64_t rank_of(const struct rst_leaf *leaf)
+{
+    return leaf->depth * (rst_finest_part + 1) + leaf->level;
+}
+
+static void close_seams(struct harvest *h)
+{
+    const int64_t ranks = (rst_deepest + 1) * (rst_finest_part + 1);
+    for (int64_t rank = 0; rank < ranks; rank++)
+        for (int64_t leaf = 0; leaf < h->tree->leaves; leaf++)
+            if (rank_of(&h->tree->leaf[leaf]) == rank) put_on_neighbours(h, leaf);
+}
+
+/* A planted tree with its values, whose seams are closed. Nonzero: out of memory. */
+static int reap(const struct rst_growth *g, struct rst_tree *tree, struct harvest *h)
+{
+    static const int order[rst_cell_axes] = {RST_G, RST_W, RST_C, RST_P}; /* the first side by side */
+    *h = (struct harvest){.growth = g, .tree = tree, .nodes = 1};
+    for (int i = 0; i < rst_cell_axes; i++) {
+        const int a = order[i];
+        h->count[a] = g->active[a] ? rst_cubic + 1 : 1;
+        h->stride[a] = h->nodes;
+        h->nodes *= h->count[a];
+    }
+    h->value = malloc((size_t)(tree->leaves * h->nodes) * sizeof *h->value);
+    if (!h->value) return 1;
+    for (int64_t leaf = 0; leaf < tree->leaves; leaf++)
+        take_values(h, leaf);
+    close_seams(h);
+    return 0;
+}
+
+/* ---- tables */
+
+static const int8_t always_w[rst_most_halvings] = {0}; /* RST_ALONG_W */
+
+static void describe(const struct restitute_table_builder *b, restitute_table *form)
+{
+    rst_family_describe(&b->family, form);
+    rst_octaves_set(b->seam_low[0], b->seam_high[0], 0, &form->speed);
+    form->gamma = b->cells->gamma;
+    form->w = b->cells->w;
+    form->chi_low = rst_builder_number(b, RST_CHI, 0);
+    form->chi_high = rst_builder_number(b, RST_CHI, 1);
+}
+
+/* Its own lookups reach nodes outside of the range of delta1. */
+int rst_cells_make_rebound(struct restitute_table_builder *b)
+{
+    restitute_table form;
+    struct harvest h;
+    describe(b, &form);
+    form.speed.low = 0;
+    form.speed.high = HUGE_VAL;
+    form.n_cells = 1; /* no ex is asked for */
+    if (plant(&b->cells->rebound, always_w, rst_most_halvings, &form.rebound)) return 1;
+    rst_table_count(&form);
+    restitute_table *t = reap(&b->cells->rebound, &form.rebound, &h) ? NULL : rst_table_allocate(&form);
+    if (t) memcpy(t->ez, h.value, (size_t)(form.rebound.leaves * h.nodes) * sizeof *t->ez);
+    else rst_tree_fell(&form.rebound);
+    free(h.value);
+    b->cells->ez = t;
+    return !t;
+}
+
+int rst_cells_make(struct restitute_table_builder *b, restitute_table **table)
+{
+    const struct rst_growth *g = &b->cells->tangent;
+    restitute_table form;
+    struct harvest h = {.value = NULL};
+    describe(b, &form);
+    if (plant(&b->cells->rebound, always_w, rst_most_halvings, &form.rebound)) return 1;
+    if (plant(g, g->chain, g->chain_length, &form.tangent)) {
+        rst_tree_fell(&form.rebound);
+        return 1;
+    }
+    form.n_cells = form.tangent.leaves;
+    rst_table_count(&form);
+    restitute_table *t = reap(g, &form.tangent, &h) ? NULL : rst_table_allocate(&form);
+    if (t) {
+        const size_t n_ez = (size_t)(form.rebound.leaves * rst_cell_nodes);
+        memcpy(t->ez, b->cells->ez->ez, n_ez * sizeof *t->ez);
+        for (int64_t i = 0; i < form.tangent.leaves * h.nodes; i++)
+            t->ex_cells[i] = (float)h.value[i];
+        *table = t;
+    } else {
+        rst_tree_fell(&form.rebound);
+        rst_tree_fell(&form.tangent);
+    }
+    free(h.value);
+    return !t;
+}
