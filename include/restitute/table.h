@@ -201,8 +201,8 @@ typedef struct restitute_table_info {
         error_ex;     /**< verified: largest difference at the points checked, and what the solver leaves open */
     int64_t impacts;  /**< solved for the table, those of the checks included */
     int64_t checks;   /**< points at which it was compared with a solved impact */
-    int64_t nodes[4]; /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis. Of a table with
-                                   axes of delta1 and gamma: cells, values in a cell (16), then as before */
+    int64_t nodes[4]; /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis. Of a table
+                         with axes of delta1 and gamma: cells of ex, and values in each: of delta1 and gamma (16), of chi, of psi */
     size_t bytes;     /**< of memory that the table takes */
     char version[32]; /**< of the library that built it */
 } restitute_table_info;
@@ -288,22 +288,32 @@ typedef struct restitute_table_data {
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
     int64_t nodes[4]; /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
     const double *ez; /**< [speed][gamma]; with cells: [cell of ez][4 nodes of w][4 of gamma] */
-    const double *
-        ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1); with cells: NULL */
+    const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1);
+                         with cells: NULL */
 
-    int64_t cells; /**< 0; > 0: a table with axes of delta1 and gamma, which are divided by trees of cells, one for ex and one for ez.
-                      Then `parts` is 1, 1, nodes[0], nodes[1] are the number of cells and 16, and the cells of chi and psi are not used */
-    int64_t rebound_cells; /**< the cells of ez */
-    int64_t w_width, w_first,
-        w_roots; /**< log2 of w = delta1 gamma^0.56 (1 + gamma)^0.44 is divided into `w_roots` roots, 2^w_width wide, from w_first
-                    2^w_width on; so is gamma into octaves, and psi into five sheets: psi from 0 to 1, then quarters of t: r(y) is 2 r(1/2) t
-                    up to t = 1/2, and r(1 - y) is 2 r(1/2) (1 - t) beyond */
-    int64_t chain_length, chain[32]; /**< along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi. Those of ez: always w */
-    const int64_t *leaves, *rebound_leaves; /**< [cell][7]: octave of gamma, root of w, sheet of psi (0 for ez); depth, path: the cell is what
-                                               `depth` halvings leave, bit (depth - 1 - d) of the path tells which half is taken
-                                               by halving d; level, part: which of the 2^level parts of the octave of gamma */
-    const float *ex_cells; /**< [cell][4 nodes of psi][of chi][of w][of gamma], evenly spaced from end to end of the cell, those of gamma in
-                              gamma itself; ex for psi <= 1, beyond it psi ex - y ez */
+    /** @name Cells
+     *  A table with axes of delta1 and gamma is divided by two trees of cells, one for ex and one for ez. w = delta1 h takes the place
+     *  of delta1; h is gamma^0.56 (1 + gamma)^0.44 at 4 nodes of each octave of gamma, evenly spaced from end to end, and between them
+     *  their cubic. A root is an octave of gamma, 2^w_width of log2 w, all of chi, and a sheet of psi: 0 is psi from 0 to 1, 1 to 4 are
+     *  quarters of t, 0 at psi = 1 and 1 at psi_c: r(y) is 2 r(1/2) t up to t = 1/2, and r(1 - y) is 2 r(1/2) (1 - t) beyond. The roots of ez
+     *  have neither chi nor psi.
+     *
+     *  A cell has 4 nodes along each axis, evenly spaced from end to end: in log2 w, in gamma itself, in chi, in psi or t. Leaves do not overlap;
+     *  a build leaves out what no delta1 of its range reaches.
+     *  @{ */
+    int64_t cells;         /**< of ex; 0: another table, without all that follows. With cells `parts` is 1, 1; nodes are
+                              `cells`, 16, 4 (1 without a range of chi), 4; cells of chi and psi are not used */
+    int64_t rebound_cells; /**< of ez */
+    int64_t w_width, w_first, w_roots; /**< w_roots roots along w, the first from log2 w = w_first 2^w_width on */
+    int64_t chain_length, chain[32];   /**< along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi. Those
+                                          of ez: always w, up to 12 times */
+    const int64_t *leaves, /**< [cell][7]: octave of gamma, root of w, sheet of psi; depth, path; level, part. The
+                              cell is what `depth` halvings leave: bit (depth - 1 - d) of the path tells
+                              which half halving d takes, 0 the lower one; and of the octave of gamma part `part` of 2^level */
+        *rebound_leaves;   /**< [cell of ez][7]: likewise, sheet 0 */
+    const float *ex_cells; /**< [cell][4 nodes of psi][of chi][of w][of gamma]: ex for psi <= 1, beyond it
+                               psi ex - y ez */
+    /** @} */
 } restitute_table_data;
 
 RESTITUTE_API void restitute_table_data_init(restitute_table_data *data);
@@ -324,7 +334,9 @@ RESTITUTE_API int restitute_table_from_data(const restitute_table_data *data, re
                                             restitute_error *error);
 
 /** The places of an axis's nodes: 0 speed (m/s) or delta1, 1 gamma, 2 chi, 3 psi, where those beyond psi = 1 are given as 1 + y.
- *  @param places  restitute_table_data.nodes[axis] values; along axes 0 and 1 of a table with cells nodes[0] nodes[1] values, [cell][16]
+ *  @param places  restitute_table_data.nodes[axis] values. With cells, those of each cell of ex: axes 0 and 1 [cell][4 nodes of w][4 of gamma],
+ *                 axis 2 [cell][nodes of chi, 4 or 1], axis 3 [cell][4]; a lookup there gives what the node holds. Some delta1 and gamma
+ *                 are beyond the range, as cells are
  *  @return OK, ERROR_NULL, ERROR_DOMAIN */
 RESTITUTE_API int restitute_table_nodes(const restitute_table *table, int axis, double *places);
 

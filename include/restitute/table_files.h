@@ -11,10 +11,16 @@
  *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
  *  HDF5: a damaged or cut file is refused, or it gives the same table. A file gets its name when it is complete.
  *
- *  Schema 1. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
+ *  Schema 2. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
  *  `error_ex` (verified), `impacts`, `checks`, and the members of @ref restitute_table_data of the same names. Datasets, each with
  *  attributes `units` and `description`: `speed` or `delta1`, `gamma`, `chi`, `psi` (1 + y beyond psi = 1) along the axes; `ez` [speed][gamma];
  *  `ex` [speed][gamma][psi][chi]; `relaxation_time`, `modulus` of the material.
+ *
+ *  A table with axes of delta1 and gamma (`cells` > 0) has `leaves` [cells][7], `rebound_leaves` [rebound_cells][7], `chain`; `ez`
+ *  [rebound_cells][w][gamma]; `ex` [cells][psi][chi][w and gamma] in single precision; `delta1`, `gamma` [cells][w][gamma], `chi`
+ *  [cells][chi], `psi` [cells][psi].
+ *
+ *  Files of schema 1 are read, but for tables with axes of delta1 and gamma and for unfinished ones.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -35,7 +41,7 @@ RESTITUTE_API int restitute_table_write(const restitute_table *table, const char
 /** Read a table. It looks up the bits that the written one does.
  *
  *  @param table  the new table, for @ref restitute_table_destroy
- *  @return OK; ERROR_FILE (cannot be read); ERROR_FORMAT (damaged, cut, of a later schema, or no table at all); ERROR_NULL,
+ *  @return OK; ERROR_FILE (cannot be read); ERROR_FORMAT (damaged, cut, of another schema, or no table at all); ERROR_NULL,
  *          ERROR_MEMORY */
 RESTITUTE_API int restitute_table_read(const char *path, restitute_table **table, restitute_error *error);
 

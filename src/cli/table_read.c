@@ -30,7 +30,18 @@ static void print_range(const char *name, const double range[2], const char *uni
         printf("%-16s %.6g to %.6g%s\n", name, range[0], range[1], unit);
 }
 
-static void print_info(const restitute_table_info *i)
+static void print_nodes(const restitute_table_info *i, int64_t rebound_cells)
+{
+    if (rebound_cells > 0)
+        printf("%-16s %lld of ex, %lld of ez; %.3g MB\n", "cells", (long long)i->nodes[0], (long long)rebound_cells,
+               (double)i->bytes / 1e6);
+    else
+        printf("%-16s %lld %s, %lld gamma, %lld chi, %lld psi; %.3g MB\n", "nodes", (long long)i->nodes[0],
+               i->of_contact ? "speed" : "delta1", (long long)i->nodes[1], (long long)i->nodes[2],
+               (long long)i->nodes[3], (double)i->bytes / 1e6);
+}
+
+static void print_info(const restitute_table_info *i, int64_t rebound_cells)
 {
     printf("%-16s %s\n", "kind", i->of_contact ? "one contact" : "ranges");
     print_range("speed", i->speed, " m/s");
@@ -44,13 +55,7 @@ static void print_info(const restitute_table_info *i)
     printf("%-16s %.2g (ez), %.2g (ex), verified at %lld points\n", "error", i->error_ez, i->error_ex,
            (long long)i->checks);
     printf("%-16s %lld\n", "impacts solved", (long long)i->impacts);
-    const bool cells = !i->of_contact && i->delta1[0] < i->delta1[1] && i->gamma[0] < i->gamma[1];
-    printf("%-16s %lld %s, %lld %s, %lld chi, %lld psi; %.3g MB\n", "nodes", (long long)i->nodes[0],
-           cells           ? "cells"
-           : i->of_contact ? "speed"
-                           : "delta1",
-           (long long)i->nodes[1], cells ? "of delta1 and gamma in each" : "gamma", (long long)i->nodes[2],
-           (long long)i->nodes[3], (double)i->bytes / 1e6);
+    print_nodes(i, rebound_cells);
     printf("%-16s %s\n", "built by", i->version);
 }
 
@@ -59,7 +64,7 @@ static json_t *json_of_range(const double range[2])
     return json_pack("[o, o]", json_of_number(range[0]), json_of_number(range[1]));
 }
 
-static json_t *json_of_info(const restitute_table_info *i)
+static json_t *json_of_info(const restitute_table_info *i, int64_t rebound_cells)
 {
     json_t *object =
         json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", i->of_contact ? "contact" : "ranges", "speed_m_s",
@@ -75,6 +80,9 @@ static json_t *json_of_info(const restitute_table_info *i)
     for (int k = 0; k < 4; k++)
         json_array_append_new(nodes, json_integer(i->nodes[k]));
     json_object_set_new(object, "nodes", nodes);
+    if (rebound_cells > 0)
+        json_object_set_new(object, "cells",
+                            json_pack("{s:I, s:I}", "ex", (json_int_t)i->nodes[0], "ez", (json_int_t)rebound_cells));
     json_object_set_new(object, "bytes", json_integer((json_int_t)i->bytes));
     json_object_set_new(object, "version", json_string(i->version));
     return object;
@@ -85,16 +93,20 @@ int table_info_run(const struct table_settings *settings)
     const char *format = settings->text[TABLE_FORMAT] ? settings->text[TABLE_FORMAT] : "text";
     struct reason why;
     restitute_table_info info;
+    restitute_table_data data;
     if (strcmp(format, "text") != 0 && strcmp(format, "json") != 0)
         return complain("--format = \"%.64s\": must be text or json", format);
     restitute_table *table = read_table(settings);
     if (!table) return EXIT_USAGE;
     restitute_table_info_init(&info);
     restitute_table_describe(table, &info, NULL);
+    restitute_table_data_init(&data);
+    restitute_table_to_data(table, &data, NULL);
+    const int64_t rebound_cells = data.rebound_cells; /* 0 without cells */
     restitute_table_destroy(table);
     if (*format == 't')
-        print_info(&info);
-    else if (!provenance_write(NULL, json_of_info(&info), &why))
+        print_info(&info, rebound_cells);
+    else if (!provenance_write(NULL, json_of_info(&info, rebound_cells), &why))
         return complain("%s", why.text);
     return EXIT_DONE;
 }
@@ -287,34 +299,60 @@ static double psi_of(double place, double chi, double ez)
 static double stored_ex(const restitute_table_data *d, int64_t node, int64_t k, int64_t l, double chi, double psi)
 {
     if (d->psi_factor > 1e300 && d->of_contact) return -1; /* no friction */
-    const int64_t outer = d->cells > 0 ? node / d->nodes[1] : node, place = (outer * d->nodes[3] + l) * d->nodes[2] + k;
-    const double kept = d->cells > 0 ? (double)d->ex_cells[place * d->nodes[1] + node % d->nodes[1]] : d->ex[place];
+    const double kept = d->ex[(node * d->nodes[3] + l) * d->nodes[2] + k];
     const bool slips = d->stick_cells > 0 && l > 3 * d->stick_cells;
     const double ex = slips ? kept + (2 * chi * (1 + fmin(1, fmax(0, d->ez[node]))) / psi - 1) : kept;
     return fmin(1, fmax(-1, ex));
 }
 
-static void export_node(const restitute_table_data *d, int64_t node, double chi, double psi, double ex, FILE *out)
+static void export_row(FILE *out, const double value[6])
 {
-    fprintf(out, "%s,", number_text(chi).text);
-    fprintf(out, "%s,", number_text(d->of_contact && d->psi_factor > 1e300 ? INFINITY : psi).text);
-    fprintf(out, "%s,", number_text(fmin(1, fmax(0, d->ez[node]))).text);
-    fprintf(out, "%s\n", number_text(ex).text);
+    for (int i = 0; i < 6; i++)
+        fprintf(out, "%s%c", number_text(value[i]).text, i < 5 ? ',' : '\n');
 }
 
 static void export_rows(const restitute_table_data *d, double *const place[4], FILE *out)
 {
-    for (int64_t i = 0; i < d->nodes[0] * d->nodes[1]; i++) {
-        const double first = place[0][d->cells > 0 ? i : i / d->nodes[1]];
-        const double gamma = place[1][d->cells > 0 ? i : i % d->nodes[1]];
+    for (int64_t i = 0; i < d->nodes[0] * d->nodes[1]; i++)
         for (int64_t k = 0; k < d->nodes[2]; k++)
             for (int64_t l = 0; l < d->nodes[3]; l++) {
                 const double chi = place[2][k], psi = psi_of(place[3][l], chi, d->ez[i]);
-                fprintf(out, "%s,", number_text(first).text);
-                fprintf(out, "%s,", number_text(d->of_contact ? d->own_gamma : gamma).text);
-                export_node(d, i, chi, psi, stored_ex(d, i, k, l, chi, psi), out);
+                const double gamma = d->of_contact ? d->own_gamma : place[1][i % d->nodes[1]];
+                const double value[6] = {place[0][i / d->nodes[1]],
+                                         gamma,
+                                         chi,
+                                         d->of_contact && d->psi_factor > 1e300 ? INFINITY : psi,
+                                         fmin(1, fmax(0, d->ez[i])),
+                                         stored_ex(d, i, k, l, chi, psi)};
+                export_row(out, value);
+            }
+}
+
+/* The same of one cell of ex: 16 nodes of delta1 and gamma, ez there by a lookup. Beyond psi = 1, psi ex - y ez is kept. */
+static void export_cell(const restitute_table *table, const restitute_table_data *d, int64_t cell,
+                        double *const place[4], FILE *out)
+{
+    const int64_t n_chi = d->nodes[2];
+    for (int64_t m = 0; m < 16; m++) {
+        restitute_table_value at;
+        const double delta1 = place[0][16 * cell + m], gamma = place[1][16 * cell + m];
+        restitute_table_numbers_pair(table, d->chi_low, 0, delta1, gamma, &at);
+        for (int64_t k = 0; k < n_chi; k++)
+            for (int64_t l = 0; l < 4; l++) {
+                const double chi = place[2][n_chi * cell + k], at_psi = place[3][4 * cell + l];
+                const double kept = (double)d->ex_cells[((4 * cell + l) * n_chi + k) * 16 + m];
+                const double psi = psi_of(at_psi, chi, at.ez), ex = (kept + fmax(0, at_psi - 1) * at.ez) / fmax(1, psi);
+                export_row(out, (double[6]){delta1, gamma, chi, psi, at.ez, fmin(1, fmax(-1, ex))});
             }
     }
+}
+
+static void export_table(const restitute_table *table, const restitute_table_data *d, double *const place[4], FILE *out)
+{
+    fprintf(out, "%s,gamma,chi,psi,ez,ex\n", d->of_contact ? "speed_m_s" : "delta1");
+    if (d->cells == 0) export_rows(d, place, out);
+    for (int64_t cell = 0; cell < d->cells; cell++)
+        export_cell(table, d, cell, place, out);
 }
 
 int table_export_run(const struct table_settings *settings)
@@ -328,16 +366,15 @@ int table_export_run(const struct table_settings *settings)
     restitute_table_data_init(&data);
     restitute_table_to_data(table, &data, NULL);
     for (int axis = 0; axis < 4; axis++) {
-        const int64_t inner = axis < 2 && data.cells > 0 ? data.nodes[1] : 1; /* see restitute_table_nodes */
-        place[axis] =
-            allocate((size_t)(data.nodes[axis < 2 && data.cells > 0 ? 0 : axis] * inner), sizeof *place[axis]);
+        const int64_t in_a_cell = axis < 2 ? 16 : data.nodes[axis]; /* see restitute_table_nodes */
+        const int64_t n = data.cells > 0 ? data.cells * in_a_cell : data.nodes[axis];
+        place[axis] = allocate((size_t)n, sizeof *place[axis]);
         restitute_table_nodes(table, axis, place[axis]);
     }
     bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&
                 output_open(settings->text[TABLE_OUTPUT], &output, &why);
     if (good) {
-        fprintf(output.stream, "%s,gamma,chi,psi,ez,ex\n", data.of_contact ? "speed_m_s" : "delta1");
-        export_rows(&data, place, output.stream);
+        export_table(table, &data, place, output.stream);
         good = output_finish(&output, &why);
     }
     for (int axis = 0; axis < 4; axis++)
