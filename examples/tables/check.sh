@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# read_table.py finds in a file what the command does: one impact that sticks first, one that slips first, one in full slip, one beyond
-# the table's speeds. Arguments: the command, the folder examples, a Python. Exit status 77 without h5py.
+# read_table.py finds in a file what the command does: impacts that stick first, that slip first, in full slip, beyond the table's
+# ranges. Arguments: the command, the folder examples, a Python. Exit status 77 without h5py.
 set -eu
 command=$1 examples=$2 python=$3
 
@@ -11,13 +11,23 @@ command=$1 examples=$2 python=$3
 }
 "$command" table build --material "$examples/materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 \
     --speed 0.01:10 --tolerance 1e-3 --output tables_example.h5
+# Where in read.txt and query.txt ez and ex differ by more than $2
+compare() {
+    paste query.txt read.txt | awk -v where="$1" -v most="$2" '
+        { d = $3 - $6; if (d < 0) d = -d; if ($1 != $4 || d > most) { print where ": " $0; bad = 1 } n++ }
+        END { exit bad || n != 2 }'
+}
 for speeds in '1 0.1' '0.3 0.2' '2 5' '50 12'; do
     set -- $speeds
     "$command" table query tables_example.h5 --normal-speed "$1" --tangential-speed "$2" >query.txt
     "$python" "$examples/tables/read_table.py" tables_example.h5 "$1" "$2" | sed 1d >read.txt
-    # 1e-11: both add the same cubics in another order
-    paste query.txt read.txt | awk -v where="$speeds" '
-        { d = $3 - $6; if (d < 0) d = -d; if ($1 != $4 || d > 1e-11) { print where ": " $0; bad = 1 } n++ }
-        END { exit bad || n != 2 }'
+    compare "$speeds" 1e-11 # both add the same cubics in another order
+done
+"$command" table build --chi 1:1.3 --delta1 0.3:1.5 --gamma 0.3:2 --tolerance 0.02 --output tables_ranges.h5
+for numbers in '1.1 0.4 0.5 0.5' '1.2 1 1.4 0.3' '1.3 1.3 0.7 2' '1 1.9 0.3 1.4' '1.2 2.3 0.9 0.6' '1.2 9 1 1' '2 1.1 9 0.1'; do
+    set -- $numbers
+    "$command" table query tables_ranges.h5 --chi "$1" --psi "$2" --delta1 "$3" --gamma "$4" >query.txt 2>warning.txt
+    "$python" "$examples/tables/read_table.py" tables_ranges.h5 "$@" | sed 1d >read.txt
+    compare "$numbers" 1e-6 # the library multiplies the values of ex in single precision
 done
 "$python" "$examples/tables/read_table.py" tables_example.h5 | awk -F, 'NR > 1 && ($2 < 0 || $2 > 1) { bad = 1 } END { exit bad || NR != 62 }'
