@@ -16,10 +16,8 @@ enum { schema = 2, oldest_schema = 1 };
     X(tolerance)                                                                                                       \
     X(error_ez)                                                                                                        \
     X(error_ex)                                                                                                        \
-    X(psi_factor)                                                                                                      \
-    X(own_chi)                                                                                                         \
-    X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor) X(chi_low) X(chi_high)      \
-        X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
+    X(psi_factor) X(own_chi) X(own_gamma) X(own_delta1) X(duration) X(friction) X(radius) X(mass) X(modulus_factor)    \
+        X(chi_low) X(chi_high) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity)
 #define INTEGERS(X) X(of_contact) X(impacts) X(checks) X(terms) X(chi_cells) X(stick_cells) X(slip_cells) X(cells)
 #define CELL_INTEGERS(X) X(rebound_cells) X(w_width) X(w_first) X(w_roots) /* with cells alone */
 
