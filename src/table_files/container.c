@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { block_size = 512, schema = 2 };
+enum { block_size = 512 };
 
 struct rst_quiet rst_quiet_begin(void)
 {
@@ -91,11 +91,11 @@ static int refuse_block(const char *path, const char *title, int oldest, const s
         return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not a %s file of restitute", path, title);
     for (size_t i = length; i < file->size && i < length + 6 && file->bytes[i] >= '0' && file->bytes[i] <= '9'; i++)
         version = 10 * version + (file->bytes[i] - '0');
-    if (version > schema)
+    if (version > rst_schema)
         return rst_report(
             error, RESTITUTE_ERROR_FORMAT,
             "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged", path,
-            version, schema);
+            version, rst_schema);
     if (version > 0 && version < oldest)
         return rst_report(
             error, RESTITUTE_ERROR_FORMAT,
@@ -110,7 +110,7 @@ static int check_block(const char *path, const char *title, int oldest, struct r
     char block[block_size];
     const size_t size = file->size > block_size ? file->size - block_size : 0;
     const uint64_t sum = size > 0 ? checksum(file->bytes + block_size, size) : 0;
-    for (file->schema = schema; size > 0 && file->schema >= oldest; file->schema--) {
+    for (file->schema = rst_schema; size > 0 && file->schema >= oldest; file->schema--) {
         make_block(title, file->schema, sum, size, block);
         if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
     }
@@ -202,7 +202,7 @@ static int put_block(const char *path, const char *title)
         return 1;
     }
     const size_t size = whole.size - block_size;
-    make_block(title, schema, checksum(whole.bytes + block_size, size), size, block);
+    make_block(title, rst_schema, checksum(whole.bytes + block_size, size), size, block);
     free(whole.bytes);
     FILE *stream = fopen(path, "r+b");
     if (!stream) return 1;

@@ -9,6 +9,9 @@
 
 #include "../core/report.h"
 
+/* Of what is written. */
+enum { rst_schema = 2 };
+
 /* HDF5 prints errors unless told not to; the caller's setting is put back. */
 struct rst_quiet {
     H5E_auto2_t function;

@@ -9,7 +9,7 @@
 static const char title[] = "table";
 
 /* Tables of schema 1 are the same but for those with cells. */
-enum { schema = 2, oldest_schema = 1 };
+enum { oldest_schema = 1 };
 
 /* Members that are attributes of the root. */
 #define NUMBERS(X)                                                                                                     \
@@ -42,7 +42,7 @@ static int put_attributes(hid_t f, const restitute_table_data *d)
 {
     int failed = rst_put_text(f, "kind", d->of_contact ? "contact" : "ranges");
     failed |= rst_put_text(f, "restitute_version", d->version);
-    failed |= rst_put_integer(f, "schema", schema);
+    failed |= rst_put_integer(f, "schema", rst_schema);
     failed |= rst_put_text(f, "units", units_of_attributes);
 #define PUT(member) failed |= rst_put_number(f, #member, d->member);
     NUMBERS(PUT)
@@ -238,12 +238,12 @@ static int read_table(const char *path, const struct rst_old_file *file, restitu
     struct set set[SETS] = {{0}};
     restitute_error why;
     int64_t cells = 0;
-    if (file->schema < schema && !rst_get_integer(file->file, "cells", &cells) && cells > 0)
+    if (file->schema < rst_schema && !rst_get_integer(file->file, "cells", &cells) && cells > 0)
         return rst_report(
             error, RESTITUTE_ERROR_FORMAT,
             "%.120s: schema %d: tables with axes of delta1 and gamma are read from schema %d on; build it "
             "again",
-            path, file->schema, schema);
+            path, file->schema, rst_schema);
     restitute_table_data_init(&d);
     const int failed = get_table(file->file, &d, set, &why);
     const int status = failed ? RESTITUTE_ERROR_FORMAT : make_table(&d, set, table, &why);
