@@ -8,13 +8,14 @@
 static const double part_for_rebound = 0.15, part_for_tangent = 0.6;
 
 /* Checks: at least that many in all, and 2 to 48 a cell. Rounds of them that may fail. */
-enum { least_checks = 3000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12 };
+enum { least_checks = 10000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12 };
 
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
 
-/* Nodes of cells at the ends of the range of delta1 may lie outside: no farther than by this factor. */
-static const double beyond_range = 4;
+/* Nodes of cells at the ends of the range of delta1 lie outside: no farther than by this factor, since a root spans 2 octaves of w, and an
+ * octave of gamma 1 of h. */
+static const double beyond_range = 8;
 
 static int64_t width_of(const double range[2])
 {
@@ -32,6 +33,7 @@ int rst_cells_create(struct restitute_table_builder *b)
     if (!c) return 1;
     rst_octaves_set(b->seam_low[1], b->seam_high[1], 0, &c->gamma);
     rst_w_axis_set(b->family.range[0][0], b->family.range[0][1], &c->gamma, width_of(b->family.range[0]), &c->w);
+    c->growing = &c->rebound;
     c->rebound.part = part_for_rebound;
     c->rebound.of.sheets = 1;
     c->rebound.active[RST_W] = c->rebound.active[RST_G] = 1;
@@ -86,7 +88,7 @@ void rst_cells_numbers(const struct restitute_table_builder *b, const double at[
     p->y = sheet > 1 ? y_of((sheet - 1) / rst_slip_sheets) : 0;
     p->psi = sheet;
     p->ez = 0;
-    if (!c->ez || sheet <= 1) return;
+    if (c->growing == &c->rebound || sheet <= 1) return;
     p->ez = rst_table_rebound(c->ez, p->delta1, p->gamma);
     p->psi = 1 + p->y * (restitute_critical_psi(p->chi, p->ez) - 1);
 }
@@ -98,11 +100,6 @@ int rst_cells_asked(const struct restitute_table_builder *b, double delta1, doub
 }
 
 /* ---- nodes */
-
-static struct rst_growth *growing(struct rst_cells *c)
-{
-    return c->ez ? &c->tangent : &c->rebound;
-}
 
 static struct rst_place numbers_at(const struct restitute_table_builder *b, const struct rst_lattice_node *node)
 {
@@ -132,10 +129,10 @@ static int add_node(struct restitute_table_builder *b, struct rst_growth *g, int
 
 static int plan_nodes(struct restitute_table_builder *b)
 {
-    struct rst_growth *g = growing(b->cells);
+    struct rst_growth *g = b->cells->growing;
     int failed = 0;
     rst_plan_begin(b);
-    if (rst_growth_need(g, b)) return 1;
+    if (rst_growth_need(g)) return 1;
     int64_t *number = rst_nodes_new(&g->nodes);
     for (int64_t i = 0; number && i < g->nodes.count - g->nodes.solved && !failed; i++)
         failed = add_node(b, g, number[i]);
@@ -145,7 +142,7 @@ static int plan_nodes(struct restitute_table_builder *b)
 
 static void collect_nodes(struct restitute_table_builder *b)
 {
-    struct rst_growth *g = growing(b->cells);
+    struct rst_growth *g = b->cells->growing;
     for (int64_t i = 0; i < b->points; i++) {
         struct rst_lattice_node *node = &g->nodes.node[b->point[i].slot];
         const struct rst_place p = numbers_at(b, node);
@@ -193,7 +190,8 @@ static int check_cell(struct restitute_table_builder *b, int64_t k)
             at[a] = corner.at[a] + rst_cubic * step[a] * fmod(spread[a] * (double)(k * most_a_cell + i + 1), 1);
         rst_cells_numbers(b, at, &p);
         if (!rst_cells_asked(b, p.delta1, p.gamma)) continue;
-        const struct rst_check check = {.delta1 = p.delta1, .gamma = p.gamma, .chi = p.chi, .psi = p.psi, .cell = k};
+        struct rst_check check = {.delta1 = p.delta1, .gamma = p.gamma, .chi = p.chi, .psi = p.psi, .cell = k};
+        memcpy(check.at, at, sizeof at);
         if (add_check(b, check)) return 1;
     }
     return 0;
@@ -222,28 +220,34 @@ static int plan_checks(struct restitute_table_builder *b)
     return 0;
 }
 
+/* The leaf that a check is in now. */
+static struct rst_cell *leaf_of(struct rst_growth *g, struct rst_check *check)
+{
+    while (g->cell[check->cell].state == RST_DONE_WITH) {
+        const int64_t child = g->cell[check->cell].child;
+        check->cell = rst_cell_holds(g, &g->cell[child].at, check->at) ? child : child + 1;
+    }
+    return &g->cell[check->cell];
+}
+
 /* Largest differences to all impacts of the checks; cells where they are too large fail. */
-static int compare(struct restitute_table_builder *b)
+static void compare(struct restitute_table_builder *b)
 {
     struct rst_cells *c = b->cells;
-    int any = 0;
     for (int64_t i = 0; i < b->points; i++)
         c->check[b->point[i].slot].solved = b->solved[i];
     b->worst_ez = b->worst_ex = 0;
     for (int64_t i = 0; i < c->checks; i++) {
-        const struct rst_check *check = &c->check[i];
-        struct rst_cell *cell = &c->tangent.cell[check->cell];
+        struct rst_check *check = &c->check[i];
+        struct rst_cell *cell = leaf_of(&c->tangent, check);
         restitute_table_value pair;
         rst_table_evaluate(b->draft, check->delta1, check->gamma, check->chi, check->psi, &pair);
         const double ez = fabs(pair.ez - check->solved.ez) + check->solved.error_ez;
         const double ex = fabs(pair.ex - check->solved.ex) + check->solved.error_ex;
         b->worst_ez = fmax(b->worst_ez, ez);
         b->worst_ex = fmax(b->worst_ex, ex);
-        if (ex <= b->options.tolerance || cell->state != RST_SETTLED) continue;
-        cell->state = RST_FAILING;
-        any = 1;
+        if (ex > b->options.tolerance) rst_cell_fails(cell);
     }
-    return any;
 }
 
 /* ---- stages */
@@ -274,37 +278,52 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
 
 static int begin_tangent(struct restitute_table_builder *b, restitute_error *error)
 {
-    if (rst_cells_make_rebound(b) || rst_growth_begin(&b->cells->tangent, b->cells, b)) return out_of_memory(error);
+    if (rst_growth_begin(&b->cells->tangent, b->cells, b)) return out_of_memory(error);
     return begin_filling(b, error);
 }
 
 static int begin_checking(struct restitute_table_builder *b, restitute_error *error)
 {
-    restitute_table *table;
-    if (rst_cells_make(b, &table)) return out_of_memory(error);
-    restitute_table_destroy(b->draft);
-    b->draft = table;
     if (plan_checks(b)) return out_of_memory(error);
     b->stage = RST_CHECKING;
     return RESTITUTE_OK;
 }
 
+/* The table of a tree that has grown; nonzero in `more` if seams have told that it must go on growing. */
+static int make(struct restitute_table_builder *b, int *more)
+{
+    struct rst_cells *c = b->cells;
+    struct rst_growth *g = c->growing;
+    restitute_table *table = NULL;
+    if (g == &c->rebound ? rst_cells_make_rebound(b) : rst_cells_make(b, &table)) return 1;
+    if (table) {
+        restitute_table_destroy(b->draft);
+        b->draft = table;
+    }
+    return rst_growth_fails(g) ? rst_growth_judge(g, b, more) : 0;
+}
+
 static int after_filling(struct restitute_table_builder *b, restitute_error *error)
 {
-    int more;
+    struct rst_cells *c = b->cells;
+    int more = 0;
     collect_nodes(b);
-    if (rst_growth_judge(growing(b->cells), b, &more)) return out_of_memory(error);
+    if (rst_growth_judge(c->growing, b, &more)) return out_of_memory(error);
+    if (!more && make(b, &more)) return out_of_memory(error);
     if (more) return begin_filling(b, error);
-    return b->cells->ez ? begin_checking(b, error) : begin_tangent(b, error);
+    if (c->growing == &c->tangent) return begin_checking(b, error);
+    c->growing = &c->tangent;
+    return begin_tangent(b, error);
 }
 
 static int after_checking(struct restitute_table_builder *b, restitute_error *error)
 {
+    struct rst_growth *g = &b->cells->tangent;
     int more = 0;
-    const int failing = compare(b);
+    compare(b);
     b->draft->checks = b->cells->checks;
-    if (!failing || b->cells->rounds++ >= most_rounds) return finish(b);
-    if (rst_growth_judge(&b->cells->tangent, b, &more)) return out_of_memory(error);
+    if (!rst_growth_fails(g) || b->cells->rounds++ >= most_rounds) return finish(b);
+    if (rst_growth_judge(g, b, &more)) return out_of_memory(error);
     return more ? begin_filling(b, error) : finish(b);
 }
 

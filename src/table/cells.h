@@ -26,13 +26,17 @@ enum rst_cell_state {
 struct rst_cell {
     struct rst_leaf at;
     double error[rst_cell_axes]; /* what its cubics miss half way between nodes */
+    double least;                /* the least sum of that, of it or a cell that it is a part of */
+    int64_t child;               /* the first of its halves; of these there may be but one */
     int8_t state;
     int8_t checked;
+    int8_t in_vain; /* halvings on end that have not brought the sum down to half of the least */
 };
 
 struct rst_check {
     double delta1, gamma, chi, psi;
-    int64_t cell;
+    double at[rst_cell_axes]; /* on the lattice */
+    int64_t cell;             /* a leaf, as long as that is not halved */
     struct rst_solved solved;
 };
 
@@ -53,7 +57,7 @@ struct rst_growth {
 struct rst_cells {
     struct rst_octaves gamma;
     struct rst_w_axis w;
-    struct rst_growth rebound, tangent;
+    struct rst_growth rebound, tangent, *growing; /* one of the two */
     restitute_table *ez; /* the finished tree of ez, in a table without ex */
     struct rst_check *check;
     int64_t checks, check_capacity, checks_a_cell;
@@ -69,13 +73,21 @@ int rst_cells_next(struct restitute_table_builder *b, restitute_error *error);
 int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b);
 void rst_growth_free(struct rst_growth *g);
 /* What all cells to be judged need. */
-int rst_growth_need(struct rst_growth *g, const struct restitute_table_builder *b);
+int rst_growth_need(struct rst_growth *g);
 /* Judge these cells, and halve what fails; nonzero in `more` if there are new ones. */
 int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder *b, int *more);
+
+/* A leaf is to be halved, unless that has been in vain. */
+void rst_cell_fails(struct rst_cell *cell);
+/* Whether any is. */
+int rst_growth_fails(const struct rst_growth *g);
 
 /* Corner of a cell and the distance of its nodes on the lattice. */
 void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
                     int32_t step[rst_cell_axes]);
+
+/* Whether a place on the lattice is in a cell. */
+int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes]);
 
 /* The numbers at a place on the lattice, counted in its steps. Beyond psi = 1 psi follows from y and the table of ez; while that grows it is
  * so large that the contact slips to the end. */
@@ -88,7 +100,8 @@ void rst_cells_numbers(const struct restitute_table_builder *b, const double at[
 /* Whether a place is in what was asked for. */
 int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma);
 
-/* From the trees that have grown to a table (seams.c); the first: of ez alone. Nonzero: out of memory. */
+/* From the trees that have grown to a table (seams.c); the first: of ez alone. Where cells of unlike size touch, the nodes of the smaller
+ * one tell what the larger one misses, which may fail then. Nonzero: out of memory. */
 int rst_cells_make_rebound(struct restitute_table_builder *b);
 int rst_cells_make(struct restitute_table_builder *b, restitute_table **table);
 

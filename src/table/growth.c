@@ -8,7 +8,7 @@
 static const double share_for_gamma = 0.7;
 
 /* Half way between nodes: so many places along each axis. */
-enum { places_an_axis = 6 };
+enum { places_an_axis = 6, most_in_vain = 10 };
 
 /* The cubic through the nodes, half way between two of them. */
 static const double half_way[3][4] = {{0.3125, 0.9375, -0.3125, 0.0625},
@@ -35,6 +35,16 @@ void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struc
         step[a] = g->active[a] ? size[a] / rst_cubic : 0;
 }
 
+int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes])
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(g, cell, &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (g->active[a] && (at[a] < corner.at[a] || at[a] > corner.at[a] + rst_cubic * step[a])) return 0;
+    return 1;
+}
+
 /* Whether any of it is in what was asked for. h grows with gamma. */
 static int is_asked(const struct restitute_table_builder *b, const struct rst_spot_on_lattice *corner,
                     const int32_t step[rst_cell_axes])
@@ -53,7 +63,8 @@ static int is_asked(const struct restitute_table_builder *b, const struct rst_sp
            high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin);
 }
 
-static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at)
+static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at,
+                    const struct rst_cell *whole)
 {
     struct rst_spot_on_lattice corner;
     int32_t step[rst_cell_axes];
@@ -66,8 +77,24 @@ static int add_cell(struct rst_growth *g, const struct restitute_table_builder *
         g->cell = cell;
         g->capacity = capacity;
     }
-    g->cell[g->count++] = (struct rst_cell){.at = at, .state = RST_TO_JUDGE};
+    const struct rst_cell cell = {.at = at,
+                                  .state = RST_TO_JUDGE,
+                                  .least = whole ? whole->least : HUGE_VAL,
+                                  .in_vain = (int8_t)(whole ? whole->in_vain + 1 : 0)};
+    g->cell[g->count++] = cell;
     return 0;
+}
+
+/* Halves of a cell, made from that of the lower one. */
+static int add_halves(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k, struct rst_leaf lower)
+{
+    const struct rst_cell whole = g->cell[k];
+    struct rst_leaf upper = lower;
+    upper.part += lower.level > whole.at.level;
+    upper.path += lower.depth > whole.at.depth;
+    g->cell[k].state = RST_DONE_WITH;
+    g->cell[k].child = g->count;
+    return add_cell(g, b, lower, &whole) || add_cell(g, b, upper, &whole);
 }
 
 int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b)
@@ -82,7 +109,7 @@ int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const stru
     for (int64_t o = 0; o < g->of.octaves; o++)
         for (int64_t r = 0; r < g->of.roots; r++)
             for (int64_t s = 0; s < sheets; s++)
-                if (add_cell(g, b, (struct rst_leaf){.octave = o, .root = r, .sheet = s})) return 1;
+                if (add_cell(g, b, (struct rst_leaf){.octave = o, .root = r, .sheet = s}, NULL)) return 1;
     return 0;
 }
 
@@ -117,13 +144,6 @@ static void half_way_place(const struct rst_growth *g, int64_t cell, int axis, i
     place->at[axis] += step[axis] / 2 * (2 * (n % 3) + 1);
 }
 
-static int is_asked_place(const struct restitute_table_builder *b, const struct rst_spot_on_lattice *place,
-                          struct rst_place *numbers)
-{
-    rst_cells_numbers(b, (double[]){place->at[0], place->at[1], place->at[2], place->at[3]}, numbers);
-    return rst_cells_asked(b, numbers->delta1, numbers->gamma);
-}
-
 static int need_nodes(struct rst_growth *g, int64_t cell)
 {
     struct rst_spot_on_lattice corner, spot;
@@ -143,10 +163,9 @@ static int need_nodes(struct rst_growth *g, int64_t cell)
     return 0;
 }
 
-int rst_growth_need(struct rst_growth *g, const struct restitute_table_builder *b)
+int rst_growth_need(struct rst_growth *g)
 {
     struct rst_spot_on_lattice start, place;
-    struct rst_place numbers;
     int32_t step[rst_cell_axes];
     for (int64_t k = 0; k < g->count; k++) {
         if (g->cell[k].state != RST_TO_JUDGE) continue;
@@ -154,7 +173,7 @@ int rst_growth_need(struct rst_growth *g, const struct restitute_table_builder *
         for (int axis = 0; axis < rst_cell_axes; axis++)
             for (int n = 0; g->active[axis] && n < places_an_axis; n++) {
                 half_way_place(g, k, axis, n, &start, &place, step);
-                if (is_asked_place(b, &place, &numbers) && rst_nodes_need(&g->nodes, place) < 0) return 1;
+                if (rst_nodes_need(&g->nodes, place) < 0) return 1;
             }
     }
     return 0;
@@ -171,7 +190,7 @@ static double missed_along(const struct rst_growth *g, const struct restitute_ta
     double worst = 0;
     for (int n = 0; n < places_an_axis; n++) {
         half_way_place(g, cell, axis, n, &start, &place, step);
-        if (!is_asked_place(b, &place, &numbers)) continue;
+        rst_cells_numbers(b, (double[]){place.at[0], place.at[1], place.at[2], place.at[3]}, &numbers);
         double sum = -rst_nodes_value(&g->nodes, place);
         for (int i = 0; i < 4; i++, start.at[axis] += step[axis])
             sum += half_way[n % 3][i] * rst_nodes_value(&g->nodes, start);
@@ -180,12 +199,30 @@ static double missed_along(const struct rst_growth *g, const struct restitute_ta
     return worst;
 }
 
+/* Where many halvings do not help, the impacts themselves are off. */
 static void judge(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k)
 {
+    struct rst_cell *cell = &g->cell[k];
     double sum = 0;
     for (int a = 0; a < rst_cell_axes; a++)
-        if (g->active[a]) sum += g->cell[k].error[a] = missed_along(g, b, k, a);
-    g->cell[k].state = sum <= g->part * b->options.tolerance ? RST_SETTLED : RST_FAILING;
+        if (g->active[a]) sum += cell->error[a] = missed_along(g, b, k, a);
+    if (sum <= 0.5 * cell->least) cell->in_vain = 0;
+    cell->least = fmin(cell->least, sum);
+    cell->state =
+        sum <= g->part * b->options.tolerance || cell->in_vain >= most_in_vain ? RST_SETTLED : RST_FAILING;
+}
+
+void rst_cell_fails(struct rst_cell *cell)
+{
+    if (cell->state == RST_SETTLED && cell->in_vain < most_in_vain) cell->state = RST_FAILING;
+}
+
+int rst_growth_fails(const struct rst_growth *g)
+{
+    int any = 0;
+    for (int64_t k = 0; k < g->count; k++)
+        any |= g->cell[k].state == RST_FAILING;
+    return any;
 }
 
 /* ---- how it is halved */
@@ -237,11 +274,9 @@ static int halve_along_gamma(struct rst_growth *g, const struct restitute_table_
             g->cell[k].state = RST_TO_HALVE;
             continue;
         }
-        g->cell[k].state = RST_DONE_WITH;
         at.level++;
         at.part *= 2;
-        for (int half = 0; half < 2; half++, at.part++)
-            if (add_cell(g, b, at)) return 1;
+        if (add_halves(g, b, k, at)) return 1;
         *more = 1;
     }
     return 0;
@@ -284,11 +319,9 @@ static int halve_with_chain(struct rst_growth *g, const struct restitute_table_b
     for (int64_t k = 0; k < count; k++) {
         struct rst_leaf at = g->cell[k].at;
         if (g->cell[k].state != RST_TO_HALVE || at.depth >= g->chain_length) continue;
-        g->cell[k].state = RST_DONE_WITH;
         at.depth++;
         at.path *= 2;
-        for (int half = 0; half < 2; half++, at.path++)
-            if (add_cell(g, b, at)) return 1;
+        if (add_halves(g, b, k, at)) return 1;
         *more = 1;
     }
     return 0;

@@ -7,8 +7,10 @@
 
 /* A tree with the values at the nodes of its leaves, [leaf][psi][chi][w][gamma]. */
 struct harvest {
-    const struct rst_growth *growth;
+    struct rst_growth *growth;
+    const struct restitute_table_builder *builder;
     struct rst_tree *tree;
+    int64_t *cell; /* which one a leaf is */
     double *value;
     int64_t nodes;                /* of a leaf */
     int64_t stride[rst_cell_axes];
@@ -17,10 +19,15 @@ struct harvest {
 
 /* ---- leaves, and what was solved at their nodes */
 
+struct numbered_leaf {
+    struct rst_leaf at;
+    int64_t cell;
+};
+
 /* By place: a root after the other, and what is close in it is close in memory. */
 static int by_place(const void *a, const void *b)
 {
-    const struct rst_leaf *x = a, *y = b;
+    const struct rst_leaf *x = &((const struct numbered_leaf *)a)->at, *y = &((const struct numbered_leaf *)b)->at;
     const int64_t keys[5][2] = {{x->octave, y->octave},
                                 {x->root, y->root},
                                 {x->sheet, y->sheet},
@@ -31,18 +38,26 @@ static int by_place(const void *a, const void *b)
     return 0;
 }
 
-static int plant(const struct rst_growth *g, const int8_t *chain, int64_t length, struct rst_tree *tree)
+static int plant(struct harvest *h, const int8_t *chain, int64_t length)
 {
+    const struct rst_growth *g = h->growth;
     int64_t leaves = 0;
+    struct numbered_leaf *sorted = malloc((size_t)(g->count + 1) * sizeof *sorted);
     struct rst_leaf *leaf = malloc((size_t)(g->count + 1) * sizeof *leaf);
-    if (!leaf) return 1;
-    for (int64_t k = 0; k < g->count; k++)
-        if (g->cell[k].state == RST_SETTLED) leaf[leaves++] = g->cell[k].at;
-    qsort(leaf, (size_t)leaves, sizeof *leaf, by_place);
-    rst_tree_begin(g->of, chain, length, tree);
-    const int status = rst_tree_plant(tree, leaf, leaves);
+    h->cell = malloc((size_t)(g->count + 1) * sizeof *h->cell);
+    int failed = !sorted || !leaf || !h->cell;
+    for (int64_t k = 0; k < g->count && !failed; k++)
+        if (g->cell[k].state == RST_SETTLED) sorted[leaves++] = (struct numbered_leaf){g->cell[k].at, k};
+    if (!failed) qsort(sorted, (size_t)leaves, sizeof *sorted, by_place);
+    for (int64_t i = 0; i < leaves && !failed; i++) {
+        leaf[i] = sorted[i].at;
+        h->cell[i] = sorted[i].cell;
+    }
+    rst_tree_begin(g->of, chain, length, h->tree);
+    if (!failed) failed = rst_tree_plant(h->tree, leaf, leaves) != 0;
+    free(sorted);
     free(leaf);
-    return status;
+    return failed;
 }
 
 static int64_t node_of(const struct harvest *h, const int i[rst_cell_axes])
@@ -95,12 +110,7 @@ static int64_t leaf_at(const struct harvest *h, const double at[rst_cell_axes])
         if (a != RST_G) code |= rst_tree_code(t, along[a], part[a]);
     }
     const int64_t leaf = rst_tree_find(t, whole[RST_G], whole[RST_W], whole[RST_P], part[RST_G], code);
-    struct rst_spot_on_lattice corner;
-    int32_t step[rst_cell_axes];
-    rst_cell_place(h->growth, &t->leaf[leaf], &corner, step);
-    for (int a = 0; a < rst_cell_axes; a++)
-        if (h->growth->active[a] && (at[a] < corner.at[a] || at[a] > corner.at[a] + rst_cubic * step[a])) return -1;
-    return leaf;
+    return rst_cell_holds(h->growth, &t->leaf[leaf], at) ? leaf : -1;
 }
 
 static int is_shallower(const struct rst_leaf *a, const struct rst_leaf *b)
@@ -162,6 +172,24 @@ static double polynomial(const struct harvest *h, int64_t leaf, const struct rst
     return sum;
 }
 
+/* What a node is worth less than that is psi ex (cells.h). */
+static double psi_at(const struct harvest *h, const struct rst_spot_on_lattice *spot)
+{
+    struct rst_place p;
+    rst_cells_numbers(h->builder, (double[]){spot->at[0], spot->at[1], spot->at[2], spot->at[3]}, &p);
+    return fmax(1, p.psi);
+}
+
+/* The node goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
+static void put_on(struct harvest *h, int64_t other, const struct rst_spot_on_lattice *spot, double *value)
+{
+    const double there = polynomial(h, other, spot), off = fabs(there - *value);
+    struct rst_cell *cell = &h->growth->cell[h->cell[other]];
+    const double allowed = h->growth->part * h->builder->options.tolerance;
+    if (off > allowed && off > allowed * psi_at(h, spot)) rst_cell_fails(cell);
+    *value = there;
+}
+
 static void put_on_neighbours(struct harvest *h, int64_t leaf)
 {
     int64_t master[directions];
@@ -180,7 +208,7 @@ static void put_on_neighbours(struct harvest *h, int64_t leaf)
                         spot.at[a] = corner.at[a] + i[a] * step[a];
                     }
                     if (master[number] >= 0)
-                        h->value[leaf * h->nodes + node_of(h, i)] = polynomial(h, master[number], &spot);
+                        put_on(h, master[number], &spot, &h->value[leaf * h->nodes + node_of(h, i)]);
                 }
 }
 
@@ -197,23 +225,31 @@ static void close_seams(struct harvest *h)
             if (rank_of(&h->tree->leaf[leaf]) == rank) put_on_neighbours(h, leaf);
 }
 
-/* A planted tree with its values, whose seams are closed. Nonzero: out of memory. */
-static int reap(const struct rst_growth *g, struct rst_tree *tree, struct harvest *h)
+/* A tree with its values, whose seams are closed. Nonzero: out of memory. */
+static int reap(const struct restitute_table_builder *b, struct rst_growth *g, const int8_t *chain, int64_t length,
+                struct rst_tree *tree, struct harvest *h)
 {
     static const int order[rst_cell_axes] = {RST_G, RST_W, RST_C, RST_P}; /* the first side by side */
-    *h = (struct harvest){.growth = g, .tree = tree, .nodes = 1};
+    *h = (struct harvest){.growth = g, .builder = b, .tree = tree, .nodes = 1};
     for (int i = 0; i < rst_cell_axes; i++) {
         const int a = order[i];
         h->count[a] = g->active[a] ? rst_cubic + 1 : 1;
         h->stride[a] = h->nodes;
         h->nodes *= h->count[a];
     }
+    if (plant(h, chain, length)) return 1;
     h->value = malloc((size_t)(tree->leaves * h->nodes) * sizeof *h->value);
     if (!h->value) return 1;
     for (int64_t leaf = 0; leaf < tree->leaves; leaf++)
         take_values(h, leaf);
     close_seams(h);
     return 0;
+}
+
+static void harvest_free(struct harvest *h)
+{
+    free(h->cell);
+    free(h->value);
 }
 
 /* ---- tables */
@@ -230,6 +266,17 @@ static void describe(const struct restitute_table_builder *b, restitute_table *f
     form->chi_high = rst_builder_number(b, RST_CHI, 1);
 }
 
+/* Room for a table of the trees in `form`, which it takes over. */
+static restitute_table *take_over(int failed, restitute_table *form)
+{
+    rst_table_count(form);
+    restitute_table *t = failed ? NULL : rst_table_allocate(form);
+    if (t) return t;
+    rst_tree_fell(&form->rebound);
+    rst_tree_fell(&form->tangent);
+    return NULL;
+}
+
 /* Its own lookups reach nodes outside of the range of delta1. */
 int rst_cells_make_rebound(struct restitute_table_builder *b)
 {
@@ -239,40 +286,38 @@ int rst_cells_make_rebound(struct restitute_table_builder *b)
     form.speed.low = 0;
     form.speed.high = HUGE_VAL;
     form.n_cells = 1; /* no ex is asked for */
-    if (plant(&b->cells->rebound, always_w, rst_most_halvings, &form.rebound)) return 1;
-    rst_table_count(&form);
-    restitute_table *t = reap(&b->cells->rebound, &form.rebound, &h) ? NULL : rst_table_allocate(&form);
+    const int failed = reap(b, &b->cells->rebound, always_w, rst_most_halvings, &form.rebound, &h);
+    restitute_table *t = take_over(failed, &form);
     if (t) memcpy(t->ez, h.value, (size_t)(form.rebound.leaves * h.nodes) * sizeof *t->ez);
-    else rst_tree_fell(&form.rebound);
-    free(h.value);
+    harvest_free(&h);
+    restitute_table_destroy(b->cells->ez);
     b->cells->ez = t;
     return !t;
 }
 
+static int copy_tree(const struct rst_tree *from, struct rst_tree *to)
+{
+    rst_tree_begin(from->of, from->chain, from->chain_length, to);
+    return rst_tree_plant(to, from->leaf, from->leaves);
+}
+
 int rst_cells_make(struct restitute_table_builder *b, restitute_table **table)
 {
-    const struct rst_growth *g = &b->cells->tangent;
+    struct rst_growth *g = &b->cells->tangent;
+    const restitute_table *ez = b->cells->ez;
     restitute_table form;
     struct harvest h = {.value = NULL};
     describe(b, &form);
-    if (plant(&b->cells->rebound, always_w, rst_most_halvings, &form.rebound)) return 1;
-    if (plant(g, g->chain, g->chain_length, &form.tangent)) {
-        rst_tree_fell(&form.rebound);
-        return 1;
-    }
-    form.n_cells = form.tangent.leaves;
-    rst_table_count(&form);
-    restitute_table *t = reap(g, &form.tangent, &h) ? NULL : rst_table_allocate(&form);
+    const int failed =
+        copy_tree(&ez->rebound, &form.rebound) || reap(b, g, g->chain, g->chain_length, &form.tangent, &h);
+    form.n_cells = failed ? 1 : form.tangent.leaves;
+    restitute_table *t = take_over(failed, &form);
     if (t) {
-        const size_t n_ez = (size_t)(form.rebound.leaves * rst_cell_nodes);
-        memcpy(t->ez, b->cells->ez->ez, n_ez * sizeof *t->ez);
+        memcpy(t->ez, ez->ez, (size_t)(form.rebound.leaves * rst_cell_nodes) * sizeof *t->ez);
         for (int64_t i = 0; i < form.tangent.leaves * h.nodes; i++)
             t->ex_cells[i] = (float)h.value[i];
         *table = t;
-    } else {
-        rst_tree_fell(&form.rebound);
-        rst_tree_fell(&form.tangent);
     }
-    free(h.value);
+    harvest_free(&h);
     return !t;
 }
