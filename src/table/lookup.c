@@ -127,51 +127,59 @@ typedef float four __attribute__((__vector_size__(16)));
 #error "lookup.c needs the vector types of gcc and clang"
 #endif
 
-/* A leaf of a tree, and weights along w and gamma. */
-struct cell_place {
-    int64_t cell;
-    double w[4], gamma[4];
-};
-
-static inline void find_cell(const struct rst_tree *tree, const struct rst_spot *spot, int64_t sheet, uint32_t code,
-                             struct cell_place *p)
-{
-    p->cell = rst_tree_find(tree, spot->octave, spot->root, sheet, spot->gamma, code);
-    const struct rst_shape shape = tree->shape[p->cell];
-    rst_cubic_weights(rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]), p->w);
-    rst_cubic_weights(rst_tree_place(spot->gamma, shape.level), p->gamma);
-}
-
 static inline double rebound_in_cell(const restitute_table *t, const struct rst_spot *spot)
 {
-    struct cell_place p;
-    find_cell(&t->rebound, spot, 0, rst_tree_code(&t->rebound, RST_ALONG_W, spot->w), &p);
-    const double *v = t->ez + p.cell * rst_cell_nodes, *g = p.gamma;
-    double sum = 0;
+    const struct rst_tree *tree = &t->rebound;
+    const uint32_t code = rst_tree_code(tree, RST_ALONG_W, spot->w);
+    const int64_t cell = rst_tree_find(tree, spot->octave, spot->root, 0, spot->gamma, code);
+    const struct rst_shape shape = tree->shape[cell];
+    double w[4], g[4], sum = 0;
+    rst_cubic_weights(rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]), w);
+    rst_cubic_weights(rst_tree_place(spot->gamma, shape.level), g);
+    const double *v = t->ez + cell * rst_cell_nodes;
     for (int i = 0; i < 4; i++, v += 4)
-        sum += p.w[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
+        sum += w[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
     return clamp(sum, 0, 1);
 }
 
-/* First over psi and chi, all nodes of w and gamma side by side. */
-static inline double sum_cell(const restitute_table *t, const float *v, const double w[4], const double x[4], int m,
-                              const struct cell_place *p)
+/* Weights of the nodes 0 to 3 of four axes at once: w[node][axis]. */
+static inline void weights_of_four(four s, four w[4])
 {
-    four sum[4] = {{0}, {0}, {0}, {0}};
-    for (int k = 0; k < 4; k++)
-        for (int l = 0; l < m; l++) {
-            const float one = (float)(w[k] * x[l]);
-            const four weight = {one, one, one, one};
-            const four *row = (const four *)(const void *)(v + (k * t->n_chi + l) * rst_cell_nodes);
-            for (int i = 0; i < 4; i++)
-                sum[i] += weight * row[i];
-        }
-    const double *g = p->gamma;
-    double total = 0;
-    for (int i = 0; i < 4; i++)
-        total += p->w[i] * ((g[0] * (double)sum[i][0] + g[1] * (double)sum[i][1]) +
-                                (g[2] * (double)sum[i][2] + g[3] * (double)sum[i][3]));
-    return total;
+    const four a = s - 1, b = s - 2, c = s - 3, ab = s * a, bc = b * c;
+    w[0] = a * bc * (-1.0F / 6);
+    w[1] = s * bc * 0.5F;
+    w[2] = ab * c * -0.5F;
+    w[3] = ab * b * (1.0F / 6);
+}
+
+static inline four all(float x)
+{
+    return (four){x, x, x, x};
+}
+
+/* The four values along gamma of one node of chi and w, by psi; they are rst_cell_nodes * n_chi apart. */
+static inline four along_psi(const four *v, int64_t apart, const four w[4])
+{
+    return (w[0] * v[0] + w[1] * v[apart]) + (w[2] * v[2 * apart] + w[3] * v[3 * apart]);
+}
+
+/* First over psi, then over chi, w and gamma; s: places in [0, 3] along these. */
+static inline double sum_cell(const float *values, int n_chi, four s)
+{
+    four node[4], psi[4], w[4], sum[4] = {{0}, {0}, {0}, {0}};
+    weights_of_four(s, node);
+    for (int j = 0; j < 4; j++) {
+        psi[j] = all(node[j][0]);
+        w[j] = all(node[j][2]);
+    }
+    const four *v = (const four *)(const void *)values;
+    for (int l = 0; l < n_chi; l++, v += 4) {
+        const four chi = all(n_chi > 1 ? node[l][1] : 1);
+        for (int i = 0; i < 4; i++)
+            sum[i] += chi * along_psi(v + i, (int64_t)4 * n_chi, psi);
+    }
+    const four total = (w[0] * sum[0] + w[1] * sum[1]) + (w[2] * sum[2] + w[3] * sum[3]);
+    return (double)((node[0][3] * total[0] + node[1][3] * total[1]) + (node[2][3] * total[2] + node[3][3] * total[3]));
 }
 
 /* At a place on a sheet; chi: in [0, 1). */
@@ -181,15 +189,14 @@ static inline double tangential_in_cell(const restitute_table *t, const struct r
     const struct rst_tree *tree = &t->tangent;
     const uint32_t code = rst_tree_code(tree, RST_ALONG_W, spot->w) | rst_tree_code(tree, RST_ALONG_CHI, chi) |
                           rst_tree_code(tree, RST_ALONG_PSI, psi);
-    struct cell_place p;
-    double w[4], x[4] = {1};
-    find_cell(tree, spot, sheet, code, &p);
-    const int depth = tree->shape[p.cell].depth;
-    const float *v = t->ex_cells + p.cell * t->n_psi * t->n_chi * rst_cell_nodes;
-    rst_cubic_weights(rst_tree_place(psi, tree->halvings[RST_ALONG_PSI][depth]), w);
-    if (t->n_chi == 1) return sum_cell(t, v, w, x, 1, &p);
-    rst_cubic_weights(rst_tree_place(chi, tree->halvings[RST_ALONG_CHI][depth]), x);
-    return sum_cell(t, v, w, x, 4, &p);
+    const int64_t cell = rst_tree_find(tree, spot->octave, spot->root, sheet, spot->gamma, code);
+    const struct rst_shape shape = tree->shape[cell];
+    const four s = {(float)rst_tree_place(psi, tree->halvings[RST_ALONG_PSI][shape.depth]),
+                    (float)rst_tree_place(chi, tree->halvings[RST_ALONG_CHI][shape.depth]),
+                    (float)rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]),
+                    (float)rst_tree_place(spot->gamma, shape.level)};
+    if (t->n_chi == 1) return sum_cell(t->ex_cells + cell * 4 * rst_cell_nodes, 1, s);
+    return sum_cell(t->ex_cells + cell * 4 * 4 * rst_cell_nodes, 4, s);
 }
 
 /* A table of trees. */
