@@ -13,8 +13,8 @@ enum { least_checks = 10000, least_a_cell = 2, most_a_cell = 48, most_rounds = 1
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
 
-/* Nodes of cells at the ends of the range of delta1 lie outside: no farther than by this factor, since a root spans 2 octaves of w, and an
- * octave of gamma 1 of h. */
+/* Nodes of cells at the ends of the range of delta1 lie outside, no farther than by this factor, since a root spans 2 octaves of w, and an
+ * octave of gamma 1 of h; there ez must be known. */
 static const double beyond_range = 8;
 
 static int64_t width_of(const double range[2])
@@ -32,8 +32,11 @@ int rst_cells_create(struct restitute_table_builder *b)
     b->cells = c;
     if (!c) return 1;
     rst_octaves_set(b->seam_low[1], b->seam_high[1], 0, &c->gamma);
-    rst_w_axis_set(b->family.range[0][0], b->family.range[0][1], &c->gamma, width_of(b->family.range[0]), &c->w);
+    const double *range = b->family.range[0];
+    rst_w_axis_set(range[0] / beyond_range, range[1] * beyond_range, &c->gamma, width_of(range), &c->w);
     c->growing = &c->rebound;
+    c->rebound.beyond = beyond_range;
+    c->tangent.beyond = 1;
     c->rebound.part = part_for_rebound;
     c->rebound.of.sheets = 1;
     c->rebound.active[RST_W] = c->rebound.active[RST_G] = 1;
@@ -76,14 +79,13 @@ static double h_of(const struct rst_octaves *gamma, int64_t octave, double place
 void rst_cells_numbers(const struct restitute_table_builder *b, const double at[rst_cell_axes], struct rst_place *p)
 {
     const struct rst_cells *c = b->cells;
-    const double g = at[RST_G] / rst_lattice, sheet = at[RST_P] / rst_lattice, *range = b->family.range[0];
+    const double g = at[RST_G] / rst_lattice, sheet = at[RST_P] / rst_lattice;
     int64_t octave = (int64_t)g;
     if (octave == c->gamma.cells) octave--;
     const double start = rst_octaves_node(&c->gamma, octave * rst_cubic), part = g - (double)octave;
     const double w = exp2(((double)c->w.first + at[RST_W] / rst_lattice) / c->w.scale);
     p->gamma = start * (1 + part);
     p->delta1 = w / h_of(&c->gamma, octave, part);
-    p->delta1 = fmin(fmax(p->delta1, range[0] / beyond_range), range[1] * beyond_range);
     p->chi = rst_builder_number(b, RST_CHI, at[RST_C] / rst_lattice);
     p->y = sheet > 1 ? y_of((sheet - 1) / rst_slip_sheets) : 0;
     p->psi = sheet;

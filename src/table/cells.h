@@ -44,6 +44,7 @@ struct rst_check {
 struct rst_growth {
     struct rst_roots of;
     int active[rst_cell_axes]; /* whether a cell has four nodes along it, or one */
+    double beyond;             /* cells are made within this factor of the range of delta1 */
     double part;               /* of the tolerance, that a cell may be off by half way between its nodes */
     int8_t chain[rst_deepest];
     int64_t chain_length;

@@ -45,11 +45,11 @@ int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, cons
     return 1;
 }
 
-/* Whether any of it is in what was asked for. h grows with gamma. */
-static int is_asked(const struct restitute_table_builder *b, const struct rst_spot_on_lattice *corner,
-                    const int32_t step[rst_cell_axes])
+/* Whether any of a cell is in what was asked for. h grows with gamma. */
+static int is_asked(const struct rst_growth *g, const struct restitute_table_builder *b,
+                    const struct rst_spot_on_lattice *corner, const int32_t step[rst_cell_axes])
 {
-    const double margin = 1e-9;
+    const double margin = 1e-9, beyond = g->beyond;
     double at[2][rst_cell_axes];
     struct rst_place low, high;
     for (int a = 0; a < rst_cell_axes; a++) {
@@ -59,7 +59,7 @@ static int is_asked(const struct restitute_table_builder *b, const struct rst_sp
     rst_cells_numbers(b, (double[]){at[0][RST_W], at[1][RST_G], 0, 0}, &low);
     rst_cells_numbers(b, (double[]){at[1][RST_W], at[0][RST_G], 0, 0}, &high);
     const double(*range)[2] = b->family.range;
-    return low.delta1 <= range[0][1] * (1 + margin) && high.delta1 >= range[0][0] * (1 - margin) &&
+    return low.delta1 <= range[0][1] * beyond * (1 + margin) && high.delta1 >= range[0][0] / beyond * (1 - margin) &&
            high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin);
 }
 
@@ -69,7 +69,7 @@ static int add_cell(struct rst_growth *g, const struct restitute_table_builder *
     struct rst_spot_on_lattice corner;
     int32_t step[rst_cell_axes];
     rst_cell_place(g, &at, &corner, step);
-    if (!is_asked(b, &corner, step)) return 0;
+    if (!is_asked(g, b, &corner, step)) return 0;
     if (g->count == g->capacity) {
         const int64_t capacity = g->capacity ? 2 * g->capacity : 1024;
         struct rst_cell *cell = realloc(g->cell, (size_t)capacity * sizeof *cell);
