@@ -41,11 +41,10 @@ static int64_t fans_of(const struct rst_leaf *l)
     return l->depth > rst_fan_bits ? (l->depth - 1) / rst_fan_bits : 0;
 }
 
-/* Room for so many fans as leaves may need at most: each those on its way, in each of the finest parts of gamma. */
-static int make_room(struct rst_tree *t, int64_t leaves, int64_t most_fans)
+static int make_room(struct rst_tree *t, int64_t leaves, int64_t fans)
 {
     const size_t starts = (size_t)((t->of.octaves * t->of.roots * t->of.sheets) << t->part_bits);
-    const size_t a = (size_t)leaves * sizeof *t->leaf, b = (size_t)most_fans * sizeof *t->fan;
+    const size_t a = (size_t)leaves * sizeof *t->leaf, b = (size_t)fans * sizeof *t->fan;
     const size_t c = starts * sizeof *t->start, d = (size_t)leaves * sizeof *t->shape;
     char *room = malloc(a + b + c + d);
     if (!room) return 1;
@@ -98,14 +97,23 @@ static int lead_to(struct rst_tree *t, int32_t *next, const struct rst_leaf *l, 
 }
 
 /* The finest level in each root: its parts need no more entries of their own. */
-static int64_t *finest_levels(const struct rst_tree *t)
+static int64_t *finest_levels(const struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves)
 {
     int64_t *finest = calloc((size_t)(t->of.octaves * t->of.roots * t->of.sheets), sizeof *finest);
-    for (int64_t i = 0; finest && i < t->leaves; i++) {
-        int64_t *level = &finest[root_of(t, &t->leaf[i])];
-        if (t->leaf[i].level > *level) *level = t->leaf[i].level;
+    for (int64_t i = 0; finest && i < leaves; i++) {
+        int64_t *level = &finest[root_of(t, &leaf[i])];
+        if (leaf[i].level > *level) *level = leaf[i].level;
     }
     return finest;
+}
+
+/* As many as leaves may need at most: each those on its way, in each part of its root. */
+static int64_t most_fans(const struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves, const int64_t *finest)
+{
+    int64_t most = 0;
+    for (int64_t i = 0; i < leaves; i++)
+        most += (fans_of(&leaf[i]) + 1) << (finest[root_of(t, &leaf[i])] - leaf[i].level);
+    return most;
 }
 
 static int plant_all(struct rst_tree *t, const int64_t *finest)
@@ -149,27 +157,33 @@ static void fill_gaps(struct rst_tree *t, const int64_t *finest)
     }
 }
 
-int rst_tree_plant(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves)
+static void set_empty(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves)
 {
-    int64_t most_fans = 0;
-    if (leaves <= 0 || leaves >= INT32_MAX) return 2;
-    t->part_bits = 0;
-    for (int64_t i = 0; i < leaves; i++)
-        if (leaf[i].level > t->part_bits) t->part_bits = leaf[i].level;
-    for (int64_t i = 0; i < leaves; i++)
-        most_fans += (fans_of(&leaf[i]) + 1) << (t->part_bits - leaf[i].level);
-    if (most_fans >= INT32_MAX) return 2;
-    if (make_room(t, leaves, most_fans)) return 1;
     t->leaves = leaves;
     t->fans = 0;
     memcpy(t->leaf, leaf, (size_t)leaves * sizeof *leaf);
     const int64_t starts = (t->of.octaves * t->of.roots * t->of.sheets) << t->part_bits;
     for (int64_t i = 0; i < starts; i++)
         t->start[i] = nowhere;
-    int64_t *finest = finest_levels(t);
-    int status = finest ? plant_all(t, finest) : 1;
-    if (!status) fill_gaps(t, finest);
+}
+
+int rst_tree_plant(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves)
+{
+    if (leaves <= 0 || leaves >= INT32_MAX) return 2;
+    t->part_bits = 0;
+    for (int64_t i = 0; i < leaves; i++)
+        if (leaf[i].level > t->part_bits) t->part_bits = leaf[i].level;
+    int64_t *finest = finest_levels(t, leaf, leaves);
+    const int64_t most = finest ? most_fans(t, leaf, leaves, finest) : 0;
+    int status = !finest ? 1 : most >= INT32_MAX ? 2 : make_room(t, leaves, most);
+    if (!status) {
+        set_empty(t, leaf, leaves);
+        status = plant_all(t, finest);
+        if (status)
+            rst_tree_fell(t);
+        else
+            fill_gaps(t, finest);
+    }
     free(finest);
-    if (status) rst_tree_fell(t);
     return status;
 }
