@@ -21,9 +21,8 @@
  *  nothing is stored there. The table is continuous everywhere, at psi = 1, psi_c and all seams to rounding (that of single precision in a table with axes of
  *  delta1 and gamma), and
  *  0 <= ez <= 1, |ex| <= 1 always. It is verified while it is built: half way between the points that it was built from, and in
- *  the middles of its cells (of 24 of them; of all in a table with axes of delta1 and gamma), it is compared with impacts solved afresh,
- *  and the largest difference is kept
- *  with it (@ref restitute_table_info).
+ *  the middles of 24 of its cells (in a table with axes of delta1 and gamma at arbitrary places in every cell), it is compared with impacts solved
+ *  afresh, and the largest difference is kept with it (@ref restitute_table_info).
  *
  *  Limits
  *  - Below the lowest and above the highest speed (delta1, gamma, chi) of the table the number is taken as that of the end:

@@ -69,7 +69,7 @@ static void octaves_around(const double range[2], double *low, double *high)
 static void set_axes(struct restitute_table_builder *b)
 {
     const struct rst_family *f = &b->family;
-    const int patches = f->range[0][0] < f->range[0][1] && f->range[1][0] < f->range[1][1];
+    const int trees = f->range[0][0] < f->range[0][1] && f->range[1][0] < f->range[1][1];
     for (int a = 0; a < 3; a++) {
         b->active[a] = f->range[a][0] < f->range[a][1];
         b->low[a] = f->range[a][0];
@@ -77,7 +77,7 @@ static void set_axes(struct restitute_table_builder *b)
         if (a == RST_CHI) continue;
         b->seam_low[a] = b->seam_high[a] = f->range[a][0];
         if (!b->active[a]) continue;
-        (patches ? octaves_around : seams_around)(f->range[a], &b->seam_low[a], &b->seam_high[a]);
+        (trees ? octaves_around : seams_around)(f->range[a], &b->seam_low[a], &b->seam_high[a]);
         b->low[a] = log(b->seam_low[a]);
         b->high[a] = log(b->seam_high[a]);
     }

@@ -173,6 +173,7 @@ int rst_tree_plant(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leav
     t->part_bits = 0;
     for (int64_t i = 0; i < leaves; i++)
         if (leaf[i].level > t->part_bits) t->part_bits = leaf[i].level;
+    t->parts = (double)(INT64_C(1) << t->part_bits);
     int64_t *finest = finest_levels(t, leaf, leaves);
     const int64_t most = finest ? most_fans(t, leaf, leaves, finest) : 0;
     int status = !finest ? 1 : most >= INT32_MAX ? 2 : make_room(t, leaves, most);

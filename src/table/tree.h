@@ -47,6 +47,7 @@ struct rst_tree {
     struct rst_roots of;
     int64_t leaves, fans;
     int64_t part_bits; /* the finest level there is */
+    double parts;      /* 2^part_bits */
     int64_t chain_length;
     int8_t chain[rst_deepest];
     int8_t halvings[rst_alongs][rst_deepest + 1]; /* along an axis, at a depth */
@@ -82,7 +83,7 @@ static inline int64_t rst_tree_find(const struct rst_tree *t, int64_t octave, in
                                     uint32_t code)
 {
     const int64_t at = (octave * t->of.roots + root) * t->of.sheets + sheet;
-    int32_t next = t->start[(at << t->part_bits) + (int64_t)(gamma * (double)(INT64_C(1) << t->part_bits))];
+    int32_t next = t->start[(at << t->part_bits) + (int32_t)(gamma * t->parts)];
     for (int shift = rst_deepest - rst_fan_bits; next >= 0; shift -= rst_fan_bits)
         next = t->fan[next][(code >> shift) & (rst_fan - 1)];
     return ~(int64_t)next;
@@ -91,8 +92,9 @@ static inline int64_t rst_tree_find(const struct rst_tree *t, int64_t octave, in
 /* Place in [0, 3) in a cell that is 2^-halvings of the whole. */
 static inline double rst_tree_place(double u, int halvings)
 {
-    const double scaled = u * (double)(INT64_C(1) << halvings);
-    return 3 * (scaled - (double)(int64_t)scaled);
+    static const double times[rst_most_halvings + 1] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
+    const double scaled = u * times[halvings];
+    return 3 * (scaled - (double)(int32_t)scaled);
 }
 
 #endif
