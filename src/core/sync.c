@@ -19,7 +19,8 @@ static const double part_taken = 1.0 / 25;
  * small by chance, so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3,
  * is added, and several times that where psi is so small that few nodes slip; and what rounding leaves of the
  * velocity in a level. */
-static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02, rounding_of_level = 6e-13;
+static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02,
+                    rounding_of_level = 6e-13;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
  * from the second doubling on, and for impacts with so small a rebound from the first, since their times differ by
@@ -263,14 +264,14 @@ static int64_t multiple_of(int64_t unit, double count)
 
 /* The counts that the median impact needs for its estimates to meet the tolerance (docs/accuracy.md). The tangential
  * oscillation in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
-static double normal_levels_to_start(double wanted, double chi)
+static double normal_levels_to_start(double wanted, double swings)
 {
-    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / fmax(1, chi * 6 / 7), -0.25)));
+    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / swings, -0.25)));
 }
 
-double rst_sync_levels_to_start(const struct rst_problem *problem)
+double rst_sync_levels_to_start(double tolerance, double swings)
 {
-    return fmax(16, 3.1 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
+    return fmax(16, 3.1 * sqrt(swings) / cbrt(tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs,
@@ -334,8 +335,9 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         const int64_t levels = multiple_of(4, fmax(least_told, (double)problem->elements));
         return rst_sync_normal(problem, workspace, levels / (levels % 8 ? 2 : 4), levels, wanted, normal, error);
     }
-    double start = normal_levels_to_start(wanted, problem->chi);
-    if (sticks && rst_sync_is_graded(problem)) start = fmax(start, rst_sync_levels_to_start(problem));
+    double start = normal_levels_to_start(wanted, rst_sync_stepped_swings(problem));
+    if (sticks && rst_sync_is_graded(problem))
+        start = fmax(start, rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
@@ -425,7 +427,8 @@ static int too_many(const struct rst_problem *problem, int64_t levels)
 static struct resolution first_resolution(const struct rst_problem *problem, const struct normal *normal)
 {
     const int told = problem->elements > 0;
-    const double needed = told ? (double)normal->levels : rst_sync_levels_to_start(problem);
+    const double needed =
+        told ? (double)normal->levels : rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
     struct resolution r = {.ratio = 1, .levels = normal->levels};
     if (!rst_sync_is_graded(problem))
         r.ratio = (int64_t)ceil(fmin(needed, rst_sync_most_levels) / (double)normal->levels);
@@ -545,8 +548,9 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
     const struct rst_problem usual = {
         .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
     struct store store;
-    const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(&usual));
-    const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, usual.chi));
+    const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
+    const int64_t normal =
+        multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, rst_sync_stepped_swings(&usual)));
     return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
            rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
 }

@@ -30,9 +30,25 @@ static const double unevenness = 1e-3;
 /* asinh of the impact speed over that of the creep at the turning point (sync_grid.turn): 1e8. */
 static const double strongest_damping = 19.1;
 
+double rst_sync_swings(const struct rst_problem *problem)
+{
+    return fmax(1, problem->chi * 6 / 7);
+}
+
+/* What the normal problem is asked for follows chi in these steps, so that impacts on one solid whose chi is alike share
+ * its solution. */
+double rst_sync_stepped_swings(const struct rst_problem *problem)
+{
+    const double swings = rst_sync_swings(problem) / 1.001; /* rounding of chi = 7/6 is not to cost a step */
+    double step = 1;
+    while (step < swings)
+        step *= 2;
+    return step > 1 && swings <= 0.75 * step ? 0.75 * step : step;
+}
+
 double rst_sync_closeness(const struct rst_problem *problem)
 {
-    const double n = rst_sync_levels_to_start(problem);
+    const double n = rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem));
     return problem->elements > 0 ? rounding
                                  : fmax(rounding, fmin(closeness * problem->tolerance, unevenness / (n * n)));
 }
@@ -43,10 +59,10 @@ static size_t doubles(size_t size, size_t count)
 }
 
 /* What the solution in workspace->levels belongs to: impacts that differ in their tangential side alone, as in a
- * table, share it. Solids of more terms are not remembered. */
+ * table, share it. swings: what it takes of chi. Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
 struct question {
-    double g_inf, eta, n_terms, closeness, first, last, wanted, left, allowed;
+    double g_inf, eta, n_terms, closeness, first, last, wanted, swings, allowed;
     double g[most_terms_known], tau[most_terms_known];
 };
 
@@ -60,8 +76,16 @@ struct memo {
 static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
 {
     const struct rst_solid *s = &problem->solid;
-    struct question q = {s->g_inf,     s->eta, (double)s->n_terms,    rst_sync_closeness(problem),  (double)first,
-                         (double)last, wanted, fmax(1, problem->chi * 6 / 7), (double)problem->max_updates, {0},
+    struct question q = {s->g_inf,
+                         s->eta,
+                         (double)s->n_terms,
+                         rst_sync_closeness(problem),
+                         (double)first,
+                         (double)last,
+                         wanted,
+                         rst_sync_stepped_swings(problem),
+                         (double)problem->max_updates,
+                         {0},
                          {0}};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
         q.g[k] = s->g[k];
@@ -171,7 +195,7 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
         normal->error += 1.5 * rst_sync_closeness(problem);
         normal->taken_off = part_taken * fabs(change);
         normal->reached =
-            normal->error <= wanted && normal->taken_off <= left_in_levels * wanted / fmax(1, problem->chi * 6 / 7);
+            normal->error <= wanted && normal->taken_off <= left_in_levels * wanted / rst_sync_stepped_swings(problem);
     }
     *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
 }

@@ -38,8 +38,14 @@ size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
 /* Whether damping is so strong that levels crowd at both ends of the compression. */
 int rst_sync_is_graded(const struct rst_problem *problem);
 
+/* How much faster than for a solid sphere the tangential oscillation is, squared; 1 for slower ones. */
+double rst_sync_swings(const struct rst_problem *problem);
+
+/* The same rounded up to 1, 1.5, 2, 3, 4, 6, ... (slack of 1e-3). */
+double rst_sync_stepped_swings(const struct rst_problem *problem);
+
 /* The count that the median impact needs for its estimate of e_x to meet the tolerance. */
-double rst_sync_levels_to_start(const struct rst_problem *problem);
+double rst_sync_levels_to_start(double tolerance, double swings);
 
 /* By how much iterations are left unfinished, at most. */
 double rst_sync_closeness(const struct rst_problem *problem);
