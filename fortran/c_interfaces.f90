@@ -187,13 +187,17 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node) bind(c, name="rst_thin_levels")
+  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node) &
+    bind(c, name="rst_thin_levels")
     integer(c_int64_t), intent(in), value :: n_terms, n
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(inout) :: level(0:4*n)
-    type(trace_type), intent(inout) :: trace(n_terms, 0:4*n)
-    type(node_type), intent(inout) :: node(0:2*n)
-    call thin_levels(n_terms, g, tau, n, level, trace, node)
+    type(level_type), intent(in) :: level(0:4*n)
+    type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
+    type(node_type), intent(in) :: node(0:2*n)
+    type(level_type), intent(out) :: thin_level(0:2*n)
+    type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
+    type(node_type), intent(out) :: thin_node(0:n)
+    call thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node)
   end subroutine rst_thin_levels
 
   subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &

@@ -45,36 +45,6 @@ static const double acceptance = 0.9;
  * damping. */
 enum { least_normal = 16, least_told = 8 };
 
-static int64_t padded(int64_t count)
-{
-    return (count + rst_sync_lanes - 1) / rst_sync_lanes * rst_sync_lanes;
-}
-
-/* Start of `count` doubles behind what is taken already. */
-static double *take(double *block, size_t *taken, size_t count)
-{
-    double *start = block ? block + *taken : NULL;
-    *taken += count;
-    return start;
-}
-
-/* Lay out the block; returns how many doubles that takes. All members are structs of doubles. */
-static size_t lay_out(double *block, int64_t levels, int64_t n_terms, struct store *store)
-{
-    const size_t n = (size_t)levels, m = (size_t)n_terms;
-    size_t taken = 0;
-    store->capacity = padded(levels + rst_sync_lanes); /* the loop goes on to the end of a group of lanes */
-    const size_t capacity = (size_t)store->capacity;
-    store->level = (struct sync_level *)take(block, &taken, (2 * n + 1) * (sizeof *store->level / sizeof(double)));
-    store->trace = (struct sync_trace *)take(block, &taken, m * (2 * n + 1) * (sizeof *store->trace / sizeof(double)));
-    store->node = (struct sync_node *)take(block, &taken, (n + 1) * (sizeof *store->node / sizeof(double)));
-    store->term = (struct sync_term *)take(block, &taken, m * (sizeof *store->term / sizeof(double)));
-    store->body = take(block, &taken, capacity * rst_sync_columns);
-    store->beta = take(block, &taken, m * capacity);
-    store->faded = take(block, &taken, m * capacity);
-    return taken;
-}
-
 int rst_sync_sticks(const struct rst_problem *problem, double rebound)
 {
     if (problem->mode == RST_FRICTIONLESS) return 0;
@@ -86,68 +56,19 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
-struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store)
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct store *store)
 {
     return (struct sync_scene){.chi = problem->chi,
                                .psi = problem->psi,
                                .g_inf = problem->solid.g_inf,
                                .eta = problem->solid.eta,
                                .n_terms = problem->solid.n_terms,
-                               .n = levels,
+                               .n = store->levels,
                                .capacity = store->capacity,
                                .no_slip = problem->mode == RST_NO_SLIP};
 }
 
-/* `ratio` times the levels of the normal problem, and `more` doubles behind them. Nonzero: an error, or a time was
- * not found. */
-static int make_dense(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                      int64_t ratio, size_t more, struct store *store, double **room, restitute_error *error)
-{
-    const struct rst_solid *s = &problem->solid;
-    const int64_t n = ratio * normal->levels;
-    const size_t taken = lay_out(NULL, n, s->n_terms, store);
-    int64_t failed;
-    if (rst_workspace_elements(workspace, taken + more))
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)n);
-    lay_out(workspace->elements, n, s->n_terms, store);
-    *room = workspace->elements + taken;
-    rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio, normal->level,
-                     store->level, store->trace, store->node, &failed);
-    if (!failed) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                      "iterations do not settle between %lld levels; take the method euler for this solid",
-                      (long long)normal->levels);
-}
-
-/* Every other level again and again, down to at most `most`. */
-static int64_t thin_levels(const struct rst_problem *problem, const struct store *store, int64_t levels, int64_t most)
-{
-    const struct rst_solid *s = &problem->solid;
-    while (levels > most && levels % 4 == 0) {
-        levels /= 2;
-        rst_thin_levels(s->n_terms, s->g, s->tau, levels, store->level, store->trace, store->node);
-    }
-    return levels;
-}
-
-int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
-                    const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
-                    int64_t *levels, double **room, restitute_error *error)
-{
-    struct normal normal;
-    const int64_t coarse = outcome->normal_levels, wanted = outcome->elements < most ? outcome->elements : most;
-    const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
-    int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
-    if (status) return status;
-    status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * ratio * coarse + 1) + more, store,
-                        room, error);
-    if (status) return status;
-    *levels = thin_levels(problem, store, ratio * coarse, wanted);
-    return RESTITUTE_OK;
-}
-
-/* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */
-static double largest_force(const struct sync_level *level, int64_t n)
+double rst_sync_largest_force(const struct sync_level *level, int64_t n)
 {
     int64_t i = 1;
     while (i < 2 * n - 1 && level[i + 1].force > level[i].force)
@@ -165,35 +86,37 @@ struct run {
     double velocity;
 };
 
-static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t n,
-                         const struct store *store, struct run *run)
+static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                         const struct store *store, struct run *run, struct rst_outcome *outcome)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = rst_sync_scene(problem, n, store);
+    const struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
     rst_follow_shear(&scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node, store->body,
                      store->beta, store->faded, store->term, &shear);
-    *run = (struct run){n, 2 * n + shear.updates * (1 + s->n_terms), shear.velocity};
+    *run = (struct run){store->levels, 2 * store->levels + shear.updates * (1 + s->n_terms), shear.velocity};
+    outcome->updates += run->updates;
 }
 
 /* What the normal problem says, and the tangential one in slip to the end. */
 static void note_normal(const struct rst_problem *problem, const struct normal *normal, struct rst_outcome *outcome)
 {
     const double n = (double)normal->levels;
-    *outcome = (struct rst_outcome){.velocity = normal->velocity,
-                                    .shear_velocity = full_slip(problem, normal->velocity),
-                                    .error_ez = normal->error,
-                                    .contact_time = normal->contact_time,
-                                    .followed_time = normal->contact_time,
-                                    .max_indentation = normal->depth,
-                                    .max_contact_radius = sqrt(normal->depth),
-                                    .max_normal_force = 15.0 / 8.0 * largest_force(normal->level, normal->levels),
-                                    .spacing = sqrt(normal->depth) / n,
-                                    .step = normal->contact_time / (2 * n),
-                                    .elements = normal->levels,
-                                    .steps = 2 * normal->levels,
-                                    .updates = normal->updates,
-                                    .normal_levels = normal->levels};
+    *outcome =
+        (struct rst_outcome){.velocity = normal->velocity,
+                             .shear_velocity = full_slip(problem, normal->velocity),
+                             .error_ez = normal->error,
+                             .contact_time = normal->contact_time,
+                             .followed_time = normal->contact_time,
+                             .max_indentation = normal->depth,
+                             .max_contact_radius = sqrt(normal->depth),
+                             .max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels),
+                             .spacing = sqrt(normal->depth) / n,
+                             .step = normal->contact_time / (2 * n),
+                             .elements = normal->levels,
+                             .steps = 2 * normal->levels,
+                             .updates = normal->updates,
+                             .normal_levels = normal->levels};
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
@@ -342,58 +265,46 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
 
-/* How many levels the tangential problem has: `ratio` times those of the normal one, or these thinned. */
-struct resolution {
-    int64_t ratio, levels;
-};
-
-static int prepare(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                   const struct resolution *resolution, struct store *store, struct rst_outcome *outcome,
-                   restitute_error *error)
+/* The first two runs, from the same levels, or three where the rebound is small. If the updates allowed may not be
+ * enough for both, it is the half one alone, which tells what the other would take. */
+static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                      const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
+                      double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
-    double *room;
-    const int status = make_dense(problem, workspace, normal, resolution->ratio, 0, store, &room, error);
+    const int runs = -normal->velocity < small_rebound && resolution->levels % 8 == 0 ? 3 : 2;
+    struct store store[rst_sync_first_runs];
+    struct run quarter;
+    double force;
+    const int status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, store, &force, error);
     if (status) return status;
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(store->level, resolution->ratio * normal->levels);
-    thin_levels(problem, store, resolution->ratio * normal->levels, resolution->levels);
+    outcome->max_normal_force = 15.0 / 8.0 * force;
+    *change_before = 0;
+    if (half_alone) {
+        follow_shear(problem, workspace, &store[1], now, outcome);
+        return RESTITUTE_OK;
+    }
+    follow_shear(problem, workspace, &store[0], now, outcome);
+    follow_shear(problem, workspace, &store[1], before, outcome);
+    if (runs > 2) {
+        follow_shear(problem, workspace, &store[2], &quarter, outcome);
+        *change_before = before->velocity - quarter.velocity;
+    }
     return RESTITUTE_OK;
 }
 
-/* A run of half the levels, from every other one. */
-static void run_half(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t levels,
-                     const struct store *store, struct run *run, struct rst_outcome *outcome)
-{
-    const struct rst_solid *s = &problem->solid;
-    rst_thin_levels(s->n_terms, s->g, s->tau, levels / 2, store->level, store->trace, store->node);
-    follow_shear(problem, workspace, levels / 2, store, run);
-    outcome->updates += run->updates;
-}
-
-/* Two runs on end: the first two, from the same levels, or one more after `now`. If the updates allowed may not be
- * enough for both of the first two, it is the half one alone, which tells what the other would take. */
-static int advance_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                        const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
-                        double *change_before, struct rst_outcome *outcome, restitute_error *error)
+/* One more run after `now`. */
+static int next_run(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                    const struct resolution *resolution, struct run *before, struct run *now, double *change_before,
+                    struct rst_outcome *outcome, restitute_error *error)
 {
     struct store store;
-    struct run quarter;
-    const int first = now->levels == 0;
-    const int status = prepare(problem, workspace, normal, resolution, &store, outcome, error);
+    double force, *room;
+    const int status = rst_sync_levels(problem, workspace, normal, resolution, 0, &store, &force, &room, error);
     if (status) return status;
+    outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
     *before = *now;
-    if (!half_alone) {
-        follow_shear(problem, workspace, resolution->levels, &store, now);
-        outcome->updates += now->updates;
-    }
-    if (half_alone)
-        run_half(problem, workspace, resolution->levels, &store, now, outcome);
-    else if (first)
-        run_half(problem, workspace, resolution->levels, &store, before, outcome);
-    if (first && !half_alone && -normal->velocity < small_rebound && resolution->levels % 8 == 0) {
-        run_half(problem, workspace, resolution->levels / 2, &store, &quarter, outcome);
-        *change_before = before->velocity - quarter.velocity;
-    }
+    follow_shear(problem, workspace, &store, now, outcome);
     return RESTITUTE_OK;
 }
 
@@ -458,8 +369,10 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
         *ahead = (double)outcome->updates + (half_alone ? both / 5 : both);
         if (n > rst_sync_most_levels || *ahead > allowed) break;
         if (now.levels > 0 && rounding_of_level * (double)n > problem->tolerance) break;
-        int status = advance_runs(problem, workspace, normal, &resolution, half_alone, &before, &now, &change_before,
-                                  outcome, error);
+        int status = now.levels == 0 ? first_runs(problem, workspace, normal, &resolution, half_alone, &before, &now,
+                                                  &change_before, outcome, error)
+                                     : next_run(problem, workspace, normal, &resolution, &before, &now, &change_before,
+                                                outcome, error);
         if (status) return status;
         if (!isfinite(now.velocity)) break;
         if (half_alone) continue;
@@ -547,12 +460,12 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
     const struct rst_problem usual = {
         .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
-    struct store store;
     const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
     const int64_t normal =
         multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, rst_sync_stepped_swings(&usual)));
     return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
-           rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
+           rst_workspace_elements(workspace, rst_sync_run_room(levels, 1)) ||
+           rst_workspace_dense(workspace, rst_sync_first_room(levels / 8 + normal, 1));
 }
 
 const struct restitute_method rst_method_sync = {.name = "sync",

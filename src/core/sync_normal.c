@@ -71,7 +71,13 @@ struct memo {
     double known; /* 0: nothing */
     struct question question;
     struct normal normal;
+    struct kept kept;
 };
+
+struct kept *rst_sync_kept(const struct rst_workspace *workspace)
+{
+    return &((struct memo *)workspace->levels)->kept;
+}
 
 static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
 {
@@ -104,7 +110,7 @@ static void remember(const struct rst_workspace *workspace, const struct questio
                      const struct normal *normal)
 {
     if (question->n_terms > most_terms_known) return;
-    *(struct memo *)workspace->levels = (struct memo){1, *question, *normal};
+    *(struct memo *)workspace->levels = (struct memo){1, *question, *normal, {0}};
 }
 
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
@@ -126,6 +132,7 @@ static int run(const struct rst_problem *problem, const struct rst_workspace *wo
     double *memory = (double *)(node + n + 1), *loading = memory + m * (2 * n + 1);
     int64_t failed;
     memo->known = 0;
+    memo->kept = (struct kept){0};
     rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels, rst_sync_closeness(problem),
                       level, memory, loading, node, &failed);
     normal->level = level;

@@ -50,8 +50,9 @@ double rst_sync_levels_to_start(double tolerance, double swings);
 /* By how much iterations are left unfinished, at most. */
 double rst_sync_closeness(const struct rst_problem *problem);
 
-/* What a run works on, laid out in workspace->elements. */
+/* What a run works on. */
 struct store {
+    int64_t levels;           /* n */
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
     struct sync_trace *trace; /* n_terms times 2n + 1 */
@@ -64,7 +65,40 @@ struct store {
 /* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2). */
 int rst_sync_sticks(const struct rst_problem *problem, double rebound);
 
-struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store);
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct store *store);
+
+/* How many levels the tangential problem has: `ratio` times those of the normal one, or these thinned. */
+struct resolution {
+    int64_t ratio, levels;
+};
+
+/* Most runs that impacts begin with: with these levels, half of them, a quarter. */
+enum { rst_sync_first_runs = 3 };
+
+/* What of workspace->dense is made from the solution in workspace->levels. */
+struct kept {
+    int64_t ratio, levels; /* of the resolution; ratio 0: nothing */
+    double largest_force;
+};
+struct kept *rst_sync_kept(const struct rst_workspace *workspace);
+
+/* The levels of the first `runs` runs, in workspace->dense, where they are kept for other impacts on the solid; the
+ * arrays of elements are the same for all. */
+int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
+                          const struct normal *normal, const struct resolution *resolution, int runs,
+                          struct store *store, double *largest_force, restitute_error *error);
+
+/* Those of a run alone, all in workspace->elements; `room`: for `more` doubles. */
+int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                    const struct resolution *resolution, size_t more, struct store *store, double *largest_force,
+                    double **room, restitute_error *error);
+
+/* Room that the former takes in workspace->dense, and the latter in workspace->elements. */
+size_t rst_sync_first_room(int64_t levels, int64_t n_terms);
+size_t rst_sync_run_room(int64_t levels, int64_t n_terms);
+
+/* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */
+double rst_sync_largest_force(const struct sync_level *level, int64_t n);
 
 /* Fill outcome->ledger; the rest of the outcome is known. */
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
@@ -74,7 +108,7 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
  * both phases and `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
-                    int64_t *levels, double **room, restitute_error *error);
+                    double **room, restitute_error *error);
 
 /* See struct restitute_method. */
 int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,

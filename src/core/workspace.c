@@ -34,11 +34,17 @@ int rst_workspace_levels(struct rst_workspace *workspace, size_t count)
     return 0;
 }
 
+int rst_workspace_dense(struct rst_workspace *workspace, size_t count)
+{
+    return grow(&workspace->dense, &workspace->dense_size, count);
+}
+
 void rst_workspace_free(struct rst_workspace *workspace)
 {
     free(workspace->terms);
     free(workspace->elements);
     free(workspace->levels);
+    free(workspace->dense);
     if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }

@@ -20,6 +20,8 @@ struct rst_workspace {
     size_t elements_size;
     double *levels; /* the same, kept while room for elements grows */
     size_t levels_size;
+    double *dense; /* of the method sync: what is kept together with `levels` */
+    size_t dense_size;
     struct rst_own_memory *own; /* of the solver's method; NULL: none */
     sync_loop *loop;            /* of the method sync, the widest that this processor has */
 };
@@ -30,6 +32,7 @@ int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 /* Room for `count` doubles of element data, and of levels, the first of which is 0 in new room. Nonzero: out of memory. */
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count);
 int rst_workspace_levels(struct rst_workspace *workspace, size_t count);
+int rst_workspace_dense(struct rst_workspace *workspace, size_t count);
 
 void rst_workspace_free(struct rst_workspace *workspace);
 
