@@ -477,14 +477,19 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
  * room for most polymers before they are merged. */
 static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
-    const struct rst_problem usual = {
-        .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
-    const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
-    const int64_t normal =
-        multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, rst_sync_stepped_swings(&usual)));
-    return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
-           rst_workspace_elements(workspace, rst_sync_run_room(levels, 1)) ||
-           rst_workspace_dense(workspace, rst_sync_first_room(levels / 8 + normal, 1));
+    struct rst_problem usual = {.solid = {.g_inf = 1}, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
+    int64_t levels = 0;
+    for (int i = 0; i < rst_shelves; i++) {
+        usual.chi = i ? 7.0 / 4 : 7.0 / 6; /* both ends of the range of solid spheres */
+        struct rst_shelf *shelf = rst_sync_shelf(&usual, workspace);
+        const double start = normal_levels_to_start(normal_part * tolerance, rst_sync_stepped_swings(&usual));
+        const int64_t normal = multiple_of(2, 4 * start);
+        levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
+        if (rst_shelf_levels(shelf, rst_sync_normal_room(normal, 1)) ||
+            rst_shelf_dense(shelf, rst_sync_first_room(levels / 8 + normal, 1)))
+            return 1;
+    }
+    return rst_workspace_terms(workspace, 32) || rst_workspace_elements(workspace, rst_sync_run_room(levels, 1));
 }
 
 const struct restitute_method rst_method_sync = {.name = "sync",

@@ -125,7 +125,8 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
                           const struct normal *normal, const struct resolution *resolution, int runs,
                           struct store *store, double *largest_force, restitute_error *error)
 {
-    struct kept *kept = rst_sync_kept(workspace);
+    struct rst_shelf *shelf = rst_sync_shelf(problem, workspace);
+    struct kept *kept = rst_sync_kept(shelf);
     const int64_t n_terms = problem->solid.n_terms, all = resolution->ratio * normal->levels;
     const int first = rungs_down_to(all, resolution->levels) - 1, count = first + runs;
     struct store rung[most_rungs];
@@ -134,14 +135,13 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
     if (rst_workspace_elements(workspace, taken)) return out_of_memory(all, error);
     if (kept->ratio != resolution->ratio || kept->levels != resolution->levels) {
         kept->ratio = 0;
-        if (rst_workspace_dense(workspace, lay_out_rungs(NULL, all, count, n_terms, rung)))
-            return out_of_memory(all, error);
-        lay_out_rungs(workspace->dense, all, count, n_terms, rung);
+        if (rst_shelf_dense(shelf, lay_out_rungs(NULL, all, count, n_terms, rung))) return out_of_memory(all, error);
+        lay_out_rungs(shelf->dense, all, count, n_terms, rung);
         const int status = make_rungs(problem, normal, resolution->ratio, count, rung, error);
         if (status) return status;
         *kept = (struct kept){resolution->ratio, resolution->levels, rst_sync_largest_force(rung->level, all)};
     }
-    lay_out_rungs(workspace->dense, all, count, n_terms, rung);
+    lay_out_rungs(shelf->dense, all, count, n_terms, rung);
     for (int k = 0; k < runs; k++) {
         store[k] = rung[first + k];
         taken = 0;

@@ -11,7 +11,7 @@
 /* Most levels that a run may have: with more, rounding adds up to more than they gain. */
 enum { rst_sync_most_levels = 1 << 15 };
 
-/* The solution of the normal problem; level: in workspace->levels. */
+/* The solution of the normal problem; level: on its shelf. */
 struct normal {
     struct sync_grid grid;
     int64_t levels;             /* of one phase */
@@ -32,7 +32,7 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
-/* Room that rst_sync_normal takes in workspace->levels. */
+/* Room that rst_sync_normal takes on its shelf. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
 
 /* Whether damping is so strong that levels crowd at both ends of the compression. */
@@ -75,14 +75,17 @@ struct resolution {
 /* Most runs that impacts begin with: with these levels, half of them, a quarter. */
 enum { rst_sync_first_runs = 3 };
 
-/* What of workspace->dense is made from the solution in workspace->levels. */
+/* Where the normal problem is kept: one shelf for chi up to 7/6, one for others. */
+struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_workspace *workspace);
+
+/* Which dense levels of a shelf are made from the solution there. */
 struct kept {
     int64_t ratio, levels; /* of the resolution; ratio 0: nothing */
     double largest_force;
 };
-struct kept *rst_sync_kept(const struct rst_workspace *workspace);
+struct kept *rst_sync_kept(const struct rst_shelf *shelf);
 
-/* The levels of the first `runs` runs, in workspace->dense, where they are kept for other impacts on the solid; the
+/* The levels of the first `runs` runs, on the shelf, where they are kept for other impacts on the solid; the
  * arrays of elements are the same for all. */
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
                           const struct normal *normal, const struct resolution *resolution, int runs,
@@ -93,7 +96,7 @@ int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *wor
                     const struct resolution *resolution, size_t more, struct store *store, double *largest_force,
                     double **room, restitute_error *error);
 
-/* Room that the former takes in workspace->dense, and the latter in workspace->elements. */
+/* Room that the former takes on the shelf, and the latter in workspace->elements. */
 size_t rst_sync_first_room(int64_t levels, int64_t n_terms);
 size_t rst_sync_run_room(int64_t levels, int64_t n_terms);
 
