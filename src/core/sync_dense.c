@@ -75,10 +75,10 @@ size_t rst_sync_first_room(int64_t levels, int64_t n_terms)
     return lay_out_rungs(NULL, levels, rst_sync_first_runs, n_terms, rung);
 }
 
-/* `ratio` times the levels of the normal problem, then every other one of them, and so on. Nonzero: an error, or a time
- * was not found. */
-static int make_rungs(const struct rst_problem *problem, const struct normal *normal, int64_t ratio, int count,
-                      const struct store *rung, restitute_error *error)
+/* `ratio` times the levels of the normal problem, then every other one of them, and so on, for runs from rung `first`
+ * on. Nonzero: an error, or a time was not found. */
+static int make_rungs(const struct rst_problem *problem, const struct normal *normal, int64_t ratio, int first,
+                      int count, const struct store *rung, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
     int64_t failed;
@@ -91,6 +91,8 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
     for (int k = 1; k < count; k++)
         rst_thin_levels(s->n_terms, s->g, s->tau, rung[k].levels, rung[k - 1].level, rung[k - 1].trace,
                         rung[k - 1].node, rung[k].level, rung[k].trace, rung[k].node);
+    for (int k = first; k < count; k++)
+        rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
     return RESTITUTE_OK;
 }
 
@@ -111,7 +113,7 @@ int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *wor
     lay_out_elements(NULL, rung[count - 1].levels, n_terms, &taken, &rung[count - 1]);
     if (rst_workspace_elements(workspace, taken + more)) return out_of_memory(all, error);
     lay_out_rungs(workspace->elements, all, count, n_terms, rung);
-    const int status = make_rungs(problem, normal, resolution->ratio, count, rung, error);
+    const int status = make_rungs(problem, normal, resolution->ratio, count - 1, count, rung, error);
     if (status) return status;
     *store = rung[count - 1];
     *room = workspace->elements + taken;
@@ -137,7 +139,7 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
         kept->ratio = 0;
         if (rst_shelf_dense(shelf, lay_out_rungs(NULL, all, count, n_terms, rung))) return out_of_memory(all, error);
         lay_out_rungs(shelf->dense, all, count, n_terms, rung);
-        const int status = make_rungs(problem, normal, resolution->ratio, count, rung, error);
+        const int status = make_rungs(problem, normal, resolution->ratio, first, count, rung, error);
         if (status) return status;
         *kept = (struct kept){resolution->ratio, resolution->levels, rst_sync_largest_force(rung->level, all)};
     }
