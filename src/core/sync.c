@@ -29,7 +29,7 @@ static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
 
 /* For solids with relaxation times errors fall late and irregularly below that rebound: the estimate goes over to all
  * of the change, for no less than 3/16 of the one before, and three times the usual error. */
-static const double hardly_rebounds = 0.02, usual_factor_then = 3, fall_at_least_then = 3.0 / 16;
+static const double hardly_rebounds = 0.02, usual_factor_then = 3, fall_at_least_then = 3.0 / 16, little_lack = 0.1;
 
 /* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its
  * velocity: such errors fall with n^-2, irregularly. */
@@ -328,14 +328,15 @@ static int next_run(const struct rst_problem *problem, struct rst_workspace *wor
 }
 
 /* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it
- * where its grid is graded. normal->levels is 0 if that does not settle. */
+ * where between its levels the motion is not known as well as at them: on a graded grid, and where the solid hardly
+ * rebounds. normal->levels is 0 if that does not settle. */
 static int double_levels(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                          struct resolution *resolution, restitute_error *error)
 {
     struct normal finer;
     int status = RESTITUTE_OK;
     if (resolution->levels >= resolution->ratio * normal->levels) {
-        if (rst_sync_is_graded(problem)) {
+        if (rst_sync_is_graded(problem) || lack_of_rebound(problem, -normal->velocity) > little_lack) {
             status = rst_sync_normal_again(problem, workspace, 2 * normal->levels, &finer, error);
             normal->levels = finer.levels;
             normal->level = finer.level;
@@ -486,6 +487,7 @@ static int sync_reserve(double tolerance, struct rst_workspace *workspace)
         const int64_t normal = multiple_of(2, 4 * start);
         levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
         if (rst_shelf_levels(shelf, rst_sync_normal_room(normal, 1)) ||
+            rst_shelf_levels(&workspace->spare, rst_sync_normal_room(normal, 1)) ||
             rst_shelf_dense(shelf, rst_sync_first_room(levels / 8 + normal, 1)))
             return 1;
     }

@@ -189,7 +189,7 @@ static int make_room(const struct rst_problem *problem, struct rst_shelf *shelf,
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error)
 {
-    struct rst_shelf *shelf = rst_sync_shelf(problem, workspace);
+    struct rst_shelf *shelf = &workspace->spare;
     int status = choose_grid(problem, normal, error);
     if (!status) status = make_room(problem, shelf, levels, error);
     if (!status && run(problem, shelf, levels, normal)) normal->levels = 0;

@@ -28,7 +28,7 @@ struct normal {
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error);
 
-/* Solve again, at that number of levels alone; normal->levels is 0 if it does not settle. */
+/* Solve again, at that number of levels alone and on the spare shelf; normal->levels is 0 if it does not settle. */
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 

@@ -47,6 +47,8 @@ void rst_workspace_free(struct rst_workspace *workspace)
         free(workspace->shelves[i].levels);
         free(workspace->shelves[i].dense);
     }
+    free(workspace->spare.levels);
+    free(workspace->spare.dense);
     if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }

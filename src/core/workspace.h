@@ -25,9 +25,9 @@ struct rst_workspace {
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;
-    struct rst_shelf shelves[rst_shelves];
-    struct rst_own_memory *own; /* of the solver's method; NULL: none */
-    sync_loop *loop;            /* of the method sync, the widest that this processor has */
+    struct rst_shelf shelves[rst_shelves], spare; /* spare: of what is not kept */
+    struct rst_own_memory *own;                   /* of the solver's method; NULL: none */
+    sync_loop *loop;                              /* of the method sync, the widest that this processor has */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
