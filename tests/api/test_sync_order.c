@@ -13,11 +13,11 @@ struct answer {
     int status;
 };
 
-/* Grouped by solid, and within the group by chi for half of them, as in a table. psi: stick, slip first, slip to the
- * end and none. */
+/* Solids of all kinds, one that hardly rebounds among them. Grouped by solid, and within the group by chi for half of
+ * them, as in a table. psi: stick, slip first, slip to the end and none. */
 static void make_impacts(const restitute_material *prony, restitute_impact impacts[ALL])
 {
-    static const double delta1[KINDS] = {0, 0.01, 0.3, 1, 10, 3, 0.1, 0.5, 5, 0};
+    static const double delta1[KINDS] = {0, 0.01, 0.3, 1, 10, 20, 0.1, 0.5, 5, 0};
     static const double gamma[KINDS] = {1, 1, 0.2, 1, 0.05, 1e-3, 0, 0, 0, 0};
     uint64_t random = 17;
     for (int k = 0; k < KINDS; k++)
@@ -103,15 +103,15 @@ static void neither_is_it_in_refusals(void **state)
     static const double times[] = {0.05, 0.4, 3}, moduli[] = {1, 0.7, 0.5};
     restitute_material *prony = solid_of(0.5, 0.1, 3, times, moduli);
     make_impacts(prony, impacts);
+    int refused[2] = {0};
     for (int64_t levels = 0; levels <= 64; levels += 64) {
-        int refused[2] = {0};
         restitute_options options = sync_to(1e-4);
         options.elements = levels;
         options.max_updates = 1500;
         check_orders(&options, impacts, refused);
-        CHECK(refused[0] >= 10 && refused[1] > 10 && refused[0] + refused[1] < ALL,
-              "%d refused, %d with a remark: not the mixture meant", refused[0], refused[1]);
     }
+    CHECK(refused[0] > 20 && refused[1] > 20 && refused[0] + refused[1] < 2 * ALL,
+          "%d refused, %d with a remark: not the mixture meant", refused[0], refused[1]);
     restitute_material_destroy(prony);
 }
 
