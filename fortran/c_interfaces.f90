@@ -12,6 +12,8 @@ module rst_c_interfaces
   use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
   use rst_sync_dense, only: trace_type, dense_levels, thin_levels
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
+  use rst_sync_quadrature, only: spread_weights
+  use rst_sync_edge, only: balance_levels
   use rst_sync_shear, only: follow_shear
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
   use rst_sync_ledger, only: keep_ledger
@@ -187,14 +189,29 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node) bind(c, name="rst_thin_levels")
+  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node) &
+    bind(c, name="rst_thin_levels")
     integer(c_int64_t), intent(in), value :: n_terms, n
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(inout) :: level(0:4*n)
-    type(trace_type), intent(inout) :: trace(n_terms, 0:4*n)
-    type(node_type), intent(inout) :: node(0:2*n)
-    call thin_levels(n_terms, g, tau, n, level, trace, node)
+    type(level_type), intent(in) :: level(0:4*n)
+    type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
+    type(node_type), intent(in) :: node(0:2*n)
+    type(level_type), intent(out) :: thin_level(0:2*n)
+    type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
+    type(node_type), intent(out) :: thin_node(0:n)
+    call thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node)
   end subroutine rst_thin_levels
+
+  !> What all runs on these levels share, made once.
+  pure subroutine rst_finish_levels(g_inf, n_terms, n, trace, node, level) bind(c, name="rst_finish_levels")
+    real(c_double), intent(in), value :: g_inf
+    integer(c_int64_t), intent(in), value :: n_terms, n
+    type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
+    type(node_type), intent(in) :: node(0:n)
+    type(level_type), intent(inout) :: level(0:2*n)
+    call balance_levels(g_inf, n_terms, n, trace, node, level)
+    call spread_weights(n, level)
+  end subroutine rst_finish_levels
 
   subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &
     bind(c, name="rst_follow_shear")
@@ -202,7 +219,7 @@ contains
     type(c_funptr), intent(in), value :: elements
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -219,7 +236,7 @@ contains
     type(c_funptr), intent(in), value :: elements
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -260,7 +277,7 @@ contains
     type(c_funptr), intent(in), value :: elements
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded

@@ -67,25 +67,27 @@ contains
   end subroutine dense_levels
 
   !> Half as many levels, every other one.
-  pure subroutine thin_levels(n_terms, g, tau, n, level, trace, node)
+  pure subroutine thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node)
     integer(ip), intent(in) :: n_terms, n  !! n: levels a phase that are left
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(inout) :: level(0:4*n)
-    type(trace_type), intent(inout) :: trace(n_terms, 0:4*n)
-    type(node_type), intent(inout) :: node(0:2*n)
-    real(dp) :: step_before
+    type(level_type), intent(in) :: level(0:4*n)
+    type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
+    type(node_type), intent(in) :: node(0:2*n)
+    type(level_type), intent(out) :: thin_level(0:2*n)
+    type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
+    type(node_type), intent(out) :: thin_node(0:n)
     integer(ip) :: l, k
-    node(0)%width = 2*node(0)%width
-    do l = 1, n
-      node(l) = node_type(node(2*l)%radius, 2*node(2*l)%width)
+    do l = 0, n
+      thin_node(l) = node_type(node(2*l)%radius, 2*node(2*l)%width)
     end do
+    thin_level(0) = level(0)
+    thin_trace(:, 0) = trace(:, 0)
     do l = 1, 2*n
-      step_before = level(2*l - 1)%step
-      level(l) = level(2*l)
-      level(l)%step = step_before + level(l)%step
+      thin_level(l) = level(2*l)
+      thin_level(l)%step = level(2*l - 1)%step + level(2*l)%step
       do k = 1, n_terms
-        trace(k, l) = trace(k, 2*l)
-        call fade_in_step(g(k), tau(k), level(l)%step, trace(k, l))
+        thin_trace(k, l) = trace(k, 2*l)
+        call fade_in_step(g(k), tau(k), thin_level(l)%step, thin_trace(k, l))
       end do
     end do
   end subroutine thin_levels

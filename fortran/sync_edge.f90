@@ -11,36 +11,47 @@ module rst_sync_edge
                                column_alpha
   implicit none (type, external)
   private
-  public :: balance_levels, shear_force, find_front, stick_radius
+  public :: weight_of, balance_levels, shear_force, find_front, stick_radius
 
 contains
 
+  !> Of the trapezoidal rule. An uneven grid has X'' /= 0 at the centre: Euler-Maclaurin's second term.
+  pure function weight_of(node, i) result(weight)
+    type(node_type), intent(in) :: node(0:*)
+    integer(ip), intent(in) :: i
+    real(dp) :: weight
+    weight = node(i)%width
+    if (i == 0) weight = node(0)%width/2 + (4*node(1)%width - 3*node(0)%width - node(2)%width)/24
+  end function weight_of
+
   !> What the trapezoidal rule lacks of the normal force at all levels. Nodes in contact are 0 to j-1 at the levels j and 2n-j, and
   !> at the latter all have forgotten alike since the former.
-  pure subroutine balance_levels(scene, body, trace, term, level)
-    type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: body(0:scene%capacity - 1, columns)
-    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(term_type), intent(inout) :: term(scene%n_terms)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
-    real(dp) :: weight, x2, faded, left
+  pure subroutine balance_levels(g_inf, n_terms, n, trace, node, level)
+    real(dp), intent(in) :: g_inf
+    integer(ip), intent(in) :: n_terms, n
+    type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
+    type(node_type), intent(in) :: node(0:n)
+    type(level_type), intent(inout) :: level(0:2*n)
+    real(dp) :: weight, x2, faded
     integer(ip) :: j, k, back
+    level%missing = 0 ! until all terms are there: what has faded
+    do k = 1, n_terms
+      faded = 0
+      do j = 1, n
+        back = 2*n - j
+        faded = trace(k, j)%decay*(faded + weight_of(node, j - 1)*trace(k, j - 1)%memory)
+        level(j)%missing = level(j)%missing + faded
+        if (back > j) level(back)%missing = level(back)%missing + trace(k, back)%fade*faded
+      end do
+    end do
     weight = 0
     x2 = 0
-    do j = 1, scene%n
-      back = 2*scene%n - j
-      weight = weight + body(j - 1, column_weight)
-      x2 = x2 + body(j - 1, column_weight)*body(j - 1, column_x2)
-      faded = 0
-      left = 0
-      do k = 1, scene%n_terms
-        if (j == 1) term(k)%faded_sum = 0
-        term(k)%faded_sum = trace(k, j)%decay*(term(k)%faded_sum + body(j - 1, column_weight)*trace(k, j - 1)%memory)
-        faded = faded + term(k)%faded_sum
-        left = left + trace(k, back)%fade*term(k)%faded_sum
-      end do
-      level(j)%missing = level(j)%force - (level(j)%fresh*weight - x2 - faded)
-      if (back > j) level(back)%missing = level(back)%force - (level(back)%fresh*weight - x2 - left)
+    do j = 1, n
+      back = 2*n - j
+      weight = weight + weight_of(node, j - 1)
+      x2 = x2 + weight_of(node, j - 1)*(g_inf*node(j - 1)%radius**2)
+      level(j)%missing = level(j)%force - (level(j)%fresh*weight - x2 - level(j)%missing)
+      if (back > j) level(back)%missing = level(back)%force - (level(back)%fresh*weight - x2 - level(back)%missing)
     end do
   end subroutine balance_levels
 

@@ -40,7 +40,7 @@ contains
     procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -165,7 +165,7 @@ contains
     procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(inout), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded

@@ -21,8 +21,8 @@ module rst_sync_shear
   use rst_sync_dense, only: trace_type, fade_in_step
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
                                column_weight, column_alpha, column_kappa
-  use rst_sync_quadrature, only: spread_weights, starting_weights, parabolic_weights
-  use rst_sync_edge, only: balance_levels, shear_force, find_front
+  use rst_sync_quadrature, only: starting_weights, parabolic_weights
+  use rst_sync_edge, only: weight_of, shear_force, find_front
   use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_bend, cubic_integral, cubic_root
   implicit none (type, external)
   private
@@ -45,7 +45,7 @@ contains
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)  !! their `missing` is made
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -53,8 +53,6 @@ contains
     type(shear_type), intent(out) :: state
     integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
-    call balance_levels(scene, body, trace, term, level)
-    call spread_weights(scene%n, level)
     state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
                        step_before=0, force_before=0, normal_before=0, slope=0, known=0, &
                        passive_weight=body(0, column_weight), passive_alpha=0, &
@@ -100,7 +98,7 @@ contains
     procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(inout) :: level(0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(out) :: body(0:scene%capacity - 1, columns)
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
@@ -120,10 +118,8 @@ contains
     integer(ip) :: i
     do i = 0, scene%n
       body(i, column_x2) = scene%g_inf*node(i)%radius**2
-      body(i, column_weight) = node(i)%width
+      body(i, column_weight) = weight_of(node, i)
     end do
-    ! an uneven grid has X'' /= 0 at the centre: Euler-Maclaurin's second term
-    body(0, column_weight) = node(0)%width/2 + (4*node(1)%width - 3*node(0)%width - node(2)%width)/24
     body(scene%n + 1:, column_x2:column_weight) = 0
     body(:, column_alpha:) = 0
     beta = 0

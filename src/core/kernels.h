@@ -133,15 +133,18 @@ void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, i
 void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
                       const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
                       struct sync_level *level, struct sync_trace *trace, struct sync_node *node, int64_t *failed);
-void rst_thin_levels(int64_t n_terms, const double *g, const double *tau, int64_t n, struct sync_level *level,
-                     struct sync_trace *trace, struct sync_node *node);
+void rst_thin_levels(int64_t n_terms, const double *g, const double *tau, int64_t n, const struct sync_level *level,
+                     const struct sync_trace *trace, const struct sync_node *node, struct sync_level *thin_level,
+                     struct sync_trace *thin_trace, struct sync_node *thin_node);
+void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
+                       const struct sync_node *node, struct sync_level *level);
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
-                      struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
+                      const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
                       double *body, double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
 
 struct rst_sample;
 void rst_trace_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
-                     struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
+                     const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
                      double *body, double *beta, double *faded, struct sync_term *term, int64_t *n_knots,
                      struct sync_knot *knot);
 void rst_edge_rates(const struct sync_scene *scene, const double *g, const double *tau, const struct sync_level *level,
@@ -150,7 +153,7 @@ void rst_sample_impact(const struct sync_scene *scene, int64_t slides, const str
                        const struct sync_node *node, const double *rate, int64_t n_knots, const struct sync_knot *knot,
                        int64_t l, int64_t i, double time, struct rst_sample *sample);
 void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, sync_loop *elements, const double *g,
-                     const double *tau, struct sync_level *level, const struct sync_trace *trace,
+                     const double *tau, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, double *body, double *beta, double *faded, struct sync_term *term,
                      double *before, struct euler_ledger *ledger);
 

@@ -19,12 +19,17 @@ static const double part_taken = 1.0 / 25;
  * small by chance, so it does not stand alone: three times the error of the median impact, 8 max(1, chi)^(3/2) n^-3,
  * is added, and several times that where psi is so small that few nodes slip; and what rounding leaves of the
  * velocity in a level. */
-static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02, rounding_of_level = 6e-13;
+static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02,
+                    rounding_of_level = 6e-13;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
  * from the second doubling on, and for impacts with so small a rebound from the first, since their times differ by
  * decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
+
+/* For solids with relaxation times errors fall late and irregularly below that rebound: the estimate goes over to all
+ * of the change, for no less than 3/16 of the one before, and three times the usual error. */
+static const double hardly_rebounds = 0.02, usual_factor_then = 3, fall_at_least_then = 3.0 / 16, little_lack = 0.1;
 
 /* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its
  * velocity: such errors fall with n^-2, irregularly. */
@@ -44,36 +49,6 @@ static const double acceptance = 0.9;
  * damping. */
 enum { least_normal = 16, least_told = 8 };
 
-static int64_t padded(int64_t count)
-{
-    return (count + rst_sync_lanes - 1) / rst_sync_lanes * rst_sync_lanes;
-}
-
-/* Start of `count` doubles behind what is taken already. */
-static double *take(double *block, size_t *taken, size_t count)
-{
-    double *start = block ? block + *taken : NULL;
-    *taken += count;
-    return start;
-}
-
-/* Lay out the block; returns how many doubles that takes. All members are structs of doubles. */
-static size_t lay_out(double *block, int64_t levels, int64_t n_terms, struct store *store)
-{
-    const size_t n = (size_t)levels, m = (size_t)n_terms;
-    size_t taken = 0;
-    store->capacity = padded(levels + rst_sync_lanes); /* the loop goes on to the end of a group of lanes */
-    const size_t capacity = (size_t)store->capacity;
-    store->level = (struct sync_level *)take(block, &taken, (2 * n + 1) * (sizeof *store->level / sizeof(double)));
-    store->trace = (struct sync_trace *)take(block, &taken, m * (2 * n + 1) * (sizeof *store->trace / sizeof(double)));
-    store->node = (struct sync_node *)take(block, &taken, (n + 1) * (sizeof *store->node / sizeof(double)));
-    store->term = (struct sync_term *)take(block, &taken, m * (sizeof *store->term / sizeof(double)));
-    store->body = take(block, &taken, capacity * rst_sync_columns);
-    store->beta = take(block, &taken, m * capacity);
-    store->faded = take(block, &taken, m * capacity);
-    return taken;
-}
-
 int rst_sync_sticks(const struct rst_problem *problem, double rebound)
 {
     if (problem->mode == RST_FRICTIONLESS) return 0;
@@ -85,68 +60,19 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
-struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store)
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct store *store)
 {
     return (struct sync_scene){.chi = problem->chi,
                                .psi = problem->psi,
                                .g_inf = problem->solid.g_inf,
                                .eta = problem->solid.eta,
                                .n_terms = problem->solid.n_terms,
-                               .n = levels,
+                               .n = store->levels,
                                .capacity = store->capacity,
                                .no_slip = problem->mode == RST_NO_SLIP};
 }
 
-/* `ratio` times the levels of the normal problem, and `more` doubles behind them. Nonzero: an error, or a time was
- * not found. */
-static int make_dense(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                      int64_t ratio, size_t more, struct store *store, double **room, restitute_error *error)
-{
-    const struct rst_solid *s = &problem->solid;
-    const int64_t n = ratio * normal->levels;
-    const size_t taken = lay_out(NULL, n, s->n_terms, store);
-    int64_t failed;
-    if (rst_workspace_elements(workspace, taken + more))
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)n);
-    lay_out(workspace->elements, n, s->n_terms, store);
-    *room = workspace->elements + taken;
-    rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio, normal->level,
-                     store->level, store->trace, store->node, &failed);
-    if (!failed) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                      "iterations do not settle between %lld levels; take the method euler for this solid",
-                      (long long)normal->levels);
-}
-
-/* Every other level again and again, down to at most `most`. */
-static int64_t thin_levels(const struct rst_problem *problem, const struct store *store, int64_t levels, int64_t most)
-{
-    const struct rst_solid *s = &problem->solid;
-    while (levels > most && levels % 4 == 0) {
-        levels /= 2;
-        rst_thin_levels(s->n_terms, s->g, s->tau, levels, store->level, store->trace, store->node);
-    }
-    return levels;
-}
-
-int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
-                    const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
-                    int64_t *levels, double **room, restitute_error *error)
-{
-    struct normal normal;
-    const int64_t coarse = outcome->normal_levels, wanted = outcome->elements < most ? outcome->elements : most;
-    const int64_t ratio = wanted / coarse > 0 ? wanted / coarse : 1;
-    int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
-    if (status) return status;
-    status = make_dense(problem, workspace, &normal, ratio, a_level * (size_t)(2 * ratio * coarse + 1) + more, store,
-                        room, error);
-    if (status) return status;
-    *levels = thin_levels(problem, store, ratio * coarse, wanted);
-    return RESTITUTE_OK;
-}
-
-/* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */
-static double largest_force(const struct sync_level *level, int64_t n)
+double rst_sync_largest_force(const struct sync_level *level, int64_t n)
 {
     int64_t i = 1;
     while (i < 2 * n - 1 && level[i + 1].force > level[i].force)
@@ -164,35 +90,37 @@ struct run {
     double velocity;
 };
 
-static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t n,
-                         const struct store *store, struct run *run)
+static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                         const struct store *store, struct run *run, struct rst_outcome *outcome)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = rst_sync_scene(problem, n, store);
+    const struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
     rst_follow_shear(&scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node, store->body,
                      store->beta, store->faded, store->term, &shear);
-    *run = (struct run){n, 2 * n + shear.updates * (1 + s->n_terms), shear.velocity};
+    *run = (struct run){store->levels, 2 * store->levels + shear.updates * (1 + s->n_terms), shear.velocity};
+    outcome->updates += run->updates;
 }
 
 /* What the normal problem says, and the tangential one in slip to the end. */
 static void note_normal(const struct rst_problem *problem, const struct normal *normal, struct rst_outcome *outcome)
 {
     const double n = (double)normal->levels;
-    *outcome = (struct rst_outcome){.velocity = normal->velocity,
-                                    .shear_velocity = full_slip(problem, normal->velocity),
-                                    .error_ez = normal->error,
-                                    .contact_time = normal->contact_time,
-                                    .followed_time = normal->contact_time,
-                                    .max_indentation = normal->depth,
-                                    .max_contact_radius = sqrt(normal->depth),
-                                    .max_normal_force = 15.0 / 8.0 * largest_force(normal->level, normal->levels),
-                                    .spacing = sqrt(normal->depth) / n,
-                                    .step = normal->contact_time / (2 * n),
-                                    .elements = normal->levels,
-                                    .steps = 2 * normal->levels,
-                                    .updates = normal->updates,
-                                    .normal_levels = normal->levels};
+    *outcome =
+        (struct rst_outcome){.velocity = normal->velocity,
+                             .shear_velocity = full_slip(problem, normal->velocity),
+                             .error_ez = normal->error,
+                             .contact_time = normal->contact_time,
+                             .followed_time = normal->contact_time,
+                             .max_indentation = normal->depth,
+                             .max_contact_radius = sqrt(normal->depth),
+                             .max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels),
+                             .spacing = sqrt(normal->depth) / n,
+                             .step = normal->contact_time / (2 * n),
+                             .elements = normal->levels,
+                             .steps = 2 * normal->levels,
+                             .updates = normal->updates,
+                             .normal_levels = normal->levels};
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
 }
 
@@ -205,17 +133,32 @@ static double second_order_error(double chi)
     return chi > 2 ? 6 * usual_error_then * sqrt(chi / 2) : usual_error_then;
 }
 
+/* How much of what is true of solids that hardly rebound holds, 0 to 1. Kelvin-Voigt solids behave well all the same. */
+static double lack_of_rebound(const struct rst_problem *problem, double rebound)
+{
+    return problem->solid.n_terms > 0 ? 1 / (1 + pow(rebound / hardly_rebounds, 3)) : 0;
+}
+
+static double between(double none, double all, double part)
+{
+    return none + part * (all - none);
+}
+
 /* Two runs, the second with twice the levels: the extrapolated velocity and its error. change_before: between the
  * first of them and the one before it, 0 if there was none. */
 static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
                        const struct run *before, const struct run *now, struct rst_outcome *outcome)
 {
     const double n = (double)now->levels, change = now->velocity - before->velocity;
-    const double usual = usual_error * (1 + thin_slip / (least_slip + problem->psi)) * pow(fmax(1, problem->chi), 1.5);
+    const double lack = lack_of_rebound(problem, -normal->velocity);
+    const double fall = between(fall_at_least, fall_at_least_then, lack);
+    const double thin = 1 + thin_slip / (least_slip + problem->psi);
+    const double usual = between(1, usual_factor_then, lack) * usual_error * thin * pow(fmax(1, problem->chi), 1.5);
     outcome->shear_velocity = now->velocity + change * part_taken;
-    outcome->error_ex = share_of_change * fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
-                        usual / (n * n * n) + rounding_of_level * (double)now->levels +
-                        fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
+    outcome->error_ex =
+        between(share_of_change, 1, lack) * fmax(fabs(change), fall * fabs(change_before)) / problem->psi +
+        usual / (n * n * n) + rounding_of_level * (double)now->levels +
+        fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off);
     outcome->error_ex += fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
     outcome->spacing = sqrt(normal->depth) / (double)now->levels;
     outcome->step = outcome->contact_time / (2 * (double)now->levels);
@@ -263,14 +206,14 @@ static int64_t multiple_of(int64_t unit, double count)
 
 /* The counts that the median impact needs for its estimates to meet the tolerance (docs/accuracy.md). The tangential
  * oscillation in stick is faster than the normal one by sqrt(2 chi); counts are made for solid spheres, chi = 7/6. */
-static double normal_levels_to_start(double wanted, double chi)
+static double normal_levels_to_start(double wanted, double swings)
 {
-    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / fmax(1, chi * 6 / 7), -0.25)));
+    return fmax(least_normal, fmax(2 * pow(wanted, -0.22), 1.64 * pow(wanted / swings, -0.25)));
 }
 
-double rst_sync_levels_to_start(const struct rst_problem *problem)
+double rst_sync_levels_to_start(double tolerance, double swings)
 {
-    return fmax(16, 3.1 * sqrt(fmax(1, problem->chi * 6 / 7)) / cbrt(problem->tolerance));
+    return fmax(16, 3.1 * sqrt(swings) / cbrt(tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs,
@@ -334,76 +277,66 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         const int64_t levels = multiple_of(4, fmax(least_told, (double)problem->elements));
         return rst_sync_normal(problem, workspace, levels / (levels % 8 ? 2 : 4), levels, wanted, normal, error);
     }
-    double start = normal_levels_to_start(wanted, problem->chi);
-    if (sticks && rst_sync_is_graded(problem)) start = fmax(start, rst_sync_levels_to_start(problem));
+    double start = normal_levels_to_start(wanted, rst_sync_stepped_swings(problem));
+    if (sticks && rst_sync_is_graded(problem))
+        start = fmax(start, rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
 
-/* How many levels the tangential problem has: `ratio` times those of the normal one, or these thinned. */
-struct resolution {
-    int64_t ratio, levels;
-};
-
-static int prepare(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                   const struct resolution *resolution, struct store *store, struct rst_outcome *outcome,
-                   restitute_error *error)
+/* The first two runs, from the same levels, or three where the rebound is small. If the updates allowed may not be
+ * enough for both, it is the half one alone, which tells what the other would take. */
+static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                      const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
+                      double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
-    double *room;
-    const int status = make_dense(problem, workspace, normal, resolution->ratio, 0, store, &room, error);
-    if (status) return status;
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(store->level, resolution->ratio * normal->levels);
-    thin_levels(problem, store, resolution->ratio * normal->levels, resolution->levels);
-    return RESTITUTE_OK;
-}
-
-/* A run of half the levels, from every other one. */
-static void run_half(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t levels,
-                     const struct store *store, struct run *run, struct rst_outcome *outcome)
-{
-    const struct rst_solid *s = &problem->solid;
-    rst_thin_levels(s->n_terms, s->g, s->tau, levels / 2, store->level, store->trace, store->node);
-    follow_shear(problem, workspace, levels / 2, store, run);
-    outcome->updates += run->updates;
-}
-
-/* Two runs on end: the first two, from the same levels, or one more after `now`. If the updates allowed may not be
- * enough for both of the first two, it is the half one alone, which tells what the other would take. */
-static int advance_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
-                        const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
-                        double *change_before, struct rst_outcome *outcome, restitute_error *error)
-{
-    struct store store;
+    const int runs = -normal->velocity < small_rebound && resolution->levels % 8 == 0 ? 3 : 2;
+    struct store store[rst_sync_first_runs];
     struct run quarter;
-    const int first = now->levels == 0;
-    const int status = prepare(problem, workspace, normal, resolution, &store, outcome, error);
+    double force;
+    const int status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, store, &force, error);
     if (status) return status;
-    *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
-    *before = *now;
-    if (!half_alone) {
-        follow_shear(problem, workspace, resolution->levels, &store, now);
-        outcome->updates += now->updates;
+    outcome->max_normal_force = 15.0 / 8.0 * force;
+    *change_before = 0;
+    if (half_alone) {
+        follow_shear(problem, workspace, &store[1], now, outcome);
+        return RESTITUTE_OK;
     }
-    if (half_alone)
-        run_half(problem, workspace, resolution->levels, &store, now, outcome);
-    else if (first)
-        run_half(problem, workspace, resolution->levels, &store, before, outcome);
-    if (first && !half_alone && -normal->velocity < small_rebound && resolution->levels % 8 == 0) {
-        run_half(problem, workspace, resolution->levels / 2, &store, &quarter, outcome);
+    follow_shear(problem, workspace, &store[0], now, outcome);
+    follow_shear(problem, workspace, &store[1], before, outcome);
+    if (runs > 2) {
+        follow_shear(problem, workspace, &store[2], &quarter, outcome);
         *change_before = before->velocity - quarter.velocity;
     }
     return RESTITUTE_OK;
 }
 
+/* One more run after `now`. */
+static int next_run(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                    const struct resolution *resolution, struct run *before, struct run *now, double *change_before,
+                    struct rst_outcome *outcome, restitute_error *error)
+{
+    struct store store;
+    double force, *room;
+    const int status = rst_sync_levels(problem, workspace, normal, resolution, 0, &store, &force, &room, error);
+    if (status) return status;
+    outcome->max_normal_force = 15.0 / 8.0 * force;
+    *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
+    *before = *now;
+    follow_shear(problem, workspace, &store, now, outcome);
+    return RESTITUTE_OK;
+}
+
 /* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it
- * where its grid is graded. normal->levels is 0 if that does not settle. */
+ * where between its levels the motion is not known as well as at them: on a graded grid, and where the solid hardly
+ * rebounds. normal->levels is 0 if that does not settle. */
 static int double_levels(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                          struct resolution *resolution, restitute_error *error)
 {
     struct normal finer;
     int status = RESTITUTE_OK;
     if (resolution->levels >= resolution->ratio * normal->levels) {
-        if (rst_sync_is_graded(problem)) {
+        if (rst_sync_is_graded(problem) || lack_of_rebound(problem, -normal->velocity) > little_lack) {
             status = rst_sync_normal_again(problem, workspace, 2 * normal->levels, &finer, error);
             normal->levels = finer.levels;
             normal->level = finer.level;
@@ -425,7 +358,8 @@ static int too_many(const struct rst_problem *problem, int64_t levels)
 static struct resolution first_resolution(const struct rst_problem *problem, const struct normal *normal)
 {
     const int told = problem->elements > 0;
-    const double needed = told ? (double)normal->levels : rst_sync_levels_to_start(problem);
+    const double needed =
+        told ? (double)normal->levels : rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
     struct resolution r = {.ratio = 1, .levels = normal->levels};
     if (!rst_sync_is_graded(problem))
         r.ratio = (int64_t)ceil(fmin(needed, rst_sync_most_levels) / (double)normal->levels);
@@ -455,8 +389,10 @@ static int refine_shear(const struct rst_problem *problem, struct rst_workspace 
         *ahead = (double)outcome->updates + (half_alone ? both / 5 : both);
         if (n > rst_sync_most_levels || *ahead > allowed) break;
         if (now.levels > 0 && rounding_of_level * (double)n > problem->tolerance) break;
-        int status = advance_runs(problem, workspace, normal, &resolution, half_alone, &before, &now, &change_before,
-                                  outcome, error);
+        int status = now.levels == 0 ? first_runs(problem, workspace, normal, &resolution, half_alone, &before, &now,
+                                                  &change_before, outcome, error)
+                                     : next_run(problem, workspace, normal, &resolution, &before, &now, &change_before,
+                                                outcome, error);
         if (status) return status;
         if (!isfinite(now.velocity)) break;
         if (half_alone) continue;
@@ -542,13 +478,20 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
  * room for most polymers before they are merged. */
 static int sync_reserve(double tolerance, struct rst_workspace *workspace)
 {
-    const struct rst_problem usual = {
-        .solid = {.g_inf = 1}, .chi = 7.0 / 6, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
-    struct store store;
-    const int64_t levels = multiple_of(2, 8 * rst_sync_levels_to_start(&usual));
-    const int64_t normal = multiple_of(2, 4 * normal_levels_to_start(normal_part * tolerance, usual.chi));
-    return rst_workspace_terms(workspace, 32) || rst_workspace_levels(workspace, rst_sync_normal_room(normal, 1)) ||
-           rst_workspace_elements(workspace, lay_out(NULL, levels, 1, &store));
+    struct rst_problem usual = {.solid = {.g_inf = 1}, .psi = 1, .mode = RST_PARTIAL_SLIP, .tolerance = tolerance};
+    int64_t levels = 0;
+    for (int i = 0; i < rst_shelves; i++) {
+        usual.chi = i ? 7.0 / 4 : 7.0 / 6; /* both ends of the range of solid spheres */
+        struct rst_shelf *shelf = rst_sync_shelf(&usual, workspace);
+        const double start = normal_levels_to_start(normal_part * tolerance, rst_sync_stepped_swings(&usual));
+        const int64_t normal = multiple_of(2, 4 * start);
+        levels = multiple_of(2, 8 * rst_sync_levels_to_start(tolerance, rst_sync_swings(&usual)));
+        if (rst_shelf_levels(shelf, rst_sync_normal_room(normal, 1)) ||
+            rst_shelf_levels(&workspace->spare, rst_sync_normal_room(normal, 1)) ||
+            rst_shelf_dense(shelf, rst_sync_first_room(levels / 8 + normal, 1)))
+            return 1;
+    }
+    return rst_workspace_terms(workspace, 32) || rst_workspace_elements(workspace, rst_sync_run_room(levels, 1));
 }
 
 const struct restitute_method rst_method_sync = {.name = "sync",

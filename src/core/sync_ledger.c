@@ -44,12 +44,11 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
         sink(problem, outcome);
         return RESTITUTE_OK;
     }
-    int64_t levels;
     const size_t terms = (size_t)s->n_terms + 2;
     int status = rst_sync_repeat(problem, workspace, outcome, most_ledger_levels, terms, 2 * rst_sync_lanes * terms,
-                                 &store, &levels, &before, error);
+                                 &store, &before, error);
     if (status) return status;
-    const struct sync_scene scene = rst_sync_scene(problem, levels, &store);
+    const struct sync_scene scene = rst_sync_scene(problem, &store);
     rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), workspace->loop, s->g, s->tau, store.level,
                     store.trace, store.node, store.body, store.beta, store.faded, store.term, before, &outcome->ledger);
     return RESTITUTE_OK;

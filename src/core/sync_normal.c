@@ -30,9 +30,25 @@ static const double unevenness = 1e-3;
 /* asinh of the impact speed over that of the creep at the turning point (sync_grid.turn): 1e8. */
 static const double strongest_damping = 19.1;
 
+double rst_sync_swings(const struct rst_problem *problem)
+{
+    return fmax(1, problem->chi * 6 / 7);
+}
+
+/* What the normal problem is asked for follows chi in these steps, so that impacts on one solid whose chi is alike share
+ * its solution. */
+double rst_sync_stepped_swings(const struct rst_problem *problem)
+{
+    const double swings = rst_sync_swings(problem) / 1.001; /* rounding of chi = 7/6 is not to cost a step */
+    double step = 1;
+    while (step < swings)
+        step *= 2;
+    return step > 1 && swings <= 0.75 * step ? 0.75 * step : step;
+}
+
 double rst_sync_closeness(const struct rst_problem *problem)
 {
-    const double n = rst_sync_levels_to_start(problem);
+    const double n = rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem));
     return problem->elements > 0 ? rounding
                                  : fmax(rounding, fmin(closeness * problem->tolerance, unevenness / (n * n)));
 }
@@ -42,45 +58,77 @@ static size_t doubles(size_t size, size_t count)
     return count * (size / sizeof(double));
 }
 
-/* What the solution in workspace->levels belongs to: impacts that differ in their tangential side alone, as in a
- * table, share it. Solids of more terms are not remembered. */
+/* What the solution on a shelf belongs to: impacts that differ in their tangential side alone, as in a table, share it.
+ * swings: what it takes of chi. Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
+struct solid_known {
+    double g_inf, eta, n_terms, g[most_terms_known], tau[most_terms_known];
+};
 struct question {
-    double g_inf, eta, n_terms, closeness, first, last, wanted, left, allowed;
-    double g[most_terms_known], tau[most_terms_known];
+    struct solid_known solid;
+    double closeness, first, last, wanted, swings, allowed;
 };
 
-/* The head of workspace->levels. */
+/* The head of the levels on a shelf. */
 struct memo {
     double known; /* 0: nothing */
     struct question question;
     struct normal normal;
+    struct kept kept;
 };
+
+static struct memo *memo_of(const struct rst_shelf *shelf)
+{
+    return (struct memo *)shelf->levels;
+}
+
+struct kept *rst_sync_kept(const struct rst_shelf *shelf)
+{
+    return &memo_of(shelf)->kept;
+}
+
+struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_workspace *workspace)
+{
+    return &workspace->shelves[rst_sync_stepped_swings(problem) > 1];
+}
 
 static struct question question_of(const struct rst_problem *problem, int64_t first, int64_t last, double wanted)
 {
     const struct rst_solid *s = &problem->solid;
-    struct question q = {s->g_inf,     s->eta, (double)s->n_terms,    rst_sync_closeness(problem),  (double)first,
-                         (double)last, wanted, fmax(1, problem->chi * 6 / 7), (double)problem->max_updates, {0},
-                         {0}};
+    struct question q = {.solid = {.g_inf = s->g_inf, .eta = s->eta, .n_terms = (double)s->n_terms},
+                         .closeness = rst_sync_closeness(problem),
+                         .first = (double)first,
+                         .last = (double)last,
+                         .wanted = wanted,
+                         .swings = rst_sync_stepped_swings(problem),
+                         .allowed = (double)problem->max_updates};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
-        q.g[k] = s->g[k];
-        q.tau[k] = s->tau[k];
+        q.solid.g[k] = s->g[k];
+        q.solid.tau[k] = s->tau[k];
     }
     return q;
 }
 
-static int is_known(const struct rst_workspace *workspace, const struct question *question)
+static int is_known(const struct rst_shelf *shelf, const struct question *question)
 {
-    const struct memo *memo = (const struct memo *)workspace->levels;
+    const struct memo *memo = memo_of(shelf);
     return memo && memo->known != 0 && memcmp(&memo->question, question, sizeof *question) == 0;
 }
 
-static void remember(const struct rst_workspace *workspace, const struct question *question,
-                     const struct normal *normal)
+static void remember(const struct rst_shelf *shelf, const struct question *question, const struct normal *normal)
 {
-    if (question->n_terms > most_terms_known) return;
-    *(struct memo *)workspace->levels = (struct memo){1, *question, *normal};
+    if (question->solid.n_terms > most_terms_known) return;
+    *memo_of(shelf) = (struct memo){1, *question, *normal, {0}};
+}
+
+/* Both shelves are for one solid: then whoever times the method knows when it starts from nothing. */
+static void forget_other_solids(struct rst_workspace *workspace, const struct question *question)
+{
+    for (int i = 0; i < rst_shelves; i++) {
+        struct memo *memo = memo_of(&workspace->shelves[i]);
+        if (memo && memo->known != 0 && memcmp(&memo->question.solid, &question->solid, sizeof question->solid) != 0)
+            memo->known = 0;
+    }
 }
 
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
@@ -90,18 +138,18 @@ size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
            doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
 }
 
-/* One run, in workspace->levels, which has room. Nonzero if iterations do not settle. */
-static int run(const struct rst_problem *problem, const struct rst_workspace *workspace, int64_t levels,
-               struct normal *normal)
+/* One run, on the shelf, which has room. Nonzero if iterations do not settle. */
+static int run(const struct rst_problem *problem, const struct rst_shelf *shelf, int64_t levels, struct normal *normal)
 {
     const struct rst_solid *s = &problem->solid;
     const size_t n = (size_t)levels, m = (size_t)s->n_terms;
-    struct memo *memo = (struct memo *)workspace->levels;
+    struct memo *memo = memo_of(shelf);
     struct sync_level *level = (struct sync_level *)(memo + 1);
     struct sync_node *node = (struct sync_node *)(level + 2 * n + 1);
     double *memory = (double *)(node + n + 1), *loading = memory + m * (2 * n + 1);
     int64_t failed;
     memo->known = 0;
+    memo->kept = (struct kept){0};
     rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels, rst_sync_closeness(problem),
                       level, memory, loading, node, &failed);
     normal->level = level;
@@ -131,10 +179,9 @@ static int choose_grid(const struct rst_problem *problem, struct normal *normal,
     return RESTITUTE_OK;
 }
 
-static int make_room(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
-                     restitute_error *error)
+static int make_room(const struct rst_problem *problem, struct rst_shelf *shelf, int64_t levels, restitute_error *error)
 {
-    if (rst_workspace_levels(workspace, rst_sync_normal_room(levels, problem->solid.n_terms)))
+    if (rst_shelf_levels(shelf, rst_sync_normal_room(levels, problem->solid.n_terms)))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld levels", (long long)levels);
     return RESTITUTE_OK;
 }
@@ -142,9 +189,10 @@ static int make_room(const struct rst_problem *problem, struct rst_workspace *wo
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error)
 {
+    struct rst_shelf *shelf = &workspace->spare;
     int status = choose_grid(problem, normal, error);
-    if (!status) status = make_room(problem, workspace, levels, error);
-    if (!status && run(problem, workspace, levels, normal)) normal->levels = 0;
+    if (!status) status = make_room(problem, shelf, levels, error);
+    if (!status && run(problem, shelf, levels, normal)) normal->levels = 0;
     return status;
 }
 
@@ -171,7 +219,7 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
         normal->error += 1.5 * rst_sync_closeness(problem);
         normal->taken_off = part_taken * fabs(change);
         normal->reached =
-            normal->error <= wanted && normal->taken_off <= left_in_levels * wanted / fmax(1, problem->chi * 6 / 7);
+            normal->error <= wanted && normal->taken_off <= left_in_levels * wanted / rst_sync_stepped_swings(problem);
     }
     *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
 }
@@ -180,32 +228,34 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
                     double wanted, struct normal *normal, restitute_error *error)
 {
     int64_t found = 0;
+    struct rst_shelf *shelf = rst_sync_shelf(problem, workspace);
     struct series series = {0};
     const struct question question = question_of(problem, first, last, wanted);
-    if (is_known(workspace, &question)) {
-        *normal = ((const struct memo *)workspace->levels)->normal;
+    if (is_known(shelf, &question)) {
+        *normal = memo_of(shelf)->normal;
         return RESTITUTE_OK;
     }
+    forget_other_solids(workspace, &question);
     int status = choose_grid(problem, normal, error);
     if (status) return status;
     for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
         normal->ahead = normal->updates + 2 * n;
         if (normal->ahead > problem->max_updates) break;
-        status = make_room(problem, workspace, n, error);
+        status = make_room(problem, shelf, n, error);
         if (status) return status;
-        if (run(problem, workspace, n, normal)) {
+        if (run(problem, shelf, n, normal)) {
             series.count = 0;
             continue;
         }
         compare(problem, wanted, &series, normal);
         if (series.count > 1) found = n;
         if (series.count > 2 && normal->reached) {
-            remember(workspace, &question, normal);
+            remember(shelf, &question, normal);
             return RESTITUTE_OK;
         }
     }
     if (found > 0 && normal->levels != found)
-        run(problem, workspace, found, normal); /* the last one has spoilt the levels */
+        run(problem, shelf, found, normal); /* the last one has spoilt the levels */
     normal->levels = found;
     return RESTITUTE_OK;
 }

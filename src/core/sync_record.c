@@ -19,14 +19,13 @@ static int follow(const struct rst_problem *problem, struct rst_workspace *works
     const struct rst_solid *s = &problem->solid;
     struct store *store = &trace->store;
     double *room;
-    int64_t levels;
     int status = rst_sync_repeat(problem, workspace, outcome, outcome->elements,
-                                 1 + sizeof *trace->knot / sizeof(double), 0, store, &levels, &room, error);
+                                 1 + sizeof *trace->knot / sizeof(double), 0, store, &room, error);
     if (status) return status;
-    trace->scene = rst_sync_scene(problem, levels, store);
+    trace->scene = rst_sync_scene(problem, store);
     trace->slides = problem->mode == RST_GROSS_SLIP;
     trace->rate = room;
-    trace->knot = (struct sync_knot *)(room + levels + 1);
+    trace->knot = (struct sync_knot *)(room + store->levels + 1);
     trace->n_knots = 0;
     rst_edge_rates(&trace->scene, s->g, s->tau, store->level, store->trace, trace->rate);
     if (rst_sync_sticks(problem, -outcome->velocity))

@@ -11,7 +11,7 @@
 /* Most levels that a run may have: with more, rounding adds up to more than they gain. */
 enum { rst_sync_most_levels = 1 << 15 };
 
-/* The solution of the normal problem; level: in workspace->levels. */
+/* The solution of the normal problem; level: on its shelf. */
 struct normal {
     struct sync_grid grid;
     int64_t levels;             /* of one phase */
@@ -28,24 +28,31 @@ struct normal {
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error);
 
-/* Solve again, at that number of levels alone; normal->levels is 0 if it does not settle. */
+/* Solve again, at that number of levels alone and on the spare shelf; normal->levels is 0 if it does not settle. */
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
-/* Room that rst_sync_normal takes in workspace->levels. */
+/* Room that rst_sync_normal takes on its shelf. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
 
 /* Whether damping is so strong that levels crowd at both ends of the compression. */
 int rst_sync_is_graded(const struct rst_problem *problem);
 
+/* How much faster than for a solid sphere the tangential oscillation is, squared; 1 for slower ones. */
+double rst_sync_swings(const struct rst_problem *problem);
+
+/* The same rounded up to 1, 1.5, 2, 3, 4, 6, ... (slack of 1e-3). */
+double rst_sync_stepped_swings(const struct rst_problem *problem);
+
 /* The count that the median impact needs for its estimate of e_x to meet the tolerance. */
-double rst_sync_levels_to_start(const struct rst_problem *problem);
+double rst_sync_levels_to_start(double tolerance, double swings);
 
 /* By how much iterations are left unfinished, at most. */
 double rst_sync_closeness(const struct rst_problem *problem);
 
-/* What a run works on, laid out in workspace->elements. */
+/* What a run works on. */
 struct store {
+    int64_t levels;           /* n */
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
     struct sync_trace *trace; /* n_terms times 2n + 1 */
@@ -58,7 +65,43 @@ struct store {
 /* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2). */
 int rst_sync_sticks(const struct rst_problem *problem, double rebound);
 
-struct sync_scene rst_sync_scene(const struct rst_problem *problem, int64_t levels, const struct store *store);
+struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct store *store);
+
+/* How many levels the tangential problem has: `ratio` times those of the normal one, or these thinned. */
+struct resolution {
+    int64_t ratio, levels;
+};
+
+/* Most runs that impacts begin with: with these levels, half of them, a quarter. */
+enum { rst_sync_first_runs = 3 };
+
+/* Where the normal problem is kept: one shelf for chi up to 7/6, one for others. */
+struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_workspace *workspace);
+
+/* Which dense levels of a shelf are made from the solution there. */
+struct kept {
+    int64_t ratio, levels; /* of the resolution; ratio 0: nothing */
+    double largest_force;
+};
+struct kept *rst_sync_kept(const struct rst_shelf *shelf);
+
+/* The levels of the first `runs` runs, on the shelf, where they are kept for other impacts on the solid; the
+ * arrays of elements are the same for all. */
+int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
+                          const struct normal *normal, const struct resolution *resolution, int runs,
+                          struct store *store, double *largest_force, restitute_error *error);
+
+/* Those of a run alone, all in workspace->elements; `room`: for `more` doubles. */
+int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
+                    const struct resolution *resolution, size_t more, struct store *store, double *largest_force,
+                    double **room, restitute_error *error);
+
+/* Room that the former takes on the shelf, and the latter in workspace->elements. */
+size_t rst_sync_first_room(int64_t levels, int64_t n_terms);
+size_t rst_sync_run_room(int64_t levels, int64_t n_terms);
+
+/* Largest of 2n + 1 forces, by the parabola through it and its neighbours. */
+double rst_sync_largest_force(const struct sync_level *level, int64_t n);
 
 /* Fill outcome->ledger; the rest of the outcome is known. */
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
@@ -68,7 +111,7 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
  * both phases and `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
-                    int64_t *levels, double **room, restitute_error *error);
+                    double **room, restitute_error *error);
 
 /* See struct restitute_method. */
 int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,

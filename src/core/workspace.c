@@ -26,19 +26,29 @@ int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
     return grow(&workspace->elements, &workspace->elements_size, count);
 }
 
-int rst_workspace_levels(struct rst_workspace *workspace, size_t count)
+int rst_shelf_levels(struct rst_shelf *shelf, size_t count)
 {
-    const size_t before = workspace->levels_size;
-    if (grow(&workspace->levels, &workspace->levels_size, count)) return 1;
-    if (workspace->levels_size > before) workspace->levels[0] = 0;
+    const size_t before = shelf->levels_size;
+    if (grow(&shelf->levels, &shelf->levels_size, count)) return 1;
+    if (shelf->levels_size > before) shelf->levels[0] = 0;
     return 0;
+}
+
+int rst_shelf_dense(struct rst_shelf *shelf, size_t count)
+{
+    return grow(&shelf->dense, &shelf->dense_size, count);
 }
 
 void rst_workspace_free(struct rst_workspace *workspace)
 {
     free(workspace->terms);
     free(workspace->elements);
-    free(workspace->levels);
+    for (int i = 0; i < rst_shelves; i++) {
+        free(workspace->shelves[i].levels);
+        free(workspace->shelves[i].dense);
+    }
+    free(workspace->spare.levels);
+    free(workspace->spare.dense);
     if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }
