@@ -12,7 +12,7 @@
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
 /* For cells, which are halved where a few impacts miss: the solver's errors must not be taken for that. */
-static const double part_for_cells = 0.15;
+static const double part_for_cells = 0.3;
 
 /* Times that points are added after a check. */
 static const int most_rounds = 12;

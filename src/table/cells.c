@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 /* Parts of the tolerance that the cubics of a cell may miss half way between nodes, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 0.6;
+static const double part_for_rebound = 0.15, part_for_tangent = 1;
 
-/* Checks: at least that many in all, and 2 to 48 a cell. Rounds of them that may fail. */
-enum { least_checks = 10000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12 };
+/* Checks: at least that many in all, and 2 to 48 a cell. Rounds of them that may fail, and tables whose seams may tell before the checks do. */
+enum { least_checks = 10000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12, most_seam_rounds = 3 };
 
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
@@ -248,7 +248,9 @@ static void compare(struct restitute_table_builder *b)
         const double ex = fabs(pair.ex - check->solved.ex) + check->solved.error_ex;
         b->worst_ez = fmax(b->worst_ez, ez);
         b->worst_ex = fmax(b->worst_ex, ex);
-        if (ex > b->options.tolerance) rst_cell_fails(cell);
+        if (ex <= b->options.tolerance) continue;
+        rst_cell_fails(cell);
+        if (cell->pulled > 0) rst_cell_fails(&c->tangent.cell[cell->puller]);
     }
 }
 
@@ -302,7 +304,8 @@ static int make(struct restitute_table_builder *b, int *more)
         restitute_table_destroy(b->draft);
         b->draft = table;
     }
-    return rst_growth_fails(g) ? rst_growth_judge(g, b, more) : 0;
+    const int enough = c->seam_rounds++ >= most_seam_rounds;
+    return rst_growth_fails(g, enough) && !enough ? rst_growth_judge(g, b, more) : 0;
 }
 
 static int after_filling(struct restitute_table_builder *b, restitute_error *error)
@@ -315,6 +318,7 @@ static int after_filling(struct restitute_table_builder *b, restitute_error *err
     if (more) return begin_filling(b, error);
     if (c->growing == &c->tangent) return begin_checking(b, error);
     c->growing = &c->tangent;
+    c->seam_rounds = 0;
     return begin_tangent(b, error);
 }
 
@@ -324,7 +328,7 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
     int more = 0;
     compare(b);
     b->draft->checks = b->cells->checks;
-    if (!rst_growth_fails(g) || b->cells->rounds++ >= most_rounds) return finish(b);
+    if (!rst_growth_fails(g, 0) || b->cells->rounds++ >= most_rounds) return finish(b);
     if (rst_growth_judge(g, b, &more)) return out_of_memory(error);
     return more ? begin_filling(b, error) : finish(b);
 }

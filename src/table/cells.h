@@ -27,6 +27,8 @@ struct rst_cell {
     struct rst_leaf at;
     double error[rst_cell_axes]; /* what its cubics miss half way between nodes */
     double least;                /* the least sum of that, of it or a cell that it is a part of */
+    double pulled;               /* by how much a larger neighbour shifts its nodes, if that is much */
+    int64_t puller;              /* which one */
     int64_t child;               /* the first of its halves; of these there may be but one */
     int8_t state;
     int8_t checked;
@@ -62,7 +64,7 @@ struct rst_cells {
     restitute_table *ez; /* the finished tree of ez, in a table without ex */
     struct rst_check *check;
     int64_t checks, check_capacity, checks_a_cell;
-    int rounds;
+    int rounds, seam_rounds;
 };
 
 /* The machine's stages (cells.c). Nonzero: a status, or out of memory. */
@@ -80,8 +82,8 @@ int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder 
 
 /* A leaf is to be halved, unless that has been in vain. */
 void rst_cell_fails(struct rst_cell *cell);
-/* Whether any is. */
-int rst_growth_fails(const struct rst_growth *g);
+/* Whether any is; `pardon`: and now none is. */
+int rst_growth_fails(struct rst_growth *g, int pardon);
 
 /* Corner of a cell and the distance of its nodes on the lattice. */
 void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,

@@ -5,6 +5,10 @@
 
 #include "cells.h"
 
+/* Parts of the tolerance that a cell may miss at the nodes of its smaller neighbours: what these have between them follows. Beyond the first it
+ * fails; beyond the second if that is why the neighbour fails. */
+static const double part_at_seams = 1.5, part_to_blame = 0.4;
+
 /* A tree with the values at the nodes of its leaves, [leaf][psi][chi][w][gamma]. */
 struct harvest {
     struct rst_growth *growth;
@@ -94,6 +98,14 @@ static void direction_of(int number, int d[rst_cell_axes])
         d[a] = number % 3 - 1;
 }
 
+static int number_of(const int d[rst_cell_axes])
+{
+    int number = 0;
+    for (int a = rst_cell_axes - 1; a >= 0; a--)
+        number = 3 * number + d[a] + 1;
+    return number;
+}
+
 /* The leaf that holds a place on the lattice; -1: none. */
 static int64_t leaf_at(const struct harvest *h, const double at[rst_cell_axes])
 {
@@ -124,7 +136,7 @@ static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[d
     struct rst_spot_on_lattice corner;
     int32_t step[rst_cell_axes];
     int64_t beside[directions];
-    int d[rst_cell_axes], e[rst_cell_axes];
+    int d[rst_cell_axes];
     rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
     for (int n = 0; n < directions; n++) {
         double at[rst_cell_axes];
@@ -138,16 +150,17 @@ static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[d
         beside[n] = inside || !possible ? -1 : leaf_at(h, at);
     }
     for (int n = 0; n < directions; n++) {
+        int wider[rst_cell_axes];
         master[n] = -1;
         direction_of(n, d);
-        for (int m = 0; m < directions; m++) {
-            int touches = beside[m] >= 0;
-            direction_of(m, e);
+        /* the directions that keep some of the components of this one */
+        for (int kept = 1; kept < 1 << rst_cell_axes; kept++) {
             for (int a = 0; a < rst_cell_axes; a++)
-                touches &= e[a] == 0 || e[a] == d[a];
-            if (!touches) continue;
+                wider[a] = kept >> a & 1 ? d[a] : 0;
+            const int64_t other = beside[number_of(wider)];
+            if (other < 0) continue;
             const struct rst_leaf *best = &h->tree->leaf[master[n] >= 0 ? master[n] : leaf];
-            if (is_shallower(&h->tree->leaf[beside[m]], best)) master[n] = beside[m];
+            if (is_shallower(&h->tree->leaf[other], best)) master[n] = other;
         }
     }
 }
@@ -180,14 +193,20 @@ static double psi_at(const struct harvest *h, const struct rst_spot_on_lattice *
     return fmax(1, p.psi);
 }
 
-/* The node goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
-static void put_on(struct harvest *h, int64_t other, const struct rst_spot_on_lattice *spot, double *value)
+/* The node of a leaf goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
+static void put_on(struct harvest *h, int64_t leaf, int64_t other, const struct rst_spot_on_lattice *spot,
+                   double *value)
 {
-    const double there = polynomial(h, other, spot), off = fabs(there - *value);
-    struct rst_cell *cell = &h->growth->cell[h->cell[other]];
-    const double allowed = h->growth->part * h->builder->options.tolerance;
-    if (off > allowed && off > allowed * psi_at(h, spot)) rst_cell_fails(cell);
+    const double there = polynomial(h, other, spot), tolerance = h->builder->options.tolerance;
+    struct rst_cell *cell = &h->growth->cell[h->cell[leaf]];
+    double off = fabs(there - *value);
     *value = there;
+    if (off <= part_to_blame * tolerance) return;
+    off /= psi_at(h, spot);
+    if (off > part_at_seams * tolerance) rst_cell_fails(&h->growth->cell[h->cell[other]]);
+    if (off <= part_to_blame * tolerance || off <= cell->pulled) return;
+    cell->pulled = off;
+    cell->puller = h->cell[other];
 }
 
 static void put_on_neighbours(struct harvest *h, int64_t leaf)
@@ -196,19 +215,20 @@ static void put_on_neighbours(struct harvest *h, int64_t leaf)
     struct rst_spot_on_lattice corner, spot;
     int32_t step[rst_cell_axes];
     int i[rst_cell_axes];
+    h->growth->cell[h->cell[leaf]].pulled = 0;
     find_masters(h, leaf, master);
     rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
     for (i[0] = 0; i[0] < h->count[0]; i[0]++)
         for (i[1] = 0; i[1] < h->count[1]; i[1]++)
             for (i[2] = 0; i[2] < h->count[2]; i[2]++)
                 for (i[3] = 0; i[3] < h->count[3]; i[3]++) {
-                    int number = 0;
-                    for (int a = rst_cell_axes - 1; a >= 0; a--) {
-                        number = 3 * number + (h->count[a] == 1 ? 1 : i[a] == 0 ? 0 : i[a] == rst_cubic ? 2 : 1);
+                    int d[rst_cell_axes];
+                    for (int a = 0; a < rst_cell_axes; a++) {
+                        d[a] = h->count[a] == 1 ? 0 : (i[a] == rst_cubic) - (i[a] == 0);
                         spot.at[a] = corner.at[a] + i[a] * step[a];
                     }
-                    if (master[number] >= 0)
-                        put_on(h, master[number], &spot, &h->value[leaf * h->nodes + node_of(h, i)]);
+                    const int64_t other = master[number_of(d)];
+                    if (other >= 0) put_on(h, leaf, other, &spot, &h->value[leaf * h->nodes + node_of(h, i)]);
                 }
 }
 
