@@ -128,7 +128,9 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
         set_probes(b);
         const int cells = b->active[RST_SPEED] && b->active[RST_GAMMA];
         b->filling_tolerance = (cells ? part_for_cells : part_for_filling) * options->tolerance;
-        if (cells ? rst_cells_create(b) : rst_plan_probes(b))
+        if (cells)
+            status = rst_cells_create(b, error);
+        else if (rst_plan_probes(b))
             status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     }
     if (status) {
@@ -249,6 +251,7 @@ static int solve_again(const struct restitute_table_builder *b, const struct pie
                        restitute_options options, restitute_error *error)
 {
     static const double looser = 4, loosest = 0.02, beside = 1e-6;
+    const double wanted = options.tolerance;
     restitute_error why = {.message = ""};
     int status = solve_alone(p, i, 1 + beside, &options, &why);
     if (status >= 0) p->results[i].error_ex += 2 * beside;
@@ -256,8 +259,15 @@ static int solve_again(const struct restitute_table_builder *b, const struct pie
         options.tolerance *= looser;
         status = solve_alone(p, i, 1, &options, &why);
     }
-    if (status >= 0) return status;
     const struct place at = place_of(b, &b->point[p->index[i]]);
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->cells && !rst_cells_asked(b, at.speed, at.gamma)) {
+        /* a node of a cell at the end of the range: that end instead, and the cell will be halved */
+        p->impacts[i].delta1 = fmin(fmax(at.speed, b->family.range[0][0]), b->family.range[0][1]);
+        p->impacts[i].gamma = fmin(fmax(at.gamma, b->family.range[1][0]), b->family.range[1][1]);
+        options.tolerance = wanted;
+        status = solve_alone(p, i, 1, &options, &why);
+    }
+    if (status >= 0) return status;
     const char *axis = p->scenes ? "speed (m/s)" : "delta1";
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK)
         return rst_report(

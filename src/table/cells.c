@@ -2,13 +2,14 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "cells.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 /* Parts of the tolerance that the cubics of a cell may miss half way between nodes, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 1;
+static const double part_for_rebound = 0.15, part_for_tangent = 0.7;
 
-/* Checks: at least that many in all, and 2 to 48 a cell. Rounds of them that may fail, and tables whose seams may tell before the checks do. */
-enum { least_checks = 10000, least_a_cell = 2, most_a_cell = 48, most_rounds = 12, most_seam_rounds = 3 };
+/* Checks: at least so many in all, and in a cell. Rounds of them that may fail, and tables whose seams may tell before the checks do. */
+enum { least_checks = 10000, least_a_cell = 2, most_rounds = 12, most_seam_rounds = 3 };
 
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
@@ -26,11 +27,38 @@ static int64_t width_of(const double range[2])
     return width;
 }
 
-int rst_cells_create(struct restitute_table_builder *b)
+/* log2 w must be a number at all nodes. */
+static int check_range(const struct restitute_table_builder *b, restitute_error *error)
 {
+    const double(*range)[2] = b->family.range;
+    const double low = range[0][0] / beyond_range * rst_table_h(b->seam_low[1]);
+    const double high = range[0][1] * beyond_range * rst_table_h(b->seam_high[1]);
+    if (low >= DBL_MIN && high <= DBL_MAX) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "delta1 in [%g, %g], gamma in [%g, %g]: delta1 gamma^0.56 (1 + gamma)^0.44 must be in [%.0e, %.0e]",
+                      range[0][0], range[0][1], range[1][0], range[1][1], beyond_range * DBL_MIN,
+                      DBL_MAX / beyond_range);
+}
+
+/* Values are kept in single precision. */
+static const double least_tolerance = 1e-6;
+
+static int out_of_memory(restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+}
+
+int rst_cells_create(struct restitute_table_builder *b, restitute_error *error)
+{
+    const int status = check_range(b, error);
+    if (status) return status;
+    if (b->options.tolerance < least_tolerance)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "tolerance = %g: must be in [1e-06, 0.1] for a table with axes of delta1 and gamma",
+                          b->options.tolerance);
     struct rst_cells *c = calloc(1, sizeof *c);
     b->cells = c;
-    if (!c) return 1;
+    if (!c) return out_of_memory(error);
     rst_octaves_set(b->seam_low[1], b->seam_high[1], 0, &c->gamma);
     const double *range = b->family.range[0];
     rst_w_axis_set(range[0] / beyond_range, range[1] * beyond_range, &c->gamma, width_of(range), &c->w);
@@ -44,7 +72,7 @@ int rst_cells_create(struct restitute_table_builder *b)
     c->tangent.of.sheets = rst_sheets;
     for (int a = 0; a < rst_cell_axes; a++)
         c->tangent.active[a] = a != RST_C || b->active[RST_CHI];
-    return rst_growth_begin(&c->rebound, c, b);
+    return rst_growth_begin(&c->rebound, c, b) ? out_of_memory(error) : RESTITUTE_OK;
 }
 
 void rst_cells_free(struct rst_cells *c)
@@ -53,6 +81,7 @@ void rst_cells_free(struct rst_cells *c)
     rst_growth_free(&c->rebound);
     rst_growth_free(&c->tangent);
     restitute_table_destroy(c->ez);
+    restitute_table_destroy(c->made);
     free(c->check);
     free(c);
 }
@@ -178,22 +207,48 @@ static int add_check(struct restitute_table_builder *b, struct rst_check check)
 static const double spread[rst_cell_axes] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                              0.5385972572236101};
 
-/* At arbitrary places in a cell; those that nobody asks for are left out. */
-static int check_cell(struct restitute_table_builder *b, int64_t k)
+/* An arbitrary place of what was asked for in a cell, number n of all checks; nonzero: there is none at that gamma. */
+static int place_in_cell(const struct restitute_table_builder *b, int64_t k, int64_t n, double at[rst_cell_axes])
 {
-    const struct rst_growth *g = &b->cells->tangent;
+    const struct rst_cells *c = b->cells;
+    const double(*range)[2] = b->family.range;
     struct rst_spot_on_lattice corner;
     int32_t step[rst_cell_axes];
+    double end[2][rst_cell_axes], log_w[2];
+    struct rst_place p[2];
+    rst_cell_place(&c->tangent, &c->tangent.cell[k].at, &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++) {
+        end[0][a] = corner.at[a];
+        end[1][a] = corner.at[a] + rst_cubic * step[a];
+        at[a] = end[0][a] + (end[1][a] - end[0][a]) * fmod(spread[a] * (double)(n + 1), 1);
+    }
+    for (int i = 0; i < 2; i++)
+        rst_cells_numbers(b, end[i], &p[i]);
+    const double low = fmax(range[1][0], p[0].gamma), high = fmin(range[1][1], p[1].gamma);
+    const double part = (at[RST_G] - end[0][RST_G]) / (end[1][RST_G] - end[0][RST_G]);
+    const double gamma = low + part * (high - low);
+    at[RST_G] = end[0][RST_G] + (gamma - p[0].gamma) / (p[1].gamma - p[0].gamma) * (end[1][RST_G] - end[0][RST_G]);
+    const int64_t octave = c->tangent.cell[k].at.octave;
+    const double h = h_of(&c->gamma, octave, at[RST_G] / rst_lattice - (double)octave);
+    for (int i = 0; i < 2; i++) {
+        const double of_range = (log2(range[0][i] * h) * c->w.scale - (double)c->w.first) * rst_lattice;
+        log_w[i] = i ? fmin(end[i][RST_W], of_range) : fmax(end[i][RST_W], of_range);
+    }
+    at[RST_W] = log_w[0] + (log_w[1] - log_w[0]) * (at[RST_W] - end[0][RST_W]) / (end[1][RST_W] - end[0][RST_W]);
+    return log_w[0] > log_w[1];
+}
+
+static int check_cell(struct restitute_table_builder *b, int64_t k)
+{
     struct rst_place p;
-    rst_cell_place(g, &g->cell[k].at, &corner, step);
     for (int64_t i = 0; i < b->cells->checks_a_cell; i++) {
-        double at[rst_cell_axes];
-        for (int a = 0; a < rst_cell_axes; a++)
-            at[a] = corner.at[a] + rst_cubic * step[a] * fmod(spread[a] * (double)(k * most_a_cell + i + 1), 1);
-        rst_cells_numbers(b, at, &p);
-        if (!rst_cells_asked(b, p.delta1, p.gamma)) continue;
-        struct rst_check check = {.delta1 = p.delta1, .gamma = p.gamma, .chi = p.chi, .psi = p.psi, .cell = k};
-        memcpy(check.at, at, sizeof at);
+        struct rst_check check = {.cell = k};
+        if (place_in_cell(b, k, b->cells->checks + i, check.at)) continue;
+        rst_cells_numbers(b, check.at, &p);
+        check.delta1 = p.delta1;
+        check.gamma = p.gamma;
+        check.chi = p.chi;
+        check.psi = p.psi;
         if (add_check(b, check)) return 1;
     }
     return 0;
@@ -206,7 +261,7 @@ static int64_t checks_for(const struct rst_growth *g)
     for (int64_t k = 0; k < g->count; k++)
         leaves += g->cell[k].state == RST_SETTLED;
     const int64_t wanted = least_checks / (leaves > 0 ? leaves : 1) + 1;
-    return wanted < least_a_cell ? least_a_cell : wanted > most_a_cell ? most_a_cell : wanted;
+    return wanted < least_a_cell ? least_a_cell : wanted;
 }
 
 static int plan_checks(struct restitute_table_builder *b)
@@ -243,7 +298,7 @@ static void compare(struct restitute_table_builder *b)
         struct rst_check *check = &c->check[i];
         struct rst_cell *cell = leaf_of(&c->tangent, check);
         restitute_table_value pair;
-        rst_table_evaluate(b->draft, check->delta1, check->gamma, check->chi, check->psi, &pair);
+        rst_table_evaluate(c->made, check->delta1, check->gamma, check->chi, check->psi, &pair);
         const double ez = fabs(pair.ez - check->solved.ez) + check->solved.error_ez;
         const double ex = fabs(pair.ex - check->solved.ex) + check->solved.error_ex;
         b->worst_ez = fmax(b->worst_ez, ez);
@@ -252,14 +307,13 @@ static void compare(struct restitute_table_builder *b)
         rst_cell_fails(cell);
         if (cell->pulled > 0) rst_cell_fails(&c->tangent.cell[cell->puller]);
     }
+    restitute_table_destroy(b->draft);
+    b->draft = c->made;
+    b->draft->checks = c->checks;
+    c->made = NULL;
 }
 
 /* ---- stages */
-
-static int out_of_memory(restitute_error *error)
-{
-    return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-}
 
 static int finish(struct restitute_table_builder *b)
 {
@@ -268,16 +322,21 @@ static int finish(struct restitute_table_builder *b)
     return RESTITUTE_OK;
 }
 
-static int begin_filling(struct restitute_table_builder *b, restitute_error *error)
+/* Whether what is planned may be solved. If not, the last table that was compared is all there will be. */
+static int within_limit(struct restitute_table_builder *b, restitute_error *error)
 {
-    b->stage = RST_FILLING;
-    if (plan_nodes(b)) return out_of_memory(error);
     if (b->used + b->points <= b->options.max_impacts) return RESTITUTE_OK;
     if (b->draft) return finish(b);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "max_impacts = %lld: the table needs more after the %lld solved; raise it or the tolerance, "
                       "or narrow the ranges",
                       (long long)b->options.max_impacts, (long long)b->used);
+}
+
+static int begin_filling(struct restitute_table_builder *b, restitute_error *error)
+{
+    b->stage = RST_FILLING;
+    return plan_nodes(b) ? out_of_memory(error) : within_limit(b, error);
 }
 
 static int begin_tangent(struct restitute_table_builder *b, restitute_error *error)
@@ -288,9 +347,8 @@ static int begin_tangent(struct restitute_table_builder *b, restitute_error *err
 
 static int begin_checking(struct restitute_table_builder *b, restitute_error *error)
 {
-    if (plan_checks(b)) return out_of_memory(error);
     b->stage = RST_CHECKING;
-    return RESTITUTE_OK;
+    return plan_checks(b) ? out_of_memory(error) : within_limit(b, error);
 }
 
 /* The table of a tree that has grown; nonzero in `more` if seams have told that it must go on growing. */
@@ -301,8 +359,8 @@ static int make(struct restitute_table_builder *b, int *more)
     restitute_table *table = NULL;
     if (g == &c->rebound ? rst_cells_make_rebound(b) : rst_cells_make(b, &table)) return 1;
     if (table) {
-        restitute_table_destroy(b->draft);
-        b->draft = table;
+        restitute_table_destroy(c->made);
+        c->made = table;
     }
     const int enough = c->seam_rounds++ >= most_seam_rounds;
     return rst_growth_fails(g, enough) && !enough ? rst_growth_judge(g, b, more) : 0;
@@ -327,13 +385,12 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
     struct rst_growth *g = &b->cells->tangent;
     int more = 0;
     compare(b);
-    b->draft->checks = b->cells->checks;
     if (!rst_growth_fails(g, 0) || b->cells->rounds++ >= most_rounds) return finish(b);
     if (rst_growth_judge(g, b, &more)) return out_of_memory(error);
     return more ? begin_filling(b, error) : finish(b);
 }
 
-int rst_cells_next(struct restitute_table_builder *b, restitute_error *error)
+static int go_on(struct restitute_table_builder *b, restitute_error *error)
 {
     switch (b->stage) {
     case RST_PROBING:
@@ -343,4 +400,15 @@ int rst_cells_next(struct restitute_table_builder *b, restitute_error *error)
     default:
         return after_filling(b, error);
     }
+}
+
+/* A stage that failed has left things half done. */
+int rst_cells_next(struct restitute_table_builder *b, restitute_error *error)
+{
+    struct rst_cells *c = b->cells;
+    if (c->broken)
+        return rst_report(error, c->broken, "builder: a stage has failed before; destroy it and begin with a new one");
+    c->broken = go_on(b, error);
+    if (c->broken) rst_plan_begin(b);
+    return c->broken;
 }

@@ -61,14 +61,16 @@ struct rst_cells {
     struct rst_octaves gamma;
     struct rst_w_axis w;
     struct rst_growth rebound, tangent, *growing; /* one of the two */
-    restitute_table *ez; /* the finished tree of ez, in a table without ex */
+    restitute_table *ez;   /* the finished tree of ez, in a table without ex */
+    restitute_table *made; /* not compared yet; builder.draft is */
+    int broken;            /* a status: the build cannot go on */
     struct rst_check *check;
     int64_t checks, check_capacity, checks_a_cell;
     int rounds, seam_rounds;
 };
 
-/* The machine's stages (cells.c). Nonzero: a status, or out of memory. */
-int rst_cells_create(struct restitute_table_builder *b);
+/* The machine's stages (cells.c). */
+int rst_cells_create(struct restitute_table_builder *b, restitute_error *error);
 void rst_cells_free(struct rst_cells *c);
 int rst_cells_next(struct restitute_table_builder *b, restitute_error *error);
 

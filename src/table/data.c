@@ -175,6 +175,7 @@ static int set_cells(const restitute_table_data *d, restitute_table *form, resti
         return refuse(error, "roots of w");
     form->w = (struct rst_w_axis){
         .first = d->w_first, .roots = d->w_roots, .width = d->w_width, .scale = ldexp(1, -(int)d->w_width)};
+    rst_w_axis_logs(&form->w);
     form->n_cells = d->cells;
     return check_chain(d, error);
 }

@@ -82,6 +82,15 @@ double rst_table_h(double gamma)
     return pow(gamma, 0.56) * pow(1 + gamma, 0.44);
 }
 
+void rst_w_axis_logs(struct rst_w_axis *w)
+{
+    for (int i = 0; i < rst_log_parts; i++) {
+        const double middle = 1 + (i + 0.5) / rst_log_parts;
+        w->inverse[i] = 1 / middle;
+        w->log[i] = log2(middle);
+    }
+}
+
 void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, int64_t width, struct rst_w_axis *w)
 {
     const double end = rst_octaves_node(gamma, gamma->cells * rst_cubic), scale = ldexp(1, -(int)width);
@@ -89,6 +98,7 @@ void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, in
     const double last = log2(high * rst_table_h(end)) * scale;
     *w = (struct rst_w_axis){.first = (int64_t)floor(first), .width = width, .scale = scale};
     w->roots = (int64_t)floor(last) + 1 - w->first;
+    rst_w_axis_logs(w);
 }
 
 /* Doubles that hold so many bytes. */

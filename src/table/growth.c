@@ -5,10 +5,10 @@
 #include "cells.h"
 
 /* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
-static const double share_for_gamma = 0.7;
+static const double share_for_gamma = 0.3;
 
 /* Half way between nodes: so many places along each axis. */
-enum { places_an_axis = 4, most_in_vain = 10 };
+enum { places_an_axis = 6, most_in_vain = 10 };
 
 /* The cubic through the nodes, half way between two of them. */
 static const double half_way[3][4] = {{0.3125, 0.9375, -0.3125, 0.0625},
@@ -59,8 +59,8 @@ static int is_asked(const struct rst_growth *g, const struct restitute_table_bui
     rst_cells_numbers(b, (double[]){at[0][RST_W], at[1][RST_G], 0, 0}, &low);
     rst_cells_numbers(b, (double[]){at[1][RST_W], at[0][RST_G], 0, 0}, &high);
     const double(*range)[2] = b->family.range;
-    return low.delta1 <= range[0][1] * beyond * (1 + margin) && high.delta1 >= range[0][0] / beyond * (1 - margin) &&
-           high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin);
+    if (low.delta1 > range[0][1] * beyond * (1 + margin) || high.delta1 < range[0][0] / beyond * (1 - margin)) return 0;
+    return beyond > 1 || (high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin));
 }
 
 static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at,

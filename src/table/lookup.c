@@ -1,5 +1,5 @@
-/* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only functions of
- * libm are, in tables of ranges, the fifth root of the speed and a logarithm, and none of them can set errno for what gets here.
+/* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only function of
+ * libm is, in tables of ranges, the fifth root of the speed, which cannot set errno for what gets here.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 

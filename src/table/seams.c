@@ -5,9 +5,9 @@
 
 #include "cells.h"
 
-/* Parts of the tolerance that a cell may miss at the nodes of its smaller neighbours: what these have between them follows. Beyond the first it
+/* Parts of what a cell may miss half way between its nodes that it may miss at the nodes of its smaller neighbours: what these have between them follows. Beyond the first it
  * fails; beyond the second if that is why the neighbour fails. */
-static const double part_at_seams = 1.5, part_to_blame = 0.4;
+static const double part_at_seams = 1.2, part_to_blame = 0.4;
 
 /* A tree with the values at the nodes of its leaves, [leaf][psi][chi][w][gamma]. */
 struct harvest {
@@ -197,7 +197,7 @@ static double psi_at(const struct harvest *h, const struct rst_spot_on_lattice *
 static void put_on(struct harvest *h, int64_t leaf, int64_t other, const struct rst_spot_on_lattice *spot,
                    double *value)
 {
-    const double there = polynomial(h, other, spot), tolerance = h->builder->options.tolerance;
+    const double there = polynomial(h, other, spot), tolerance = h->growth->part * h->builder->options.tolerance;
     struct rst_cell *cell = &h->growth->cell[h->cell[leaf]];
     double off = fabs(there - *value);
     *value = there;
