@@ -9,7 +9,7 @@
 static const double part_for_rebound = 0.15, part_for_tangent = 0.7;
 
 /* Checks: at least so many in all, and in a cell. Rounds of them that may fail, and tables whose seams may tell before the checks do. */
-enum { least_checks = 10000, least_a_cell = 2, most_rounds = 12, most_seam_rounds = 3 };
+enum { least_checks = 10000, least_a_cell = 2, most_rounds = 12, most_seam_rounds = 3, most_tries = 200 };
 
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
@@ -207,7 +207,7 @@ static int add_check(struct restitute_table_builder *b, struct rst_check check)
 static const double spread[rst_cell_axes] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                              0.5385972572236101};
 
-/* An arbitrary place of what was asked for in a cell, number n of all checks; nonzero: there is none at that gamma. */
+/* An arbitrary place of what was asked for in a cell, number n of all that are drawn; nonzero: there is none at that gamma. */
 static int place_in_cell(const struct restitute_table_builder *b, int64_t k, int64_t n, double at[rst_cell_axes])
 {
     const struct rst_cells *c = b->cells;
@@ -243,7 +243,10 @@ static int check_cell(struct restitute_table_builder *b, int64_t k)
     struct rst_place p;
     for (int64_t i = 0; i < b->cells->checks_a_cell; i++) {
         struct rst_check check = {.cell = k};
-        if (place_in_cell(b, k, b->cells->checks + i, check.at)) continue;
+        int tries = 0;
+        while (place_in_cell(b, k, b->cells->drawn++, check.at) && ++tries < most_tries)
+            continue;
+        if (tries == most_tries) return 0;
         rst_cells_numbers(b, check.at, &p);
         check.delta1 = p.delta1;
         check.gamma = p.gamma;

@@ -65,7 +65,7 @@ struct rst_cells {
     restitute_table *made; /* not compared yet; builder.draft is */
     int broken;            /* a status: the build cannot go on */
     struct rst_check *check;
-    int64_t checks, check_capacity, checks_a_cell;
+    int64_t checks, check_capacity, checks_a_cell, drawn;
     int rounds, seam_rounds;
 };
 

@@ -164,9 +164,74 @@ static void data_makes_the_same_table(void **state)
     restitute_table_destroy(copy);
 }
 
+/* However narrow the ranges are, the table is compared within them. */
+static void narrow_ranges_are_checked(void **state)
+{
+    restitute_table_family family;
+    restitute_table_info info;
+    restitute_table *made = NULL;
+    restitute_error error;
+    (void)state;
+    restitute_table_family_init(&family);
+    family.chi[0] = family.chi[1] = 1.1;
+    family.delta1[0] = 1, family.delta1[1] = 1.001;
+    family.gamma[0] = 1, family.gamma[1] = 1.001;
+    const restitute_table_options options = options_of(1);
+    CHECK(restitute_table_build(&family, &options, &made, &error) == RESTITUTE_OK, "%s", error.message);
+    restitute_table_info_init(&info);
+    assert_int_equal(restitute_table_describe(made, &info, NULL), RESTITUTE_OK);
+    CHECK(info.checks > 100 && info.error_ex > 0, "%lld checks, error %g", (long long)info.checks, info.error_ex);
+    restitute_table_destroy(made);
+}
+
+/* A build that may not solve enough impacts gives an error, or a table that was compared; never more impacts. */
+static void no_table_without_checks(void **state)
+{
+    const restitute_table_family family = across_the_line();
+    const int64_t needed = data_of(table).impacts;
+    int refused = 0, made_some = 0;
+    (void)state;
+    for (int part = 1; part <= 20; part++) {
+        restitute_table_options options = options_of(2);
+        restitute_table *made = NULL;
+        restitute_error error;
+        options.max_impacts = needed * part / 20;
+        const int status = restitute_table_build(&family, &options, &made, &error);
+        refused += status == RESTITUTE_ERROR_TOO_MUCH_WORK;
+        CHECK(status == RESTITUTE_ERROR_TOO_MUCH_WORK || status >= 0, "%s", error.message);
+        if (status < 0) continue;
+        made_some++;
+        const restitute_table_data data = data_of(made);
+        CHECK(data.checks > 0 && data.impacts <= options.max_impacts, "%lld checks, %lld of %lld impacts",
+              (long long)data.checks, (long long)data.impacts, (long long)options.max_impacts);
+        restitute_table_destroy(made);
+    }
+    CHECK(refused > 0 && made_some > 0, "%d refused, %d made", refused, made_some);
+}
+
+/* Where log2 w is no number, and what single precision does not hold. */
+static void ranges_that_cannot_be(void **state)
+{
+    restitute_table_family family = across_the_line();
+    restitute_table_options options = options_of(1);
+    restitute_table *made = NULL;
+    restitute_error error;
+    (void)state;
+    options.tolerance = 5e-7;
+    CHECK(restitute_table_build(&family, &options, &made, &error) == RESTITUTE_ERROR_DOMAIN && !made, "%s",
+          error.message);
+    options = options_of(1);
+    family.delta1[0] = 1e-305, family.delta1[1] = 1e-295;
+    family.gamma[0] = 1e-40, family.gamma[1] = 1e-30;
+    CHECK(restitute_table_build(&family, &options, &made, &error) == RESTITUTE_ERROR_DOMAIN && !made, "%s",
+          error.message);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_bits), cmocka_unit_test(continuous_at_all_seams),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(narrow_ranges_are_checked),
+                                       cmocka_unit_test(no_table_without_checks),
+                                       cmocka_unit_test(ranges_that_cannot_be), cmocka_unit_test(the_same_bits), cmocka_unit_test(continuous_at_all_seams),
                                        cmocka_unit_test(slopes), cmocka_unit_test(data_makes_the_same_table)};
     return cmocka_run_group_tests(tests, build_once, destroy);
 }
