@@ -102,8 +102,15 @@ struct rst_place {
 void rst_cells_numbers(const struct restitute_table_builder *b, const double at[rst_cell_axes],
                        struct rst_place *place);
 
+/* h at a place in [0, 1] of an octave of gamma, as a lookup takes it from the nodes of the octave. */
+double rst_cells_h(const struct rst_octaves *gamma, int64_t octave, double place);
+
 /* Whether a place is in what was asked for. */
 int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma);
+
+/* Checks (checks.c): in all leaves that have none, nonzero: out of memory; and what comes of all. The table that was compared becomes the draft. */
+int rst_checks_plan(struct restitute_table_builder *b);
+void rst_checks_compare(struct restitute_table_builder *b);
 
 /* From the trees that have grown to a table (seams.c); the first: of ez alone. Where cells of unlike size touch, the nodes of the smaller
  * one tell what the larger one misses, which may fail then. Nonzero: out of memory. */

@@ -46,7 +46,9 @@ static int make_room(struct rst_tree *t, int64_t leaves, int64_t fans)
     const size_t starts = (size_t)((t->of.octaves * t->of.roots * t->of.sheets) << t->part_bits);
     const size_t a = (size_t)leaves * sizeof *t->leaf, b = (size_t)fans * sizeof *t->fan;
     const size_t c = starts * sizeof *t->start, d = (size_t)leaves * sizeof *t->shape;
-    char *room = malloc(a + b + c + d);
+    const double total = (double)leaves * (double)(sizeof *t->leaf + sizeof *t->shape) +
+                         (double)fans * (double)sizeof *t->fan + (double)starts * (double)sizeof *t->start;
+    char *room = total < 0.5 * (double)SIZE_MAX ? malloc(a + b + c + d) : NULL; /* no sum may wrap */
     if (!room) return 1;
     t->room = room;
     t->leaf = (struct rst_leaf *)(void *)room;
