@@ -206,10 +206,16 @@ static const double rst_soft = 1.0 / 64;
 /* Smallest divisor: nothing is divided by 0, for programs that trap that. */
 static const double rst_least = 0x1p-1000;
 
-/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width. Both sides go the same way
- * without a branch, since which one it is cannot be foreseen. `quotient`: psi, or 1/psi for psi > 1. */
-static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
-                                   double *quotient)
+/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width. Both sides go the same way without a branch, since which one it is
+ * cannot be foreseen. */
+struct rst_side {
+    int slips, upper; /* upper: y > 1/2 */
+    double quotient;  /* psi, or 1/psi for psi > 1 */
+    double y;         /* 0 for psi <= 1 */
+    double root;      /* r(y), or r(1 - y) of the upper half */
+};
+
+static inline struct rst_side rst_side_find(double sliding, double v_n, double width)
 {
     const int slips = sliding > v_n;
     const double beyond = sliding - v_n, most = width * v_n;
@@ -217,36 +223,40 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
     const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
-    *quotient = smaller / (larger > rst_least ? larger : rst_least);
+    return (struct rst_side){
+        .slips = slips, .upper = other < y, .quotient = smaller / (larger > rst_least ? larger : rst_least), .y = y, .root = root};
+}
+
+/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of rst_side. */
+static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
+                                   double *quotient)
+{
+    const struct rst_side at = rst_side_find(sliding, v_n, width);
     /* below the number of cells even at their end */
-    const double u = root * (slips * t->psi_cells[1]) + *quotient * ((1 - slips) * t->psi_cells[0]);
+    const double u = at.root * (at.slips * t->psi_cells[1]) + at.quotient * ((1 - at.slips) * t->psi_cells[0]);
     const int64_t cell = (int64_t)u;
     *s = (u - (double)cell) * rst_cubic;
-    return t->start[slips + (slips & (other < y))] + cell * rst_cubic;
+    *quotient = at.quotient;
+    return t->start[at.slips + (at.slips & at.upper)] + cell * rst_cubic;
 }
 
 /* r(1/2) */
 static const double rst_largest_r = 0.6916543936097672;
 
-/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y and `quotient` as above, y = 0 for psi <= 1. The
+/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y and `quotient` as of rst_side. The
  * sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. */
 static inline int64_t rst_sheet_find(double sliding, double v_n, double width, double *place, double *y,
                                      double *quotient)
 {
-    const int slips = sliding > v_n;
-    const double beyond = sliding - v_n, most = width * v_n;
-    const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
-    const double at = ratio < 1 ? ratio : 1, other = 1 - at;
-    const double root = sqrt((other < at ? other : at) + rst_soft * rst_soft) - rst_soft;
-    const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
-    const double quarters = root * (0.5 * rst_slip_sheets / rst_largest_r);
-    *quotient = smaller / (larger > rst_least ? larger : rst_least);
-    *y = at;
-    const double u = slips ? 1 + (other < at ? rst_slip_sheets - quarters : quarters) : *quotient;
+    const struct rst_side at = rst_side_find(sliding, v_n, width);
+    const double quarters = at.root * (0.5 * rst_slip_sheets / rst_largest_r);
+    const double u = at.slips ? 1 + (at.upper ? rst_slip_sheets - quarters : quarters) : at.quotient;
     int64_t sheet = (int64_t)u;
-    sheet = sheet < slips ? slips : sheet;
-    sheet = sheet > slips * rst_slip_sheets ? slips * rst_slip_sheets : sheet;
+    sheet = sheet < at.slips ? at.slips : sheet;
+    sheet = sheet > at.slips * rst_slip_sheets ? at.slips * rst_slip_sheets : sheet;
     const double left = u - (double)sheet;
+    *quotient = at.quotient;
+    *y = at.y;
     *place = left > 0 ? left < rst_below_one ? left : rst_below_one : 0;
     return sheet;
 }
