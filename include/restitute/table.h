@@ -201,7 +201,7 @@ typedef struct restitute_table_info {
     int64_t impacts;  /**< solved for the table, those of the checks included */
     int64_t checks;   /**< points at which it was compared with a solved impact */
     int64_t nodes[4]; /**< values stored along speed (or delta1), gamma, chi and psi; 1: no axis. Of a table
-                         with axes of delta1 and gamma: cells of ex, and values in each: of delta1 and gamma (16), of chi, of psi */
+                         with axes of delta1 and gamma: cells of ex, coefficients of each; places of chi and of psi in it */
     size_t bytes;     /**< of memory that the table takes */
     char version[32]; /**< of the library that built it */
 } restitute_table_info;
@@ -286,7 +286,7 @@ typedef struct restitute_table_data {
     int64_t chi_cells;               /**< even cells of chi, with a cubic each; 0: one node */
     int64_t stick_cells, slip_cells; /**< 0: one node of psi */
     int64_t nodes[4]; /**< out: nodes of speed, gamma, chi, psi. In: not used, see @ref restitute_table_data_nodes */
-    const double *ez; /**< [speed][gamma]; with cells: [cell of ez][4 nodes of w][4 of gamma] */
+    const double *ez; /**< [speed][gamma]; with cells: [cell of ez][17 coefficients] */
     const double *ex; /**< [speed][gamma][psi][chi]: ex itself for psi <= 1, beyond it ex - (2 chi (1 + ez)/psi - 1);
                          with cells: NULL */
 
@@ -297,11 +297,15 @@ typedef struct restitute_table_data {
      *  quarters of t, 0 at psi = 1 and 1 at psi_c: r(y) is 2 r(1/2) t up to t = 1/2, and r(1 - y) is 2 r(1/2) (1 - t) beyond. The roots of ez
      *  have neither chi nor psi.
      *
-     *  A cell has 4 nodes along each axis, evenly spaced from end to end: in log2 w, in gamma itself, in chi, in psi or t. Leaves do not overlap;
-     *  a build leaves out what no delta1 of its range reaches.
+     *  In a cell a value is the sum of coefficients times products of functions of u, from 0 to 1 along each axis: in log2 w, in gamma
+     *  itself, in chi, in psi or t. A function belongs to one of five places, u = 0, 1/4, 1/2, 3/4, 1: 1 - u, (4/3) p (2 u - 1) (4 u - 3),
+     *  p = 4 u (1 - u), (4/3) p (2 u - 1) (4 u - 1), u. Which places a coefficient is of, see
+     *  @ref restitute_table_cell_functions; those of ez are the first 17 of them, in which chi and psi have place 0. Leaves do not
+     *  overlap; a build leaves out what no delta1 of its range reaches.
      *  @{ */
     int64_t cells;         /**< of ex; 0: another table, without all that follows. With cells `parts` is 1, 1; nodes are
-                              `cells`, 16, 4 (1 without a range of chi), 4; cells of chi and psi are not used */
+                              `cells`, coefficients of a cell: 136 (50 without a range of chi), and places of chi and psi: 5
+                              (1), 5; cells of chi and psi are not used */
     int64_t rebound_cells; /**< of ez */
     int64_t w_width, w_first, w_roots; /**< w_roots roots along w, the first from log2 w = w_first 2^w_width on */
     int64_t chain_length, chain[32];   /**< along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi. Those
@@ -310,8 +314,7 @@ typedef struct restitute_table_data {
                               cell is what `depth` halvings leave: bit (depth - 1 - d) of the path tells
                               which half halving d takes, 0 the lower one; and of the octave of gamma part `part` of 2^level */
         *rebound_leaves;   /**< [cell of ez][7]: likewise, sheet 0 */
-    const float *ex_cells; /**< [cell][4 nodes of psi][of chi][of w][of gamma]: ex for psi <= 1, beyond it
-                               psi ex - y ez */
+    const float *ex_cells; /**< [cell][coefficient] of ex for psi <= 1, beyond it of psi ex - y ez */
     /** @} */
 } restitute_table_data;
 
@@ -333,11 +336,21 @@ RESTITUTE_API int restitute_table_from_data(const restitute_table_data *data, re
                                             restitute_error *error);
 
 /** The places of an axis's nodes: 0 speed (m/s) or delta1, 1 gamma, 2 chi, 3 psi, where those beyond psi = 1 are given as 1 + y.
- *  @param places  restitute_table_data.nodes[axis] values. With cells, those of each cell of ex: axes 0 and 1 [cell][4 nodes of w][4 of gamma],
- *                 axis 2 [cell][nodes of chi, 4 or 1], axis 3 [cell][4]; a lookup there gives what the node holds. Some delta1 and gamma
- *                 are beyond the range, as cells are
- *  @return OK, ERROR_NULL, ERROR_DOMAIN */
+ *  @param places  restitute_table_data.nodes[axis] values
+ *  @return OK, ERROR_NULL, ERROR_DOMAIN; also for a table with cells */
 RESTITUTE_API int restitute_table_nodes(const restitute_table *table, int axis, double *places);
+
+/** What a cell holds at its nodes, for a table with cells.
+ *  @param cell   of ex, from 0 on
+ *  @param nodes  restitute_table_data.nodes[1] rows of delta1, gamma, chi, psi, ez, ex. Some delta1 and gamma are beyond the range, as cells
+ *                are; within it a lookup gives the same
+ *  @return OK, ERROR_NULL, ERROR_DOMAIN */
+RESTITUTE_API int restitute_table_cell_nodes(const restitute_table *table, int64_t cell, double (*nodes)[6]);
+
+/** Which functions the coefficients of ex belong to.
+ *  @param places  restitute_table_data.nodes[1] rows: of w, gamma, chi, psi; 0 to 4 for u = 0, 1/4, 1/2, 3/4, 1
+ *  @return OK, ERROR_NULL, ERROR_DOMAIN for a table without cells */
+RESTITUTE_API int restitute_table_cell_functions(const restitute_table *table, int64_t (*places)[4]);
 
 #ifdef __cplusplus
 }

@@ -11,9 +11,6 @@
  * no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
-/* For cells, which are halved where a few impacts miss: the solver's errors must not be taken for that. */
-static const double part_for_cells = 0.3;
-
 /* Times that points are added after a check. */
 static const int most_rounds = 12;
 
@@ -127,7 +124,7 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
         set_axes(b);
         set_probes(b);
         const int cells = b->active[RST_SPEED] && b->active[RST_GAMMA];
-        b->filling_tolerance = (cells ? part_for_cells : part_for_filling) * options->tolerance;
+        b->filling_tolerance = b->later_tolerance = part_for_filling * options->tolerance;
         if (cells)
             status = rst_cells_create(b, error);
         else if (rst_plan_probes(b))
@@ -167,7 +164,7 @@ static struct place place_of(const struct restitute_table_builder *b, const stru
                        .gamma = rst_builder_number(b, RST_GAMMA, p->u[1]),
                        .chi = rst_builder_number(b, RST_CHI, p->u[2]),
                        .psi = p->s};
-    if (!p->slips) return at;
+    if (!p->later) return at;
     const double ez = p->column >= 0 ? b->solved[p->column].ez : rst_table_rebound(b->draft, at.speed, at.gamma);
     at.psi = 1 + rst_y_of_t(p->s) * (restitute_critical_psi(at.chi, fmin(1, fmax(0, ez))) - 1);
     return at;
@@ -285,7 +282,8 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     restitute_options_init(&options);
     options.method = restitute_method_sync();
     const double for_checks = (b->cells ? part_for_cell_checks : part_for_checks) * b->options.tolerance;
-    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : b->filling_tolerance);
+    const double for_filling = b->part ? b->later_tolerance : b->filling_tolerance;
+    options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : for_filling);
     const size_t n = (size_t)p->count;
     int status =
         p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)
@@ -306,7 +304,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
     }
     int64_t next = b->next;
     for (; next < b->points && p.count < most; next++)
-        if (b->point[next].slips == b->part && !b->point[next].known) piece_add(b, next, &p);
+        if (b->point[next].later == b->part && !b->point[next].known) piece_add(b, next, &p);
     int status = piece_solve(b, &p, error);
     for (int64_t i = 0; i < p.count && status >= 0; i++) {
         const restitute_result *r = &p.results[i];
@@ -323,7 +321,7 @@ static int solve_some(struct restitute_table_builder *b, int64_t most, restitute
 static void replay(struct restitute_table_builder *b)
 {
     for (; b->next < b->points && b->used < b->journal_count; b->next++)
-        if (b->point[b->next].slips == b->part && !b->point[b->next].known) b->solved[b->next] = b->journal[b->used++];
+        if (b->point[b->next].later == b->part && !b->point[b->next].known) b->solved[b->next] = b->journal[b->used++];
 }
 
 /* ---- stages */
@@ -405,6 +403,7 @@ static int add_points(struct restitute_table_builder *b)
         if (b->tail[a] > fmax(0.1 * b->options.tolerance, added ? outer : 0)) added |= lengthen(b, a);
     if (added) return 1;
     b->filling_tolerance *= 0.4;
+    b->later_tolerance = b->filling_tolerance;
     rst_memo_clear(&b->memo);
     for (int a = 0; a < rst_axes; a++)
         if (a < 2)
@@ -488,12 +487,12 @@ static int after_checking(struct restitute_table_builder *b, restitute_error *er
 
 static int next_stage(struct restitute_table_builder *b, restitute_error *error)
 {
-    if (b->cells) return rst_cells_next(b, error);
     if (b->part == 0) {
         begin_part(b, 1);
         return RESTITUTE_OK;
     }
     begin_part(b, 0);
+    if (b->cells) return rst_cells_next(b, error);
     switch (b->stage) {
     case RST_PROBING:
         return after_probing(b, error);
@@ -589,10 +588,10 @@ int64_t restitute_table_builder_expected(const restitute_table_builder *builder)
     if (!builder) return 0;
     int64_t ahead = 0;
     for (int64_t i = builder->next; i < builder->points; i++)
-        ahead += !builder->point[i].known && builder->point[i].slips >= builder->part;
+        ahead += !builder->point[i].known && builder->point[i].later >= builder->part;
     if (builder->part == 0)
         for (int64_t i = 0; i < builder->next; i++)
-            ahead += builder->point[i].slips && !builder->point[i].known;
+            ahead += builder->point[i].later && !builder->point[i].known;
     if (builder->stage == RST_PROBING || builder->cells) return builder->used + ahead;
     return builder->used + ahead + (builder->stage == RST_FILLING ? points_of_checks(builder) : 0);
 }

@@ -43,7 +43,7 @@ struct rst_point {
     double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
     int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
     int64_t slot;   /* cells.h: which node or check; u and s are the numbers themselves */
-    int slips;
+    int later; /* solved in the second part of a stage: it slips and needs an ez, or, with cells, is solved more closely */
     int known; /* solved in an earlier round */
 };
 
@@ -86,7 +86,7 @@ struct restitute_table_builder {
     double tail[rst_axes];                 /* size of the last coefficients of the last filling */
     double panel_tail[2][rst_most_panels]; /* the same for panels of speed and gamma */
     int failing[2][rst_most_panels];       /* panels in which a check failed */
-    double filling_tolerance;
+    double filling_tolerance, later_tolerance; /* of the first part, and of the second */
     struct rst_memo memo;
     struct rst_cells *cells; /* NULL: no table of trees */
     double worst_ez, worst_ex;

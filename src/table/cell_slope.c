@@ -1,20 +1,24 @@
-/* Derivatives in a table with axes of delta1 and gamma: those of the cubics of the cells that a lookup takes.
+/* Derivatives in a table with axes of delta1 and gamma: those of the polynomials of the cells that a lookup takes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "slope.h"
 
 #include "table_form.h"
 
-/* Weights of a cell's four nodes along an axis, and their derivatives by the number that the axis goes by. */
+/* Functions of a cell along an axis, and their derivatives by the number that the axis goes by. */
 struct edge {
-    double w[4], dw[4];
+    double f[rst_places], df[rst_places];
 };
+
+static const struct edge no_axis = {.f = {1}};
 
 /* stretch: how the place u in the root goes with that number. */
 static void set_edge(double u, int halvings, double stretch, struct edge *e)
 {
-    rst_cubic_slopes(rst_tree_place(u, halvings), e->w, e->dw);
-    for (int i = 0; i < 4; i++)
-        e->dw[i] *= ldexp(rst_cubic * stretch, halvings);
+    const double place = rst_tree_place(u, halvings);
+    rst_serendipity_functions(place, e->f);
+    rst_serendipity_slopes(place, e->df);
+    for (int i = 0; i < rst_places; i++)
+        e->df[i] *= ldexp(stretch, halvings);
 }
 
 /* Of log2 w by delta1; 0 outside of the table. */
@@ -29,16 +33,16 @@ static double rebound(const restitute_table *t, const struct rst_spot *spot, dou
     const uint32_t code = rst_tree_code(&t->rebound, RST_ALONG_W, spot->w);
     const int64_t leaf = rst_tree_find(&t->rebound, spot->octave, spot->root, 0, spot->gamma, code);
     const struct rst_shape shape = t->rebound.shape[leaf];
-    const double *v = t->ez + leaf * rst_cell_nodes;
+    const double *v = t->ez + leaf * rst_pair_functions;
     struct edge w, gamma;
     set_edge(spot->w, t->rebound.halvings[RST_ALONG_W][shape.depth], stretch, &w);
     set_edge(spot->gamma, shape.level, 0, &gamma);
     double ez = 0, by_delta1 = 0;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            ez += w.w[i] * gamma.w[j] * v[4 * i + j];
-            by_delta1 += w.dw[i] * gamma.w[j] * v[4 * i + j];
-        }
+    for (int64_t n = 0; n < t->of_ez.count; n++) {
+        const int8_t *at = t->of_ez.at[n];
+        ez += w.f[at[RST_W]] * gamma.f[at[RST_G]] * v[n];
+        by_delta1 += w.df[at[RST_W]] * gamma.f[at[RST_G]] * v[n];
+    }
     *slope = ez > 0 && ez < 1 ? by_delta1 : 0;
     return fmin(1, fmax(0, ez));
 }
@@ -73,22 +77,20 @@ static struct kept sum_cell(const restitute_table *t, const struct rst_spot *spo
                           rst_tree_code(tree, RST_ALONG_PSI, seat->psi);
     const int64_t leaf = rst_tree_find(tree, spot->octave, spot->root, seat->sheet, spot->gamma, code);
     const int depth = tree->shape[leaf].depth;
-    const float *v = t->ex_cells + leaf * t->n_psi * t->n_chi * rst_cell_nodes;
-    struct edge w, gamma, chi = {.w = {1}}, psi;
+    const float *v = t->ex_cells + leaf * t->of_ex.count;
+    struct edge w, gamma, chi = no_axis, psi;
     struct kept sum = {0, 0, 0};
     set_edge(spot->w, tree->halvings[RST_ALONG_W][depth], stretch, &w);
     set_edge(spot->gamma, tree->shape[leaf].level, 0, &gamma);
     if (t->n_chi > 1) set_edge(seat->chi, tree->halvings[RST_ALONG_CHI][depth], 0, &chi);
     set_edge(seat->psi, tree->halvings[RST_ALONG_PSI][depth], seat->stretch, &psi);
-    for (int k = 0; k < 4; k++)
-        for (int64_t l = 0; l < t->n_chi; l++)
-            for (int i = 0; i < 4; i++)
-                for (int j = 0; j < 4; j++) {
-                    const double part = gamma.w[j] * chi.w[l] * (double)*v++;
-                    sum.value += w.w[i] * psi.w[k] * part;
-                    sum.by_delta1 += w.dw[i] * psi.w[k] * part;
-                    sum.by_psi += w.w[i] * psi.dw[k] * part;
-                }
+    for (int64_t n = 0; n < t->of_ex.count; n++) {
+        const int8_t *at = t->of_ex.at[n];
+        const double part = gamma.f[at[RST_G]] * chi.f[at[RST_C]] * (double)v[n];
+        sum.value += w.f[at[RST_W]] * psi.f[at[RST_P]] * part;
+        sum.by_delta1 += w.df[at[RST_W]] * psi.f[at[RST_P]] * part;
+        sum.by_psi += w.f[at[RST_W]] * psi.df[at[RST_P]] * part;
+    }
     return sum;
 }
 

@@ -6,7 +6,16 @@
 #include <stdlib.h>
 
 /* Parts of the tolerance that the cubics of a cell may miss half way between nodes, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 0.7;
+static const double part_for_rebound = 0.15, part_for_tangent = 0.9;
+
+/* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors must not
+ * be taken for that. Its usual error is a fiftieth of its estimate, but for spheres that have just begun to rebound, of which more in a
+ * hundred are half of it off. */
+static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.8, part_for_close_nodes = 0.2;
+static const double begins_to_rebound = 0.3, hardly_rebounds = 0.04; /* w, ez */
+
+/* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few cells, and that of ex rests on it. */
+enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 4 };
 
 /* Rounds of checks that may fail, and tables whose seams may tell before the checks do. */
 enum { most_rounds = 12, most_seam_rounds = 3 };
@@ -66,9 +75,14 @@ int rst_cells_create(struct restitute_table_builder *b, restitute_error *error)
     c->rebound.beyond = beyond_range;
     c->tangent.beyond = 1;
     c->rebound.part = part_for_rebound;
+    c->rebound.places_an_axis = rebound_along;
+    c->rebound.places_inside = rebound_inside;
     c->rebound.of.sheets = 1;
     c->rebound.active[RST_W] = c->rebound.active[RST_G] = 1;
+    b->filling_tolerance = b->later_tolerance = part_for_rebound_nodes * b->options.tolerance;
     c->tangent.part = part_for_tangent;
+    c->tangent.places_an_axis = tangent_along;
+    c->tangent.places_inside = tangent_inside;
     c->tangent.of.sheets = rst_sheets;
     for (int a = 0; a < rst_cell_axes; a++)
         c->tangent.active[a] = a != RST_C || b->active[RST_CHI];
@@ -117,10 +131,11 @@ void rst_cells_numbers(const struct restitute_table_builder *b, const double at[
     p->chi = rst_builder_number(b, RST_CHI, at[RST_C] / rst_lattice);
     p->y = sheet > 1 ? y_of((sheet - 1) / rst_slip_sheets) : 0;
     p->psi = sheet;
+    p->w = w;
     p->ez = 0;
-    if (c->growing == &c->rebound || sheet <= 1) return;
+    if (c->growing == &c->rebound) return;
     p->ez = rst_table_rebound(c->ez, p->delta1, p->gamma);
-    p->psi = 1 + p->y * (restitute_critical_psi(p->chi, p->ez) - 1);
+    if (sheet > 1) p->psi = 1 + p->y * (restitute_critical_psi(p->chi, p->ez) - 1);
 }
 
 int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma)
@@ -153,7 +168,8 @@ static int add_node(struct restitute_table_builder *b, struct rst_growth *g, int
     const struct rst_point point = {.u = {p.delta1, p.gamma, p.chi},
                                     .s = g == &b->cells->rebound ? full_slip_psi : p.psi,
                                     .column = -1,
-                                    .slot = number};
+                                    .slot = number,
+                                    .later = g == &b->cells->tangent && p.w > begins_to_rebound && p.ez < hardly_rebounds};
     return rst_plan_add(b, point);
 }
 
@@ -212,6 +228,8 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
 
 static int begin_tangent(struct restitute_table_builder *b, restitute_error *error)
 {
+    b->filling_tolerance = part_for_nodes * b->options.tolerance;
+    b->later_tolerance = part_for_close_nodes * b->options.tolerance;
     if (rst_growth_begin(&b->cells->tangent, b->cells, b)) return out_of_memory(error);
     return begin_filling(b, error);
 }

@@ -1,8 +1,8 @@
 /* The build of a table with axes of delta1 and of gamma: trees of cells (tree.h), halved where they need it.
  *
- *   nodes      Impacts at the nodes of all cells of a depth, and half way between them along each axis. Where these differ too much from the
- *              cubics of the cell, it is halved. Along what is the same for all cells of a depth: what most of them ask for. An octave of
- *              gamma is halved along gamma where most of its cells ask for that.
+ *   nodes      Impacts at the nodes of all cells of a depth, half way between them on edges, and inside. Where these differ too much from the
+ *              polynomial of the cell, it is halved. Along what is the same for all cells of a depth: what most of them ask for. An octave
+ *              of gamma is halved along gamma where enough of its cells ask for that.
  *   rebound    First the tree of ez alone; then, with psi_c from that, the tree of ex.
  *   checking   The table is compared with impacts at arbitrary places in every new cell; cells where that fails are halved, too. All checks that
  *              were ever made are compared with the last table.
@@ -14,6 +14,7 @@
 
 #include "builder.h"
 #include "nodes.h"
+#include "serendipity.h"
 
 enum rst_cell_state {
     RST_TO_JUDGE,  /* its nodes may be missing */
@@ -23,16 +24,24 @@ enum rst_cell_state {
     RST_DONE_WITH /* has been halved */
 };
 
+/* What a neighbour shifts the nodes by that it shares; 0: none. */
+struct rst_pull {
+    double by;
+    int64_t cell;
+};
+
+enum { rst_most_pulls = 3 };
+
 struct rst_cell {
     struct rst_leaf at;
-    double error[rst_cell_axes]; /* what its cubics miss half way between nodes */
-    double least;                /* the least sum of that, of it or a cell that it is a part of */
-    double pulled;               /* by how much a larger neighbour shifts its nodes, if that is much */
-    int64_t puller;              /* which one */
+    double error[rst_cell_axes]; /* what its polynomial misses along its edges */
+    double inside;               /* and inside */
+    double usual, before;        /* a mean of that sum and those of the cells that it is a part of; when it was halved last */
+    struct rst_pull pull[rst_most_pulls]; /* larger neighbours that shift its nodes by much, most first */
     int64_t child;               /* the first of its halves; of these there may be but one */
     int8_t state;
     int8_t checked;
-    int8_t in_vain; /* halvings on end that have not brought the sum down to half of the least */
+    int8_t in_vain; /* halvings on end that have not brought that mean down to half */
 };
 
 struct rst_check {
@@ -45,9 +54,11 @@ struct rst_check {
 /* One tree that grows. */
 struct rst_growth {
     struct rst_roots of;
-    int active[rst_cell_axes]; /* whether a cell has four nodes along it, or one */
+    int active[rst_cell_axes]; /* whether a cell has an extent along it */
+    struct rst_serendipity of_cell;
     double beyond;             /* cells are made within this factor of the range of delta1 */
-    double part;               /* of the tolerance, that a cell may be off by half way between its nodes */
+    int places_an_axis, places_inside; /* where a cell is compared with impacts */
+    double part;               /* of the tolerance, that a cell may be off by where it is compared */
     int8_t chain[rst_deepest];
     int64_t chain_length;
     int8_t *level;  /* [octave][depth]: the finest level of gamma so far; */
@@ -91,13 +102,23 @@ int rst_growth_fails(struct rst_growth *g, int pardon);
 void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
                     int32_t step[rst_cell_axes]);
 
+/* The values at its nodes, which were solved. */
+void rst_cell_values(const struct rst_growth *g, const struct rst_leaf *at, double value[rst_most_functions]);
+
+/* A place on the lattice in [0, 1]^4 of a cell. */
+void rst_cell_local(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes],
+                    double u[rst_cell_axes]);
+
+/* Its polynomial as its own impacts tell it, before its nodes are put on neighbours'. */
+void rst_cell_polynomial(const struct rst_growth *g, const struct rst_leaf *at, double coefficient[rst_most_functions]);
+
 /* Whether a place on the lattice is in a cell. */
 int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes]);
 
 /* The numbers at a place on the lattice, counted in its steps. Beyond psi = 1 psi follows from y and the table of ez; while that grows it is
  * so large that the contact slips to the end. */
 struct rst_place {
-    double delta1, gamma, chi, psi, y, ez;
+    double delta1, gamma, w, chi, psi, y, ez;
 };
 void rst_cells_numbers(const struct restitute_table_builder *b, const double at[rst_cell_axes],
                        struct rst_place *place);

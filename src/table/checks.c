@@ -23,6 +23,9 @@ static int add_check(struct restitute_table_builder *b, struct rst_check check)
     return rst_plan_add(b, p);
 }
 
+/* Where a check fails by more than this part of the tolerance even before the cell's nodes are put on its neighbours', it is its own fault. */
+static const double part_of_own = 0.8;
+
 /* Additive recurrences of the plastic number's kind for four axes: evenly spread, and no period of the cells. */
 static const double spread[rst_cell_axes] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                              0.5385972572236101};
@@ -39,7 +42,7 @@ static int place_in_cell(const struct restitute_table_builder *b, int64_t k, int
     rst_cell_place(&c->tangent, &c->tangent.cell[k].at, &corner, step);
     for (int a = 0; a < rst_cell_axes; a++) {
         end[0][a] = corner.at[a];
-        end[1][a] = corner.at[a] + rst_cubic * step[a];
+        end[1][a] = corner.at[a] + rst_quarters * step[a];
         at[a] = end[0][a] + (end[1][a] - end[0][a]) * fmod(spread[a] * (double)(n + 1), 1);
     }
     for (int i = 0; i < 2; i++)
@@ -110,6 +113,29 @@ static struct rst_cell *leaf_of(struct rst_growth *g, struct rst_check *check)
     return &g->cell[check->cell];
 }
 
+/* What the polynomial misses at a check that the cell's own impacts tell. */
+static double missed_by_own(const struct restitute_table_builder *b, const struct rst_cell *cell,
+                            const struct rst_check *check)
+{
+    const struct rst_growth *g = &b->cells->tangent;
+    double coefficient[rst_most_functions], u[rst_cell_axes];
+    struct rst_place p;
+    rst_cells_numbers(b, check->at, &p);
+    rst_cell_polynomial(g, &cell->at, coefficient);
+    rst_cell_local(g, &cell->at, check->at, u);
+    const double kept = rst_serendipity_sum(&g->of_cell, coefficient, u), psi = p.y > 0 ? p.psi : 1;
+    return fabs((kept + p.y * p.ez) / psi - check->solved.ex) + check->solved.error_ex;
+}
+
+/* A check has failed: its cell fails, or where its own impacts would do, the neighbours on whose polynomials its nodes were put. */
+static void blame(struct restitute_table_builder *b, struct rst_cell *cell, const struct rst_check *check)
+{
+    const double own = missed_by_own(b, cell, check);
+    if (own > part_of_own * b->options.tolerance || cell->pull[0].by == 0) rst_cell_fails(cell);
+    for (int i = 0; i < rst_most_pulls && cell->pull[i].by > 0; i++)
+        rst_cell_fails(&b->cells->tangent.cell[cell->pull[i].cell]);
+}
+
 /* Largest differences to all impacts of the checks; cells where they are too large fail. */
 void rst_checks_compare(struct restitute_table_builder *b)
 {
@@ -126,9 +152,7 @@ void rst_checks_compare(struct restitute_table_builder *b)
         const double ex = fabs(pair.ex - check->solved.ex) + check->solved.error_ex;
         b->worst_ez = fmax(b->worst_ez, ez);
         b->worst_ex = fmax(b->worst_ex, ex);
-        if (ex <= b->options.tolerance) continue;
-        rst_cell_fails(cell);
-        if (cell->pulled > 0) rst_cell_fails(&c->tangent.cell[cell->puller]);
+        if (ex > b->options.tolerance) blame(b, cell, check);
     }
     restitute_table_destroy(b->draft);
     b->draft = c->made;

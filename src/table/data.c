@@ -283,12 +283,13 @@ int restitute_table_data_nodes(const restitute_table_data *data, int64_t nodes[4
 /* How many values there are. */
 static size_t count_ez(const restitute_table_data *d, const restitute_table *form)
 {
-    return form->n_cells > 0 ? (size_t)d->rebound_cells * rst_cell_nodes
+    return form->n_cells > 0 ? (size_t)d->rebound_cells * rst_pair_functions
                              : (size_t)form->n_speed * (size_t)form->n_gamma;
 }
 
 static size_t count_ex(const restitute_table *form)
 {
+    if (form->n_cells > 0) return (size_t)form->n_cells * (size_t)form->n_gamma;
     return (size_t)form->n_speed * (size_t)form->n_gamma * (size_t)form->n_psi * (size_t)form->n_chi;
 }
 

@@ -54,9 +54,11 @@ void rst_table_count(restitute_table *form)
     form->n_gamma = form->gamma.cells * rst_cubic + 1;
     if (form->n_cells > 0) {
         form->n_speed = form->n_cells;
-        form->n_gamma = rst_cell_nodes;
-        form->n_chi = form->chi_low < form->chi_high ? rst_cubic + 1 : 1;
-        form->n_psi = rst_cubic + 1;
+        form->n_chi = form->chi_low < form->chi_high ? rst_places : 1;
+        form->n_psi = rst_places;
+        rst_serendipity_set((int[rst_cell_axes]){[RST_W] = 1, [RST_G] = 1}, &form->of_ez);
+        rst_serendipity_set((int[rst_cell_axes]){1, 1, [RST_C] = form->n_chi > 1, [RST_P] = 1}, &form->of_ex);
+        form->n_gamma = form->of_ex.count;
         return;
     }
     form->n_chi = form->chi_cells * rst_cubic + 1;
@@ -110,10 +112,10 @@ static size_t doubles(size_t bytes)
 /* Trees are planted already. */
 static restitute_table *allocate_cells(const restitute_table *form)
 {
-    const size_t n_ez = (size_t)form->rebound.leaves * rst_cell_nodes, n_term = 2 * (size_t)form->terms, line = 64;
-    const size_t n_ex = (size_t)form->n_cells * rst_cell_nodes * (size_t)(form->n_psi * form->n_chi);
+    const size_t n_ez = (size_t)form->rebound.leaves * rst_pair_functions, n_term = 2 * (size_t)form->terms;
+    const size_t n_ex = (size_t)form->n_cells * (size_t)form->n_gamma;
     const size_t along = (size_t)form->gamma.cells * rst_cubic + 1;
-    const size_t size = n_ez + n_term + along + doubles(n_ex * sizeof(float) + line);
+    const size_t size = n_ez + n_term + along + doubles(n_ex * sizeof(float));
     restitute_table *table = malloc(sizeof *table + size * sizeof(double));
     if (!table) return NULL;
     *table = *form;
@@ -123,9 +125,7 @@ static restitute_table *allocate_cells(const restitute_table *form)
     table->along = table->term + n_term;
     for (size_t i = 0; i < along; i++)
         table->along[i] = rst_table_h(rst_octaves_node(&form->gamma, (int64_t)i));
-    char *values = (char *)(table->along + along);
-    values += (line - (uintptr_t)values % line) % line; /* a node's values of w and gamma: one line */
-    table->ex_cells = (float *)(void *)values;
+    table->ex_cells = (float *)(void *)(table->along + along);
     table->ex = NULL;
     return table;
 }

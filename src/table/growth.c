@@ -7,13 +7,7 @@
 /* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
 static const double share_for_gamma = 0.3;
 
-/* Half way between nodes: so many places along each axis. */
-enum { places_an_axis = 6, most_in_vain = 10 };
-
-/* The cubic through the nodes, half way between two of them. */
-static const double half_way[3][4] = {{0.3125, 0.9375, -0.3125, 0.0625},
-                                      {-0.0625, 0.5625, 0.5625, -0.0625},
-                                      {0.0625, -0.3125, 0.9375, 0.3125}};
+enum { most_in_vain = 12 };
 
 /* ---- cells */
 
@@ -32,7 +26,7 @@ void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struc
         if (at->path >> (at->depth - 1 - d) & 1) corner->at[axis] += size[axis];
     }
     for (int a = 0; a < rst_cell_axes; a++)
-        step[a] = g->active[a] ? size[a] / rst_cubic : 0;
+        step[a] = g->active[a] ? size[a] / rst_quarters : 0;
 }
 
 int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes])
@@ -41,7 +35,7 @@ int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, cons
     int32_t step[rst_cell_axes];
     rst_cell_place(g, cell, &corner, step);
     for (int a = 0; a < rst_cell_axes; a++)
-        if (g->active[a] && (at[a] < corner.at[a] || at[a] > corner.at[a] + rst_cubic * step[a])) return 0;
+        if (g->active[a] && (at[a] < corner.at[a] || at[a] > corner.at[a] + rst_quarters * step[a])) return 0;
     return 1;
 }
 
@@ -54,7 +48,7 @@ static int is_asked(const struct rst_growth *g, const struct restitute_table_bui
     struct rst_place low, high;
     for (int a = 0; a < rst_cell_axes; a++) {
         at[0][a] = corner->at[a];
-        at[1][a] = corner->at[a] + rst_cubic * step[a];
+        at[1][a] = corner->at[a] + rst_quarters * step[a];
     }
     rst_cells_numbers(b, (double[]){at[0][RST_W], at[1][RST_G], 0, 0}, &low);
     rst_cells_numbers(b, (double[]){at[1][RST_W], at[0][RST_G], 0, 0}, &high);
@@ -79,7 +73,8 @@ static int add_cell(struct rst_growth *g, const struct restitute_table_builder *
     }
     const struct rst_cell cell = {.at = at,
                                   .state = RST_TO_JUDGE,
-                                  .least = whole ? whole->least : HUGE_VAL,
+                                  .usual = whole ? whole->usual : 0,
+                                  .before = whole ? whole->before : HUGE_VAL,
                                   .in_vain = (int8_t)(whole ? whole->in_vain + 1 : 0)};
     g->cell[g->count++] = cell;
     return 0;
@@ -102,6 +97,7 @@ int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const stru
     const size_t marks = (size_t)c->gamma.cells * (rst_deepest + 1);
     g->of.octaves = c->gamma.cells;
     g->of.roots = c->w.roots;
+    rst_serendipity_set(g->active, &g->of_cell);
     g->level = calloc(marks, sizeof *g->level);
     g->closed = calloc(marks, sizeof *g->closed);
     if (!g->level || !g->closed) return 1;
@@ -124,77 +120,106 @@ void rst_growth_free(struct rst_growth *g)
 /* ---- what cells need */
 
 /* The same for the same cell, as if it were by chance. */
-static uint32_t chance(int64_t cell, int axis, int n)
+static uint64_t chance(int64_t cell, int axis, int n)
 {
-    uint64_t h = ((uint64_t)cell * 64 + (uint64_t)(axis * places_an_axis + n) + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t h = ((uint64_t)cell * 128 + (uint64_t)(axis * 16 + n) + 1) * UINT64_C(0x9e3779b97f4a7c15);
     h ^= h >> 31;
     h *= UINT64_C(0xbf58476d1ce4e5b9);
-    return (uint32_t)(h >> 40);
+    return h >> 24;
 }
 
-/* A place half way between two nodes along an axis, and the node at the start of that line. */
-static void half_way_place(const struct rst_growth *g, int64_t cell, int axis, int n, struct rst_spot_on_lattice *start,
-                           struct rst_spot_on_lattice *place, int32_t step[rst_cell_axes])
+static struct rst_spot_on_lattice node_at(const struct rst_spot_on_lattice *corner, const int32_t step[rst_cell_axes],
+                                          const int8_t at[rst_cell_axes])
 {
-    uint32_t bits = chance(cell, axis, n);
-    rst_cell_place(g, &g->cell[cell].at, start, step);
-    for (int a = 0; a < rst_cell_axes; a++, bits >>= 2)
-        if (a != axis) start->at[a] += (int32_t)(bits & 3) * step[a];
-    *place = *start;
-    place->at[axis] += step[axis] / 2 * (2 * (n % 3) + 1);
-}
-
-static int need_nodes(struct rst_growth *g, int64_t cell)
-{
-    struct rst_spot_on_lattice corner, spot;
-    int32_t step[rst_cell_axes], i[rst_cell_axes];
-    int last[rst_cell_axes];
-    rst_cell_place(g, &g->cell[cell].at, &corner, step);
+    struct rst_spot_on_lattice spot;
     for (int a = 0; a < rst_cell_axes; a++)
-        last[a] = g->active[a] ? rst_cubic : 0;
-    for (i[0] = 0; i[0] <= last[0]; i[0]++)
-        for (i[1] = 0; i[1] <= last[1]; i[1]++)
-            for (i[2] = 0; i[2] <= last[2]; i[2]++)
-                for (i[3] = 0; i[3] <= last[3]; i[3]++) {
-                    for (int a = 0; a < rst_cell_axes; a++)
-                        spot.at[a] = corner.at[a] + i[a] * step[a];
-                    if (rst_nodes_need(&g->nodes, spot) < 0) return 1;
-                }
+        spot.at[a] = corner->at[a] + at[a] * step[a];
+    return spot;
+}
+
+/* On an edge of the cell along an axis, half way between two nodes, where its halves have nodes; for rst_cell_axes in place of an axis
+ * inside, at eighths, where the products of high powers are that the polynomial lacks. */
+static struct rst_spot_on_lattice place_to_compare(const struct rst_spot_on_lattice *corner,
+                                                   const int32_t step[rst_cell_axes], int64_t cell, int axis, int n)
+{
+    uint64_t bits = chance(cell, axis, n);
+    struct rst_spot_on_lattice spot;
+    for (int a = 0; a < rst_cell_axes; a++, bits >>= 8) {
+        const int edge = a == axis ? 2 * (n % rst_quarters) + 1 : 2 * rst_quarters * (int)(bits & 1);
+        const int eighths = axis == rst_cell_axes ? 1 + (int)(bits % 7) : edge;
+        spot.at[a] = corner->at[a] + eighths * (step[a] / 2);
+    }
+    return spot;
+}
+
+static int places_along(const struct rst_growth *g, int axis)
+{
+    return axis == rst_cell_axes ? g->places_inside : g->active[axis] ? g->places_an_axis : 0;
+}
+
+static int need_places(struct rst_growth *g, int64_t cell)
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(g, &g->cell[cell].at, &corner, step);
+    for (int64_t n = 0; n < g->of_cell.count; n++)
+        if (rst_nodes_need(&g->nodes, node_at(&corner, step, g->of_cell.at[n])) < 0) return 1;
+    for (int axis = 0; axis <= rst_cell_axes; axis++)
+        for (int n = 0; n < places_along(g, axis); n++)
+            if (rst_nodes_need(&g->nodes, place_to_compare(&corner, step, cell, axis, n)) < 0) return 1;
     return 0;
 }
 
 int rst_growth_need(struct rst_growth *g)
 {
-    struct rst_spot_on_lattice start, place;
-    int32_t step[rst_cell_axes];
-    for (int64_t k = 0; k < g->count; k++) {
-        if (g->cell[k].state != RST_TO_JUDGE) continue;
-        if (need_nodes(g, k)) return 1;
-        for (int axis = 0; axis < rst_cell_axes; axis++)
-            for (int n = 0; g->active[axis] && n < places_an_axis; n++) {
-                half_way_place(g, k, axis, n, &start, &place, step);
-                if (rst_nodes_need(&g->nodes, place) < 0) return 1;
-            }
-    }
+    for (int64_t k = 0; k < g->count; k++)
+        if (g->cell[k].state == RST_TO_JUDGE && need_places(g, k)) return 1;
     return 0;
+}
+
+void rst_cell_values(const struct rst_growth *g, const struct rst_leaf *at, double value[rst_most_functions])
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(g, at, &corner, step);
+    for (int64_t n = 0; n < g->of_cell.count; n++)
+        value[n] = rst_nodes_value(&g->nodes, node_at(&corner, step, g->of_cell.at[n]));
+}
+
+void rst_cell_polynomial(const struct rst_growth *g, const struct rst_leaf *at, double coefficient[rst_most_functions])
+{
+    rst_cell_values(g, at, coefficient);
+    rst_serendipity_rise(&g->of_cell, coefficient);
+}
+
+void rst_cell_local(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes],
+                    double u[rst_cell_axes])
+{
+    struct rst_spot_on_lattice corner;
+    int32_t step[rst_cell_axes];
+    rst_cell_place(g, cell, &corner, step);
+    for (int a = 0; a < rst_cell_axes; a++)
+        u[a] = step[a] > 0 ? (at[a] - corner.at[a]) / (rst_quarters * step[a]) : 0;
 }
 
 /* ---- what fails */
 
-/* By how much the cubic along an axis misses, at most; beyond psi = 1 the value is psi ex. */
-static double missed_along(const struct rst_growth *g, const struct restitute_table_builder *b, int64_t cell, int axis)
+/* By how much the polynomial misses, at most; beyond psi = 1 the value is psi ex. */
+static double missed_along(const struct rst_growth *g, const struct restitute_table_builder *b, int64_t cell, int axis,
+                           const double *coefficient)
 {
-    struct rst_spot_on_lattice start, place;
+    struct rst_spot_on_lattice corner;
     struct rst_place numbers;
     int32_t step[rst_cell_axes];
-    double worst = 0;
-    for (int n = 0; n < places_an_axis; n++) {
-        half_way_place(g, cell, axis, n, &start, &place, step);
-        rst_cells_numbers(b, (double[]){place.at[0], place.at[1], place.at[2], place.at[3]}, &numbers);
-        double sum = -rst_nodes_value(&g->nodes, place);
-        for (int i = 0; i < 4; i++, start.at[axis] += step[axis])
-            sum += half_way[n % 3][i] * rst_nodes_value(&g->nodes, start);
-        worst = fmax(worst, fabs(sum) / fmax(1, numbers.psi));
+    double worst = 0, u[rst_cell_axes];
+    rst_cell_place(g, &g->cell[cell].at, &corner, step);
+    for (int n = 0; n < places_along(g, axis); n++) {
+        const struct rst_spot_on_lattice place = place_to_compare(&corner, step, cell, axis, n);
+        const double at[rst_cell_axes] = {place.at[0], place.at[1], place.at[2], place.at[3]};
+        rst_cells_numbers(b, at, &numbers);
+        rst_cell_local(g, &g->cell[cell].at, at, u);
+        const double off = rst_serendipity_sum(&g->of_cell, coefficient, u) - rst_nodes_value(&g->nodes, place);
+        worst = fmax(worst, fabs(off) / fmax(1, numbers.psi));
     }
     return worst;
 }
@@ -203,13 +228,18 @@ static double missed_along(const struct rst_growth *g, const struct restitute_ta
 static void judge(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k)
 {
     struct rst_cell *cell = &g->cell[k];
-    double sum = 0;
+    double coefficient[rst_most_functions];
+    rst_cell_polynomial(g, &cell->at, coefficient);
+    double sum = cell->inside = missed_along(g, b, k, rst_cell_axes, coefficient);
     for (int a = 0; a < rst_cell_axes; a++)
-        if (g->active[a]) sum += cell->error[a] = missed_along(g, b, k, a);
-    if (sum <= 0.5 * cell->least) cell->in_vain = 0;
-    cell->least = fmin(cell->least, sum);
-    cell->state =
-        sum <= g->part * b->options.tolerance || cell->in_vain >= most_in_vain ? RST_SETTLED : RST_FAILING;
+        sum += cell->error[a] = missed_along(g, b, k, a, coefficient);
+    const int is_good = sum <= g->part * b->options.tolerance;
+    cell->usual = cell->usual > 0 ? sqrt(cell->usual * sum) : sum;
+    if (is_good || cell->usual <= 0.5 * cell->before) {
+        cell->before = cell->usual;
+        cell->in_vain = 0;
+    }
+    cell->state = is_good || cell->in_vain >= most_in_vain ? RST_SETTLED : RST_FAILING;
 }
 
 void rst_cell_fails(struct rst_cell *cell)

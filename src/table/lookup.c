@@ -120,9 +120,10 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
         pair->ex = clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
 }
 
-/* Four numbers that are added at once. */
+/* Four numbers that are added at once, and four as they stand in a cell. */
 #if defined(__GNUC__)
 typedef float four __attribute__((__vector_size__(16)));
+typedef float four_kept __attribute__((__vector_size__(16), __aligned__(4), __may_alias__));
 #else
 #error "lookup.c needs the vector types of gcc and clang"
 #endif
@@ -133,23 +134,61 @@ static inline double rebound_in_cell(const restitute_table *t, const struct rst_
     const uint32_t code = rst_tree_code(tree, RST_ALONG_W, spot->w);
     const int64_t cell = rst_tree_find(tree, spot->octave, spot->root, 0, spot->gamma, code);
     const struct rst_shape shape = tree->shape[cell];
-    double w[4], g[4], sum = 0;
-    rst_cubic_weights(rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]), w);
-    rst_cubic_weights(rst_tree_place(spot->gamma, shape.level), g);
-    const double *v = t->ez + cell * rst_cell_nodes;
-    for (int i = 0; i < 4; i++, v += 4)
-        sum += w[i] * ((g[0] * v[0] + g[1] * v[1]) + (g[2] * v[2] + g[3] * v[3]));
-    return clamp(sum, 0, 1);
+    const double *c = t->ez + cell * rst_pair_functions;
+    double w[rst_places], g[rst_places];
+    rst_serendipity_functions(rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]), w);
+    rst_serendipity_functions(rst_tree_place(spot->gamma, shape.level), g);
+    const double low = (w[0] * c[0] + w[4] * c[2]) + (w[2] * c[4] + (w[1] * c[8] + w[3] * c[10]));
+    const double high = (w[0] * c[1] + w[4] * c[3]) + (w[2] * c[5] + (w[1] * c[9] + w[3] * c[11]));
+    const double left = g[2] * c[6] + (g[1] * c[12] + g[3] * c[14]);
+    const double right = g[2] * c[7] + (g[1] * c[13] + g[3] * c[15]);
+    return clamp((g[0] * low + g[4] * high) + (w[0] * left + w[4] * right) + w[2] * g[2] * c[16], 0, 1);
 }
 
-/* Weights of the nodes 0 to 3 of four axes at once: w[node][axis]. */
-static inline void weights_of_four(four s, four w[4])
+/* The 17 functions of a pair of axes, in their order. */
+struct pair_functions {
+    four ends, middles, quarters[2];
+    float cross;
+};
+
+/* x, y: the functions of one axis each, by place. */
+static inline struct pair_functions pair_of(const float x[rst_places], const float y[rst_places])
 {
-    const four a = s - 1, b = s - 2, c = s - 3, ab = s * a, bc = b * c;
-    w[0] = a * bc * (-1.0F / 6);
-    w[1] = s * bc * 0.5F;
-    w[2] = ab * c * -0.5F;
-    w[3] = ab * b * (1.0F / 6);
+    const four along_x = {x[0], x[4], x[0], x[4]}, along_y = {y[0], y[4], y[0], y[4]};
+    return (struct pair_functions){.ends = (four){x[0], x[0], x[4], x[4]} * along_y,
+                                   .middles = (four){x[2], x[2], y[2], y[2]} * (four){y[0], y[4], x[0], x[4]},
+                                   .quarters = {(four){x[1], x[1], x[3], x[3]} * along_y,
+                                                (four){y[1], y[1], y[3], y[3]} * along_x},
+                                   .cross = x[2] * y[2]};
+}
+
+/* Sums over functions of w and gamma, for one of psi and chi after the other. */
+struct sums {
+    four ends, middles, quarters[2];
+};
+
+static inline const float *add_level_0(const float *c, four value, struct sums *sum)
+{
+    const four_kept *v = (const four_kept *)(const void *)c;
+    sum->ends += value * v[0];
+    sum->middles += value * v[1];
+    sum->quarters[0] += value * v[2];
+    sum->quarters[1] += value * v[3];
+    return c + 16;
+}
+
+static inline const float *add_level_1(const float *c, four value, struct sums *sum)
+{
+    const four_kept *v = (const four_kept *)(const void *)c;
+    sum->ends += value * v[0];
+    sum->middles += value * v[1];
+    return c + 8;
+}
+
+static inline const float *add_level_2(const float *c, four value, struct sums *sum)
+{
+    sum->ends += value * *(const four_kept *)(const void *)c;
+    return c + 4;
 }
 
 static inline four all(float x)
@@ -157,29 +196,61 @@ static inline four all(float x)
     return (four){x, x, x, x};
 }
 
-/* The four values along gamma of one node of chi and w, by psi; they are rst_cell_nodes * n_chi apart. */
-static inline four along_psi(const four *v, int64_t apart, const four w[4])
+static inline double add_up(const struct sums *sum, const struct pair_functions *first, float last)
 {
-    return (w[0] * v[0] + w[1] * v[apart]) + (w[2] * v[2 * apart] + w[3] * v[3 * apart]);
+    const four total = (first->ends * sum->ends + first->middles * sum->middles) +
+                       (first->quarters[0] * sum->quarters[0] + first->quarters[1] * sum->quarters[1]);
+    return (double)(((total[0] + total[1]) + (total[2] + total[3])) + first->cross * last);
 }
 
-/* First over psi, then over chi, w and gamma; s: places in [0, 3] along these. */
-static inline double sum_cell(const float *values, int n_chi, four s)
+/* The polynomial of a cell whose table has an axis of chi. f: functions of psi, chi, w, gamma. */
+static inline double sum_cell(const float *c, four f[rst_places])
 {
-    four node[4], psi[4], w[4], sum[4] = {{0}, {0}, {0}, {0}};
-    weights_of_four(s, node);
-    for (int j = 0; j < 4; j++) {
-        psi[j] = all(node[j][0]);
-        w[j] = all(node[j][2]);
-    }
-    const four *v = (const four *)(const void *)values;
-    for (int l = 0; l < n_chi; l++, v += 4) {
-        const four chi = all(n_chi > 1 ? node[l][1] : 1);
-        for (int i = 0; i < 4; i++)
-            sum[i] += chi * along_psi(v + i, (int64_t)4 * n_chi, psi);
-    }
-    const four total = (w[0] * sum[0] + w[1] * sum[1]) + (w[2] * sum[2] + w[3] * sum[3]);
-    return (double)((node[0][3] * total[0] + node[1][3] * total[1]) + (node[2][3] * total[2] + node[3][3] * total[3]));
+    float by_axis[4][rst_places];
+    for (int axis = 0; axis < 4; axis++)
+        for (int place = 0; place < rst_places; place++)
+            by_axis[axis][place] = f[place][axis];
+    const struct pair_functions first = pair_of(by_axis[2], by_axis[3]), second = pair_of(by_axis[0], by_axis[1]);
+    struct sums sum = {{0}, {0}, {{0}, {0}}};
+    for (int i = 0; i < 4; i++)
+        c = add_level_0(c, all(second.ends[i]), &sum);
+    const four last = second.ends * *(const four_kept *)(const void *)c;
+    c += 4;
+    for (int i = 0; i < 4; i++)
+        c = add_level_1(c, all(second.middles[i]), &sum);
+    for (int i = 0; i < 4; i++)
+        c = add_level_2(c, all(second.quarters[0][i]), &sum);
+    for (int i = 0; i < 4; i++)
+        c = add_level_2(c, all(second.quarters[1][i]), &sum);
+    add_level_2(c, all(second.cross), &sum);
+    return add_up(&sum, &first, (last[0] + last[1]) + (last[2] + last[3]));
+}
+
+/* The same without an axis of chi. */
+static inline double sum_cell_without_chi(const float *c, four f[rst_places])
+{
+    const float w[rst_places] = {f[0][2], f[1][2], f[2][2], f[3][2], f[4][2]};
+    const float gamma[rst_places] = {f[0][3], f[1][3], f[2][3], f[3][3], f[4][3]};
+    const struct pair_functions first = pair_of(w, gamma);
+    struct sums sum = {{0}, {0}, {{0}, {0}}};
+    c = add_level_0(c, all(f[0][0]), &sum);
+    c = add_level_0(c, all(f[4][0]), &sum);
+    const float last = f[0][0] * c[0] + f[4][0] * c[1];
+    c = add_level_1(c + 2, all(f[2][0]), &sum);
+    c = add_level_2(c, all(f[1][0]), &sum);
+    add_level_2(c, all(f[3][0]), &sum);
+    return add_up(&sum, &first, last);
+}
+
+/* rst_serendipity_functions of four axes at once. */
+static inline void functions_of_four(four u, four f[rst_places])
+{
+    const four twice = 2 * u, parabola = 2 * twice * (1 - u), part = parabola * (twice - 1) * (4.0F / 3);
+    f[0] = 1 - u;
+    f[1] = part * (2 * twice - 3);
+    f[2] = parabola;
+    f[3] = part * (2 * twice - 1);
+    f[4] = u;
 }
 
 /* At a place on a sheet; chi: in [0, 1). */
@@ -191,12 +262,14 @@ static inline double tangential_in_cell(const restitute_table *t, const struct r
                           rst_tree_code(tree, RST_ALONG_PSI, psi);
     const int64_t cell = rst_tree_find(tree, spot->octave, spot->root, sheet, spot->gamma, code);
     const struct rst_shape shape = tree->shape[cell];
-    const four s = {(float)rst_tree_place(psi, tree->halvings[RST_ALONG_PSI][shape.depth]),
-                    (float)rst_tree_place(chi, tree->halvings[RST_ALONG_CHI][shape.depth]),
-                    (float)rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]),
-                    (float)rst_tree_place(spot->gamma, shape.level)};
-    if (t->n_chi == 1) return sum_cell(t->ex_cells + cell * 4 * rst_cell_nodes, 1, s);
-    return sum_cell(t->ex_cells + cell * 4 * 4 * rst_cell_nodes, 4, s);
+    four f[rst_places];
+    functions_of_four((four){(float)rst_tree_place(psi, tree->halvings[RST_ALONG_PSI][shape.depth]),
+                             (float)rst_tree_place(chi, tree->halvings[RST_ALONG_CHI][shape.depth]),
+                             (float)rst_tree_place(spot->w, tree->halvings[RST_ALONG_W][shape.depth]),
+                             (float)rst_tree_place(spot->gamma, shape.level)},
+                      f);
+    if (t->n_chi == 1) return sum_cell_without_chi(t->ex_cells + cell * rst_functions_without_chi, f);
+    return sum_cell(t->ex_cells + cell * rst_most_functions, f);
 }
 
 /* A table of trees. */

@@ -12,7 +12,7 @@ struct rst_memory {
 
 static struct rst_memory key_of(int stage, const struct rst_point *p)
 {
-    return (struct rst_memory){.place = {p->u[0], p->u[1], p->u[2], p->s}, .kind = 1 + 2 * stage + p->slips};
+    return (struct rst_memory){.place = {p->u[0], p->u[1], p->u[2], p->s}, .kind = 1 + 2 * stage + p->later};
 }
 
 static int same(const struct rst_memory *a, const struct rst_memory *b)

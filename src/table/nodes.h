@@ -9,7 +9,7 @@
 enum rst_cell_axis { RST_W, RST_G, RST_C, RST_P, rst_cell_axes };
 
 /* Steps of the lattice of all nodes and half ways between them in a root, along any axis. */
-enum { rst_lattice = 3 << 13 };
+enum { rst_lattice = 1 << 15 };
 
 /* Counted from the start of the first root, octave, range of chi, sheet. */
 struct rst_spot_on_lattice {

@@ -63,7 +63,7 @@ static int probe_outer(struct restitute_table_builder *b, enum rst_axis axis, do
             if (kind == 1 && !b->active[RST_STICK]) continue;
             if (kind == 2 && !b->active[RST_SLIP]) continue;
             for (int64_t j = 0; j < n; j++) {
-                struct rst_point p = {.s = kind == 2 ? 0.5 : kind, .slips = kind == 2, .column = first + j};
+                struct rst_point p = {.s = kind == 2 ? 0.5 : kind, .later = kind == 2, .column = first + j};
                 memcpy(p.u, c.u[i], sizeof p.u);
                 p.u[axis] = x[j];
                 if (rst_plan_add(b, p)) return 1;
@@ -85,7 +85,7 @@ static int probe_psi(struct restitute_table_builder *b, double *x)
             const int64_t n = b->probe[axis];
             rst_table_nodes(n, x);
             for (int64_t j = side; j < n - side; j++) {
-                struct rst_point p = {.s = x[j], .slips = side, .column = first};
+                struct rst_point p = {.s = x[j], .later = side, .column = first};
                 memcpy(p.u, c.u[i], sizeof p.u);
                 if (rst_plan_add(b, p)) return 1;
             }
@@ -205,7 +205,7 @@ static int fill_column(struct restitute_table_builder *b, const double u[3], con
         if (rst_plan_add(b, p)) return 1;
     }
     for (int64_t j = 1; j < m - 1; j++) {
-        struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = slip[j], .slips = 1, .column = first + n - 1};
+        struct rst_point p = {.u = {u[0], u[1], u[2]}, .s = slip[j], .later = 1, .column = first + n - 1};
         if (rst_plan_add(b, p)) return 1;
     }
     return 0;
@@ -238,8 +238,8 @@ static double middle_of_octaves(const struct restitute_table_builder *b, enum rs
 /* The middle of a cell of psi: those of the stick side, then those of both halves of the slip side. */
 static void middle_of_psi(const restitute_table *t, int64_t cell, struct rst_point *p)
 {
-    p->slips = cell >= t->stick_cells && t->stick_cells > 0;
-    if (!p->slips) {
+    p->later = cell >= t->stick_cells && t->stick_cells > 0;
+    if (!p->later) {
         p->s = t->stick_cells > 0 ? ((double)cell + 0.5) / (double)t->stick_cells : 0;
         return;
     }
@@ -286,7 +286,7 @@ int rst_plan_checks(struct restitute_table_builder *b)
                 for (int side = 0; side < 1 + b->active[RST_SLIP]; side++)
                     for (int64_t l = 0; l < n[RST_STICK + side]; l++) {
                         const struct rst_point p = {
-                            .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .slips = side, .column = -1};
+                            .u = {x[0][i], x[1][j], x[2][k]}, .s = x[RST_STICK + side][l], .later = side, .column = -1};
                         if (rst_plan_add(b, p)) return 1;
                     }
     return check_cells(b);

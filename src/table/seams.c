@@ -7,18 +7,15 @@
 
 /* Parts of what a cell may miss half way between its nodes that it may miss at the nodes of its smaller neighbours: what these have between them follows. Beyond the first it
  * fails; beyond the second if that is why the neighbour fails. */
-static const double part_at_seams = 1.2, part_to_blame = 0.4;
+static const double part_at_seams = 1.1, part_to_blame = 0.3;
 
-/* A tree with the values at the nodes of its leaves, [leaf][psi][chi][w][gamma]. */
+/* A tree with the values at the nodes of its leaves, then their coefficients. */
 struct harvest {
     struct rst_growth *growth;
     const struct restitute_table_builder *builder;
     struct rst_tree *tree;
     int64_t *cell; /* which one a leaf is */
     double *value;
-    int64_t nodes;                /* of a leaf */
-    int64_t stride[rst_cell_axes];
-    int count[rst_cell_axes];
 };
 
 /* ---- leaves, and what was solved at their nodes */
@@ -62,30 +59,6 @@ static int plant(struct harvest *h, const int8_t *chain, int64_t length)
     free(sorted);
     free(leaf);
     return failed;
-}
-
-static int64_t node_of(const struct harvest *h, const int i[rst_cell_axes])
-{
-    int64_t sum = 0;
-    for (int a = 0; a < rst_cell_axes; a++)
-        sum += i[a] * h->stride[a];
-    return sum;
-}
-
-static void take_values(struct harvest *h, int64_t leaf)
-{
-    struct rst_spot_on_lattice corner, spot;
-    int32_t step[rst_cell_axes];
-    int i[rst_cell_axes];
-    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
-    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
-        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
-            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
-                for (i[3] = 0; i[3] < h->count[3]; i[3]++) {
-                    for (int a = 0; a < rst_cell_axes; a++)
-                        spot.at[a] = corner.at[a] + i[a] * step[a];
-                    h->value[leaf * h->nodes + node_of(h, i)] = rst_nodes_value(&h->growth->nodes, spot);
-                }
 }
 
 /* ---- neighbours */
@@ -143,7 +116,7 @@ static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[d
         int inside = 1, possible = 1;
         direction_of(n, d);
         for (int a = 0; a < rst_cell_axes; a++) {
-            at[a] = corner.at[a] + 0.5 * rst_cubic * step[a] * (1 + d[a]) + 0.25 * d[a];
+            at[a] = corner.at[a] + 0.5 * rst_quarters * step[a] * (1 + d[a]) + 0.25 * d[a];
             inside &= d[a] == 0;
             possible &= d[a] == 0 || h->growth->active[a];
         }
@@ -169,20 +142,10 @@ static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[d
 
 static double polynomial(const struct harvest *h, int64_t leaf, const struct rst_spot_on_lattice *spot)
 {
-    struct rst_spot_on_lattice corner;
-    int32_t step[rst_cell_axes];
-    double w[rst_cell_axes][4] = {{1}, {1}, {1}, {1}}, sum = 0;
-    int i[rst_cell_axes];
-    rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
-    for (int a = 0; a < rst_cell_axes; a++)
-        if (h->count[a] > 1) rst_cubic_weights((double)(spot->at[a] - corner.at[a]) / step[a], w[a]);
-    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
-        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
-            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
-                for (i[3] = 0; i[3] < h->count[3]; i[3]++)
-                    sum += w[0][i[0]] * w[1][i[1]] * w[2][i[2]] * w[3][i[3]] *
-                           h->value[leaf * h->nodes + node_of(h, i)];
-    return sum;
+    const struct rst_growth *g = h->growth;
+    double u[rst_cell_axes];
+    rst_cell_local(g, &h->tree->leaf[leaf], (double[]){spot->at[0], spot->at[1], spot->at[2], spot->at[3]}, u);
+    return rst_serendipity_sum(&g->of_cell, h->value + leaf * g->of_cell.count, u);
 }
 
 /* What a node is worth less than that is psi ex (cells.h). */
@@ -191,6 +154,22 @@ static double psi_at(const struct harvest *h, const struct rst_spot_on_lattice *
     struct rst_place p;
     rst_cells_numbers(h->builder, (double[]){spot->at[0], spot->at[1], spot->at[2], spot->at[3]}, &p);
     return fmax(1, p.psi);
+}
+
+/* Keep the largest of each neighbour, and the largest of all. */
+static void note_pull(struct rst_cell *cell, struct rst_pull pull)
+{
+    for (int i = 0; i < rst_most_pulls; i++) {
+        const struct rst_pull before = cell->pull[i];
+        if (before.by > 0 && before.cell == pull.cell) {
+            if (pull.by > before.by) cell->pull[i] = pull;
+            return;
+        }
+        if (before.by >= pull.by) continue;
+        cell->pull[i] = pull;
+        if (before.by == 0) return;
+        pull = before;
+    }
 }
 
 /* The node of a leaf goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
@@ -204,32 +183,28 @@ static void put_on(struct harvest *h, int64_t leaf, int64_t other, const struct 
     if (off <= part_to_blame * tolerance) return;
     off /= psi_at(h, spot);
     if (off > part_at_seams * tolerance) rst_cell_fails(&h->growth->cell[h->cell[other]]);
-    if (off <= part_to_blame * tolerance || off <= cell->pulled) return;
-    cell->pulled = off;
-    cell->puller = h->cell[other];
+    if (off > part_to_blame * tolerance) note_pull(cell, (struct rst_pull){off, h->cell[other]});
 }
 
 static void put_on_neighbours(struct harvest *h, int64_t leaf)
 {
+    const struct rst_serendipity *of_cell = &h->growth->of_cell;
     int64_t master[directions];
     struct rst_spot_on_lattice corner, spot;
     int32_t step[rst_cell_axes];
-    int i[rst_cell_axes];
-    h->growth->cell[h->cell[leaf]].pulled = 0;
+    memset(h->growth->cell[h->cell[leaf]].pull, 0, sizeof h->growth->cell->pull);
     find_masters(h, leaf, master);
     rst_cell_place(h->growth, &h->tree->leaf[leaf], &corner, step);
-    for (i[0] = 0; i[0] < h->count[0]; i[0]++)
-        for (i[1] = 0; i[1] < h->count[1]; i[1]++)
-            for (i[2] = 0; i[2] < h->count[2]; i[2]++)
-                for (i[3] = 0; i[3] < h->count[3]; i[3]++) {
-                    int d[rst_cell_axes];
-                    for (int a = 0; a < rst_cell_axes; a++) {
-                        d[a] = h->count[a] == 1 ? 0 : (i[a] == rst_cubic) - (i[a] == 0);
-                        spot.at[a] = corner.at[a] + i[a] * step[a];
-                    }
-                    const int64_t other = master[number_of(d)];
-                    if (other >= 0) put_on(h, leaf, other, &spot, &h->value[leaf * h->nodes + node_of(h, i)]);
-                }
+    for (int64_t n = 0; n < of_cell->count; n++) {
+        int d[rst_cell_axes];
+        for (int a = 0; a < rst_cell_axes; a++) {
+            const int place = of_cell->at[n][a];
+            d[a] = step[a] == 0 ? 0 : (place == rst_quarters) - (place == 0);
+            spot.at[a] = corner.at[a] + place * step[a];
+        }
+        const int64_t other = master[number_of(d)];
+        if (other >= 0) put_on(h, leaf, other, &spot, &h->value[leaf * of_cell->count + n]);
+    }
 }
 
 static int64_t rank_of(const struct rst_leaf *leaf)
@@ -242,26 +217,23 @@ static void close_seams(struct harvest *h)
     const int64_t ranks = (rst_deepest + 1) * (rst_finest_part + 1);
     for (int64_t rank = 0; rank < ranks; rank++)
         for (int64_t leaf = 0; leaf < h->tree->leaves; leaf++)
-            if (rank_of(&h->tree->leaf[leaf]) == rank) put_on_neighbours(h, leaf);
+            if (rank_of(&h->tree->leaf[leaf]) == rank) {
+                put_on_neighbours(h, leaf);
+                rst_serendipity_rise(&h->growth->of_cell, h->value + leaf * h->growth->of_cell.count);
+            }
 }
 
-/* A tree with its values, whose seams are closed. Nonzero: out of memory. */
+/* A tree with its coefficients, whose seams are closed. Nonzero: out of memory. */
 static int reap(const struct restitute_table_builder *b, struct rst_growth *g, const int8_t *chain, int64_t length,
                 struct rst_tree *tree, struct harvest *h)
 {
-    static const int order[rst_cell_axes] = {RST_G, RST_W, RST_C, RST_P}; /* the first side by side */
-    *h = (struct harvest){.growth = g, .builder = b, .tree = tree, .nodes = 1};
-    for (int i = 0; i < rst_cell_axes; i++) {
-        const int a = order[i];
-        h->count[a] = g->active[a] ? rst_cubic + 1 : 1;
-        h->stride[a] = h->nodes;
-        h->nodes *= h->count[a];
-    }
+    const int64_t nodes = g->of_cell.count;
+    *h = (struct harvest){.growth = g, .builder = b, .tree = tree};
     if (plant(h, chain, length)) return 1;
-    h->value = malloc((size_t)(tree->leaves * h->nodes) * sizeof *h->value);
+    h->value = malloc((size_t)(tree->leaves * nodes) * sizeof *h->value);
     if (!h->value) return 1;
     for (int64_t leaf = 0; leaf < tree->leaves; leaf++)
-        take_values(h, leaf);
+        rst_cell_values(g, &tree->leaf[leaf], h->value + leaf * nodes);
     close_seams(h);
     return 0;
 }
@@ -308,7 +280,7 @@ int rst_cells_make_rebound(struct restitute_table_builder *b)
     form.n_cells = 1; /* no ex is asked for */
     const int failed = reap(b, &b->cells->rebound, always_w, rst_most_halvings, &form.rebound, &h);
     restitute_table *t = take_over(failed, &form);
-    if (t) memcpy(t->ez, h.value, (size_t)(form.rebound.leaves * h.nodes) * sizeof *t->ez);
+    if (t) memcpy(t->ez, h.value, (size_t)(form.rebound.leaves * b->cells->rebound.of_cell.count) * sizeof *t->ez);
     harvest_free(&h);
     restitute_table_destroy(b->cells->ez);
     b->cells->ez = t;
@@ -333,8 +305,8 @@ int rst_cells_make(struct restitute_table_builder *b, restitute_table **table)
     form.n_cells = failed ? 1 : form.tangent.leaves;
     restitute_table *t = take_over(failed, &form);
     if (t) {
-        memcpy(t->ez, ez->ez, (size_t)(form.rebound.leaves * rst_cell_nodes) * sizeof *t->ez);
-        for (int64_t i = 0; i < form.tangent.leaves * h.nodes; i++)
+        memcpy(t->ez, ez->ez, (size_t)(form.rebound.leaves * rst_pair_functions) * sizeof *t->ez);
+        for (int64_t i = 0; i < form.tangent.leaves * g->of_cell.count; i++)
             t->ex_cells[i] = (float)h.value[i];
         *table = t;
     }

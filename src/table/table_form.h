@@ -6,8 +6,8 @@
  * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
  * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
  *
- * A table with axes of delta1 and gamma has a tree of cells for ez and one for ex (tree.h). A cell keeps all of its nodes side by side, in
- * single precision for ex: a lookup then reads runs of memory.
+ * A table with axes of delta1 and gamma has a tree of cells for ez and one for ex (tree.h). A cell keeps the coefficients of its polynomial
+ * (serendipity.h) side by side, in single precision for ex: a lookup then reads a run of memory.
  *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c. In cells of a tree that is
  * psi ex - y ez beyond psi = 1, which is ex at psi = 1 and 0 at psi_c, where ex is ez/psi_c: continuous there whatever the error of ez.
@@ -21,12 +21,12 @@
 
 #include <restitute/table.h>
 
+#include "serendipity.h"
 #include "tree.h"
 
 enum {
     rst_cubic = 3, /* degree along all axes */
     rst_most_chi = 33,
-    rst_cell_nodes = 16,
     rst_log_parts = 64
 };
 
@@ -76,11 +76,12 @@ struct restitute_table {
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
 
-    int64_t n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the nodes along w and gamma */
+    int64_t n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the coefficients of a leaf */
     struct rst_w_axis w;
     struct rst_tree rebound, tangent;
-    double *along;   /* h at the nodes of the octaves of gamma; ez is [leaf of rebound][w][gamma] */
-    float *ex_cells; /* [leaf of tangent][psi][chi][w][gamma] */
+    double *along;   /* h at the nodes of the octaves of gamma; ez is [leaf of rebound][coefficient] */
+    float *ex_cells; /* [leaf of tangent][coefficient] */
+    struct rst_serendipity of_ez, of_ex; /* which they are */
     size_t block_size;       /* doubles in `block` */
     double block[];
 };

@@ -89,12 +89,12 @@ static inline int64_t rst_tree_find(const struct rst_tree *t, int64_t octave, in
     return ~(int64_t)next;
 }
 
-/* Place in [0, 3) in a cell that is 2^-halvings of the whole. */
+/* Place in [0, 1) in a cell that is 2^-halvings of the whole. */
 static inline double rst_tree_place(double u, int halvings)
 {
     static const double times[rst_most_halvings + 1] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
     const double scaled = u * times[halvings];
-    return 3 * (scaled - (double)(int32_t)scaled);
+    return scaled - (double)(int32_t)scaled;
 }
 
 #endif
