@@ -70,7 +70,7 @@ def pair_at(table, v_n, v_t):
 
 
 def find_leaf(leaves, chain, octave, root_of_w, sheet, gamma, places):
-    """The cell that a place is in, and places in [0, 3) in it along w, chi, psi and gamma. places: w, chi, psi in [0, 1) of the root."""
+    """The cell that a place is in, and places in [0, 1) in it along w, gamma, chi and psi. places: w, chi, psi in [0, 1) of the root."""
     whole, left = 0, list(places)
     for along in chain:  # the halves that the place is in, one bit each
         left[along] *= 2
@@ -81,12 +81,18 @@ def find_leaf(leaves, chain, octave, root_of_w, sheet, gamma, places):
     here &= (path == whole >> (len(chain) - depth)) & (part == np.floor(gamma * 2.0**level))
     leaf = np.flatnonzero(here)[0]
     halvings = np.bincount(chain[: depth[leaf]], minlength=3)
-    return leaf, [3 * (u * 2.0**n % 1) for u, n in zip([*places, gamma], [*halvings, level[leaf]])]
+    w, chi, psi = (u * 2.0**n % 1 for u, n in zip(places, halvings))
+    return leaf, (w, gamma * 2.0 ** level[leaf] % 1, chi, psi)
 
 
-def even_weights(s):
-    """Weights of four nodes at 0, 1, 2, 3."""
-    return cubic(np.arange(4.0), s)[1]
+def polynomial(coefficients, functions, places):
+    """Coefficients belong to products of functions of u in [0, 1), five along each axis."""
+    total = coefficients.astype(float)
+    for u, own in zip(places, functions.T):
+        parabola = 4 * u * (1 - u)
+        part = 4 / 3 * (2 * u - 1) * parabola
+        total = total * np.array([1 - u, part * (4 * u - 3), parabola, part * (4 * u - 1), u])[own]
+    return total.sum()
 
 
 def place_in_roots(table, delta1, gamma):
@@ -117,8 +123,10 @@ def numbers_pair(table, chi, psi, delta1, gamma):
     chi, delta1, gamma = (min(max(x, low), high) for x, (low, high) in zip((chi, delta1, gamma), ranges))
     octave, root_of_w, by_gamma, by_w = place_in_roots(table, delta1, gamma)
     chain = np.zeros(12, dtype=int)  # ez: along w alone
-    leaf, (w, _, _, g) = find_leaf(table["rebound_leaves"][:], chain, octave, root_of_w, 0, by_gamma, (by_w, 0, 0))
-    ez = min(max(even_weights(w) @ table["ez"][leaf] @ even_weights(g), 0), 1)
+    functions = table["functions"][:]
+    leaf, places = find_leaf(table["rebound_leaves"][:], chain, octave, root_of_w, 0, by_gamma, (by_w, 0, 0))
+    of_ez = functions[functions[:, 2:].sum(axis=1) == 0]  # of w and gamma alone
+    ez = min(max(polynomial(table["ez"][leaf], of_ez, places), 0), 1)
     full = 2 * chi * (1 + ez)
     critical = full - ez if 2 * chi > 1 else 1
     if psi > critical:
@@ -126,12 +134,9 @@ def numbers_pair(table, chi, psi, delta1, gamma):
     sheet, by_psi, y = sheet_of(psi, critical)
     low, high = ranges[0]
     by_chi = min((chi - low) / (high - low), BELOW_ONE) if low < high else 0
-    places = (by_w, by_chi, by_psi)
-    leaf, (w, c, p, g) = find_leaf(table["leaves"][:], table["chain"][:], octave, root_of_w, sheet, by_gamma, places)
-    values = table["ex"][leaf]  # [psi][chi][w and gamma]
-    values = np.tensordot(even_weights(p), values, 1)
-    values = np.tensordot(even_weights(c) if low < high else np.ones(1), values, 1)
-    kept = even_weights(w) @ values.reshape(4, 4) @ even_weights(g)
+    by_axis = (by_w, by_chi, by_psi)
+    leaf, places = find_leaf(table["leaves"][:], table["chain"][:], octave, root_of_w, sheet, by_gamma, by_axis)
+    kept = polynomial(table["ex"][leaf], functions, places)
     return ez, float(min(max((kept + y * ez) / max(psi, 1), -1), 1))
 
 

@@ -300,8 +300,8 @@ typedef struct restitute_table_data {
      *  In a cell a value is the sum of coefficients times products of functions of u, from 0 to 1 along each axis: in log2 w, in gamma
      *  itself, in chi, in psi or t. A function belongs to one of five places, u = 0, 1/4, 1/2, 3/4, 1: 1 - u, (4/3) p (2 u - 1) (4 u - 3),
      *  p = 4 u (1 - u), (4/3) p (2 u - 1) (4 u - 1), u. Which places a coefficient is of, see
-     *  @ref restitute_table_cell_functions; those of ez are the first 17 of them, in which chi and psi have place 0. Leaves do not
-     *  overlap; a build leaves out what no delta1 of its range reaches.
+     *  @ref restitute_table_cell_functions; those of ez are the 17 in which chi and psi have place 0, in the same order. Leaves do
+     *  not overlap; a build leaves out what no delta1 of its range reaches.
      *  @{ */
     int64_t cells;         /**< of ex; 0: another table, without all that follows. With cells `parts` is 1, 1; nodes are
                               `cells`, coefficients of a cell: 136 (50 without a range of chi), and places of chi and psi: 5

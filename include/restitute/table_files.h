@@ -11,16 +11,15 @@
  *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
  *  HDF5: a damaged or cut file is refused, or it gives the same table. A file gets its name when it is complete.
  *
- *  Schema 2. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
+ *  Schema 3. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
  *  `error_ex` (verified), `impacts`, `checks`, and the members of @ref restitute_table_data of the same names. Datasets, each with
  *  attributes `units` and `description`: `speed` or `delta1`, `gamma`, `chi`, `psi` (1 + y beyond psi = 1) along the axes; `ez` [speed][gamma];
  *  `ex` [speed][gamma][psi][chi]; `relaxation_time`, `modulus` of the material.
  *
- *  A table with axes of delta1 and gamma (`cells` > 0) has `leaves` [cells][7], `rebound_leaves` [rebound_cells][7], `chain`; `ez`
- *  [rebound_cells][w][gamma]; `ex` [cells][psi][chi][w and gamma] in single precision; `delta1`, `gamma` [cells][w][gamma], `chi`
- *  [cells][chi], `psi` [cells][psi].
+ *  A table with axes of delta1 and gamma (`cells` > 0) has instead `leaves` [cells][7], `rebound_leaves` [rebound_cells][7], `chain`,
+ *  `functions` [coefficient][4], `ez` [rebound_cells][17], and `ex` [cells][coefficient] in single precision.
  *
- *  Files of schema 1 are read, but for tables with axes of delta1 and gamma and for unfinished ones.
+ *  Files of schemas 1 and 2 are read, but for tables with axes of delta1 and gamma and for unfinished ones.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */

@@ -328,31 +328,33 @@ static void export_rows(const restitute_table_data *d, double *const place[4], F
             }
 }
 
-/* The same of one cell of ex: 16 nodes of delta1 and gamma, ez there by a lookup. Beyond psi = 1, psi ex - y ez is kept. */
-static void export_cell(const restitute_table *table, const restitute_table_data *d, int64_t cell,
-                        double *const place[4], FILE *out)
+static void export_cells(const restitute_table *table, const restitute_table_data *d, FILE *out)
 {
-    const int64_t n_chi = d->nodes[2];
-    for (int64_t m = 0; m < 16; m++) {
-        restitute_table_value at;
-        const double delta1 = place[0][16 * cell + m], gamma = place[1][16 * cell + m];
-        restitute_table_numbers_pair(table, d->chi_low, 0, delta1, gamma, &at);
-        for (int64_t k = 0; k < n_chi; k++)
-            for (int64_t l = 0; l < 4; l++) {
-                const double chi = place[2][n_chi * cell + k], at_psi = place[3][4 * cell + l];
-                const double kept = (double)d->ex_cells[((4 * cell + l) * n_chi + k) * 16 + m];
-                const double psi = psi_of(at_psi, chi, at.ez), ex = (kept + fmax(0, at_psi - 1) * at.ez) / fmax(1, psi);
-                export_row(out, (double[6]){delta1, gamma, chi, psi, at.ez, fmin(1, fmax(-1, ex))});
-            }
+    double(*node)[6] = allocate((size_t)d->nodes[1], sizeof *node);
+    for (int64_t cell = 0; cell < d->cells; cell++) {
+        restitute_table_cell_nodes(table, cell, node);
+        for (int64_t i = 0; i < d->nodes[1]; i++)
+            export_row(out, node[i]);
     }
+    free(node);
 }
 
-static void export_table(const restitute_table *table, const restitute_table_data *d, double *const place[4], FILE *out)
+static void export_dense(const restitute_table *table, const restitute_table_data *d, FILE *out)
+{
+    double *place[4];
+    for (int axis = 0; axis < 4; axis++) {
+        place[axis] = allocate((size_t)d->nodes[axis], sizeof *place[axis]);
+        restitute_table_nodes(table, axis, place[axis]);
+    }
+    export_rows(d, place, out);
+    for (int axis = 0; axis < 4; axis++)
+        free(place[axis]);
+}
+
+static void export_table(const restitute_table *table, const restitute_table_data *d, FILE *out)
 {
     fprintf(out, "%s,gamma,chi,psi,ez,ex\n", d->of_contact ? "speed_m_s" : "delta1");
-    if (d->cells == 0) export_rows(d, place, out);
-    for (int64_t cell = 0; cell < d->cells; cell++)
-        export_cell(table, d, cell, place, out);
+    (d->cells > 0 ? export_cells : export_dense)(table, d, out);
 }
 
 int table_export_run(const struct table_settings *settings)
@@ -360,25 +362,16 @@ int table_export_run(const struct table_settings *settings)
     struct output output;
     struct reason why;
     restitute_table_data data;
-    double *place[4];
     restitute_table *table = read_table(settings);
     if (!table) return EXIT_USAGE;
     restitute_table_data_init(&data);
     restitute_table_to_data(table, &data, NULL);
-    for (int axis = 0; axis < 4; axis++) {
-        const int64_t in_a_cell = axis < 2 ? 16 : data.nodes[axis]; /* see restitute_table_nodes */
-        const int64_t n = data.cells > 0 ? data.cells * in_a_cell : data.nodes[axis];
-        place[axis] = allocate((size_t)n, sizeof *place[axis]);
-        restitute_table_nodes(table, axis, place[axis]);
-    }
     bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&
                 output_open(settings->text[TABLE_OUTPUT], &output, &why);
     if (good) {
-        export_table(table, &data, place, output.stream);
+        export_table(table, &data, output.stream);
         good = output_finish(&output, &why);
     }
-    for (int axis = 0; axis < 4; axis++)
-        free(place[axis]);
     restitute_table_destroy(table);
     return good ? EXIT_DONE : complain("%s", why.text);
 }

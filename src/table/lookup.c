@@ -293,7 +293,7 @@ evaluate_cells(const restitute_table *t, double speed, double gamma, double chi,
     const int64_t sheet = rst_sheet_find(sliding, v_n, critical - 1, &psi, &y, &quotient);
     const double by_chi = t->n_chi > 1 ? clamp((chi - t->chi_low) / (t->chi_high - t->chi_low), 0, rst_below_one) : 0;
     const double kept = tangential_in_cell(t, &spot, by_chi, sheet, psi);
-    pair->ex = clamp(sheet > 0 ? (kept + y * ez) * quotient : kept, -1, 1);
+    pair->ex = clamp((kept + y * ez) * rst_choose(sheet > 0, quotient, 1), -1, 1); /* y is 0 up to psi = 1 */
 }
 
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */

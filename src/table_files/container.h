@@ -10,7 +10,7 @@
 #include "../core/report.h"
 
 /* Of what is written. */
-enum { rst_schema = 2 };
+enum { rst_schema = 3 };
 
 /* HDF5 prints errors unless told not to; the caller's setting is put back. */
 struct rst_quiet {

@@ -1,4 +1,4 @@
-/* A table in a file: schema 2 of table_files.h.
+/* A table in a file: schema 3 of table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stddef.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 static const char title[] = "table";
 
-/* Tables of schema 1 are the same but for those with cells. */
+/* Tables of schemas 1 and 2 are the same but for those with cells. */
 enum { oldest_schema = 1 };
 
 /* Members that are attributes of the root. */
@@ -60,18 +60,17 @@ static int put_attributes(hid_t f, const restitute_table_data *d)
     return failed;
 }
 
-/* Places of nodes; with cells: those of each cell. */
+/* Places of nodes. */
 static int put_axis(hid_t f, const restitute_table *table, const restitute_table_data *d, int axis)
 {
     static const char *const names[] = {"delta1", "gamma", "chi", "psi"};
     static const char *const texts[] = {"nodes of delta1 (23)", "nodes of gamma (23)", "nodes of chi (22)",
                                         "nodes of psi (22) up to 1, then 1 + y, y = (psi - 1)/(psi_c - 1)"};
-    const int speed = axis == 0 && d->of_contact, cells = d->cells > 0, by_w = cells && axis < 2;
-    const int64_t size[3] = {cells ? d->cells : d->nodes[axis], by_w ? 4 : d->nodes[axis], 4};
-    double *place = malloc((size_t)(size[0] * (cells ? size[1] : 1) * (by_w ? size[2] : 1)) * sizeof *place);
+    const int speed = axis == 0 && d->of_contact;
+    double *place = malloc((size_t)d->nodes[axis] * sizeof *place);
     if (!place) return 1;
     const int failed = restitute_table_nodes(table, axis, place) ||
-                       rst_put_values(f, speed ? "speed" : names[axis], RST_DOUBLES, 1 + cells + by_w, size, place,
+                       rst_put_values(f, speed ? "speed" : names[axis], RST_DOUBLES, 1, &d->nodes[axis], place,
                                       speed ? "m/s" : "1", speed ? "nodes of the speed" : texts[axis]);
     free(place);
     return failed;
@@ -80,8 +79,10 @@ static int put_axis(hid_t f, const restitute_table *table, const restitute_table
 static const char
     text_of_ex[] = "ex for psi <= 1, then ex - (2 chi (1 + ez)/psi - 1); from psi_c on that closed form alone",
     text_of_cells[] =
-        "ex for psi <= 1, then psi ex - y ez; from psi_c on 2 chi (1 + ez)/psi - 1. Its nodes: those of psi, chi, w "
-        "and gamma of each cell",
+        "[cell][coefficient] of ex for psi <= 1, then of psi ex - y ez; from psi_c on 2 chi (1 + ez)/psi - 1",
+    text_of_functions[] =
+        "places along w, gamma, chi and psi, 0 to 4, of the function that a coefficient of ex belongs to; those with chi "
+        "and psi 0 are those of ez: see restitute_table_data",
     text_of_leaves[] =
         "octave of gamma, root of w, sheet of psi, halvings along the chain, their path, level and part of "
         "gamma: see restitute_table_data";
@@ -89,19 +90,32 @@ static const char
 /* A table with cells: ex in single precision as in the table itself. */
 static int put_cells(hid_t f, const restitute_table_data *d)
 {
-    const int64_t size_ez[3] = {d->rebound_cells, 4, 4}, leaves[2] = {d->cells, 7}, rebound[2] = {d->rebound_cells, 7};
-    const int64_t size_ex[4] = {d->cells, d->nodes[3], d->nodes[2], d->nodes[1]};
-    return rst_put_values(f, "ez", RST_DOUBLES, 3, size_ez, d->ez, "1", "ez at [cell][w][gamma]") ||
-           rst_put_values(f, "ex", RST_SINGLES, 4, size_ex, d->ex_cells, "1", text_of_cells) ||
+    const int64_t size_ez[2] = {d->rebound_cells, 17}, leaves[2] = {d->cells, 7}, rebound[2] = {d->rebound_cells, 7};
+    const int64_t size_ex[2] = {d->cells, d->nodes[1]};
+    return rst_put_values(f, "ez", RST_DOUBLES, 2, size_ez, d->ez, "1", "[cell][coefficient] of ez") ||
+           rst_put_values(f, "ex", RST_SINGLES, 2, size_ex, d->ex_cells, "1", text_of_cells) ||
            rst_put_values(f, "leaves", RST_INTEGERS, 2, leaves, d->leaves, "1", text_of_leaves) ||
            rst_put_values(f, "rebound_leaves", RST_INTEGERS, 2, rebound, d->rebound_leaves, "1", text_of_leaves) ||
            rst_put_values(f, "chain", RST_INTEGERS, 1, &d->chain_length, d->chain, "1",
                           "along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi");
 }
 
-static int put_dense(hid_t f, const restitute_table_data *d)
+/* Which functions the coefficients belong to. */
+static int put_functions(hid_t f, const restitute_table *table, const restitute_table_data *d)
+{
+    const int64_t size[2] = {d->nodes[1], 4};
+    int64_t(*places)[4] = malloc((size_t)size[0] * sizeof *places);
+    const int failed = !places || restitute_table_cell_functions(table, places) ||
+                       rst_put_values(f, "functions", RST_INTEGERS, 2, size, places, "1", text_of_functions);
+    free(places);
+    return failed;
+}
+
+static int put_dense(hid_t f, const restitute_table *table, const restitute_table_data *d)
 {
     const int64_t size[4] = {d->nodes[0], d->nodes[1], d->nodes[3], d->nodes[2]};
+    for (int axis = 0; axis < 4; axis++)
+        if (put_axis(f, table, d, axis)) return 1;
     return rst_put_values(f, "ez", RST_DOUBLES, 2, size, d->ez, "1", "ez at [speed or delta1][gamma]") ||
            rst_put_values(f, "ex", RST_DOUBLES, 4, size, d->ex, "1", text_of_ex);
 }
@@ -109,9 +123,7 @@ static int put_dense(hid_t f, const restitute_table_data *d)
 static int put_table(hid_t f, const restitute_table *table, const restitute_table_data *d)
 {
     int failed = put_attributes(f, d);
-    for (int axis = 0; axis < 4 && !failed; axis++)
-        failed = put_axis(f, table, d, axis);
-    if (!failed) failed = (d->cells > 0 ? put_cells : put_dense)(f, d);
+    if (!failed) failed = d->cells > 0 ? put_functions(f, table, d) || put_cells(f, d) : put_dense(f, table, d);
     if (failed || d->terms == 0) return failed;
     return rst_put_values(f, "relaxation_time", RST_DOUBLES, 1, &d->terms, d->relaxation_time, "s",
                           "of the material's Prony series") ||
@@ -182,8 +194,8 @@ struct set {
 static void expect_sets(const restitute_table_data *d, const int64_t n[4], struct set set[SETS])
 {
     const int cells = d->cells > 0;
-    const struct set all[SETS] = {{"ez", RST_DOUBLES, cells ? 16 * d->rebound_cells : n[0] * n[1], NULL},
-                                  {"ex", cells ? RST_SINGLES : RST_DOUBLES, n[0] * n[1] * n[2] * n[3], NULL},
+    const struct set all[SETS] = {{"ez", RST_DOUBLES, cells ? 17 * d->rebound_cells : n[0] * n[1], NULL},
+                                  {"ex", cells ? RST_SINGLES : RST_DOUBLES, n[0] * n[1] * (cells ? 1 : n[2] * n[3]), NULL},
                                   {"relaxation_time", RST_DOUBLES, d->terms, NULL},
                                   {"modulus", RST_DOUBLES, d->terms, NULL},
                                   {"leaves", RST_INTEGERS, cells ? 7 * d->cells : 0, NULL},

@@ -7,7 +7,7 @@
 static struct cells cells[2];
 static restitute_table *table[2];
 
-/* Rounding of single precision, 6e-8 of values up to 1, 4^4 of them times weights whose absolute values add up to 1.6^4. */
+/* Rounding of single precision, 6e-8 of coefficients up to 1, whose functions add up to 10 at most. */
 static const double single = 1e-6;
 
 static int set_up(void **state)
@@ -103,40 +103,58 @@ static void slopes_are_those_of_the_functions(void **state)
           kinds[2]);
 }
 
-/* A lookup at the place of a node gives the value of the node, whose psi beyond 1 is given by y. */
+/* The nodes of a cell are where they should be, and a lookup there gives what the cell holds. */
 static void a_query_at_a_node_gives_its_value(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
         const restitute_table_data *d = &cells[i].data;
-        const int64_t n_chi = i ? 1 : 4;
-        double *place[4];
-        int64_t tried = 0;
-        for (int axis = 0; axis < 4; axis++) {
-            place[axis] = malloc((size_t)d->cells * 16 * sizeof **place);
-            assert_int_equal(restitute_table_nodes(table[i], axis, place[axis]), RESTITUTE_OK);
-        }
-        for (int64_t cell = 0; cell < d->cells; cell++)
-            for (int64_t m = 0; m < 256; m++) {
-                const int64_t k = m / 64, l = m / 16 % 4, node = m % 16;
-                const double delta1 = place[0][16 * cell + node], gamma = place[1][16 * cell + node];
+        const int64_t n = i ? 50 : 136;
+        double node[136][6];
+        int64_t place[136][4], tried = 0;
+        assert_int_equal(restitute_table_cell_functions(table[i], place), RESTITUTE_OK);
+        for (int64_t cell = 0; cell < d->cells; cell++) {
+            const int64_t *leaf = cells[i].tangent.leaf[cell];
+            assert_int_equal(restitute_table_cell_nodes(table[i], cell, node), RESTITUTE_OK);
+            for (int64_t m = 0; m < n; m++) {
+                const double *at = node[m], delta1 = at[0], gamma = at[1], chi = at[2], psi = at[3];
                 restitute_table_value pair;
-                if (l >= n_chi || delta1 < 0.6 || delta1 > 3 || gamma < 0.3 || gamma > 0.9) continue;
-                const double chi = place[2][n_chi * cell + l], psi_or_y = place[3][4 * cell + k];
-                restitute_table_numbers_pair(table[i], chi, 0, delta1, gamma, &pair);
-                const double y = psi_or_y > 1 ? psi_or_y - 1 : 0;
-                const double psi = y > 0 ? 1 + y * (restitute_critical_psi(chi, pair.ez) - 1) : psi_or_y;
-                const double kept = (double)d->ex_cells[((4 * cell + k) * n_chi + l) * 16 + node];
+                CHECK_NEAR(gamma, cells_leaf_gamma(leaf, (int)place[m][1]), 1e-15, "node %lld", (long long)m);
+                CHECK_NEAR(cells_log_w(delta1, fmin(gamma, 0.999)), cells_leaf_log_w(d, leaf, (int)place[m][0]),
+                           gamma < 0.999 ? 1e-13 : 1, "node %lld", (long long)m);
+                if (delta1 < 0.6 || delta1 > 3 || gamma < 0.3 || gamma > 0.9) continue;
                 restitute_table_numbers_pair(table[i], chi, psi, delta1, gamma, &pair);
-                CHECK_NEAR(pair.ex, y > 0 ? (kept + y * pair.ez) / psi : kept, single, "cell %lld, node %lld",
-                           (long long)cell, (long long)m);
+                CHECK_NEAR(pair.ez, at[4], 1e-13, "cell %lld, node %lld", (long long)cell, (long long)m);
+                CHECK_NEAR(pair.ex, at[5], single, "cell %lld, node %lld", (long long)cell, (long long)m);
                 tried++;
             }
+        }
         CHECK(tried > 10 * d->cells, "%lld nodes in the ranges", (long long)tried);
-        for (int axis = 0; axis < 4; axis++)
-            free(place[axis]);
+        assert_int_equal(restitute_table_cell_nodes(table[i], d->cells, node), RESTITUTE_ERROR_DOMAIN);
+        assert_int_equal(restitute_table_cell_nodes(table[i], -1, node), RESTITUTE_ERROR_DOMAIN);
     }
-    assert_int_equal(restitute_table_nodes(table[0], 4, (double[1]){0}), RESTITUTE_ERROR_DOMAIN);
+    assert_int_equal(restitute_table_cell_nodes(table[0], 0, NULL), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_cell_functions(NULL, NULL), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_nodes(table[0], 0, (double[1]){0}), RESTITUTE_ERROR_DOMAIN); /* it has cells */
+}
+
+/* No two coefficients belong to the same function; each to one whose levels (1 for the middle, 2 for the quarters) are 2 at most. */
+static void functions_are_those_of_the_interface(void **state)
+{
+    static const int level[5] = {0, 2, 1, 2, 0};
+    int64_t place[136][4], of_ez = 0;
+    (void)state;
+    assert_int_equal(restitute_table_cell_functions(table[0], place), RESTITUTE_OK);
+    for (int m = 0; m < 136; m++) {
+        int sum = 0;
+        for (int axis = 0; axis < 4; axis++)
+            sum += level[place[m][axis]];
+        CHECK(sum <= 2, "coefficient %d: level %d", m, sum);
+        of_ez += place[m][2] + place[m][3] == 0;
+        for (int k = 0; k < m; k++)
+            CHECK(memcmp(place[k], place[m], sizeof *place) != 0, "coefficients %d and %d", k, m);
+    }
+    assert_int_equal(of_ez, 17);
 }
 
 static void data_comes_back(void **state)
@@ -147,7 +165,7 @@ static void data_comes_back(void **state)
         restitute_table_data out;
         restitute_table_info info;
         int64_t nodes[4];
-        const int64_t expected[4] = {in->cells, 16, i ? 1 : 4, 4};
+        const int64_t expected[4] = {in->cells, i ? 50 : 136, i ? 1 : 5, 5};
         restitute_table_data_init(&out);
         restitute_table_info_init(&info);
         assert_int_equal(restitute_table_to_data(table[i], &out, NULL), RESTITUTE_OK);
@@ -163,9 +181,9 @@ static void data_comes_back(void **state)
         assert_memory_equal(out.chain, in->chain, sizeof in->chain);
         assert_memory_equal(out.leaves, in->leaves, (size_t)in->cells * 7 * sizeof *in->leaves);
         assert_memory_equal(out.rebound_leaves, in->rebound_leaves, (size_t)in->rebound_cells * 7 * sizeof *in->leaves);
-        assert_memory_equal(out.ez, in->ez, (size_t)in->rebound_cells * 16 * sizeof *in->ez);
-        assert_memory_equal(out.ex_cells, in->ex_cells, (size_t)(in->cells * 64 * expected[2]) * sizeof *in->ex_cells);
-        const size_t least = (size_t)(in->cells * 64 * expected[2]) * sizeof(float);
+        assert_memory_equal(out.ez, in->ez, (size_t)in->rebound_cells * 17 * sizeof *in->ez);
+        assert_memory_equal(out.ex_cells, in->ex_cells, (size_t)(in->cells * expected[1]) * sizeof *in->ex_cells);
+        const size_t least = (size_t)(in->cells * expected[1]) * sizeof(float);
         CHECK(info.bytes > least && info.bytes < 2 * least + 1000000, "%zu bytes, %zu of them ex", info.bytes, least);
     }
 }
@@ -231,10 +249,10 @@ static void wrong_leaves_and_values_are_refused(void **state)
 {
     restitute_table_data d = cells[0].data;
     int64_t(*leaf)[7] = malloc((size_t)d.cells * sizeof *leaf);
-    float *ex = malloc((size_t)d.cells * 256 * sizeof *ex);
+    float *ex = malloc((size_t)d.cells * 136 * sizeof *ex);
     (void)state;
     memcpy(leaf, d.leaves, (size_t)d.cells * sizeof *leaf);
-    memcpy(ex, d.ex_cells, (size_t)d.cells * 256 * sizeof *ex);
+    memcpy(ex, d.ex_cells, (size_t)d.cells * 136 * sizeof *ex);
     d.leaves = leaf[0];
     d.ex_cells = ex;
     const int64_t last = d.cells - 1;
@@ -298,6 +316,7 @@ int main(void)
                                        cmocka_unit_test(beyond_the_ranges_the_ends_are_taken),
                                        cmocka_unit_test(slopes_are_those_of_the_functions),
                                        cmocka_unit_test(a_query_at_a_node_gives_its_value),
+                                       cmocka_unit_test(functions_are_those_of_the_interface),
                                        cmocka_unit_test(data_comes_back),
                                        cmocka_unit_test(what_no_table_has_is_refused),
                                        cmocka_unit_test(wrong_leaves_and_values_are_refused),

@@ -102,9 +102,11 @@ static void check_broken(size_t place, const char *how)
           how, status, error.message);
 }
 
-/* Every byte of the block of text and of the first structures, then every 37th, in all bits in turn. */
+/* Every byte of the block of text and of the first structures, then every 37th, in all bits in turn. The digit of the schema may become that
+ * of an earlier one, which is read: a table of one contact is the same in all. */
 static void flips_are_refused(void **state)
 {
+    const size_t digit = strlen("restitute table, schema ");
     int refused = 0, tried = 0;
     (void)state;
     unsigned char *copy = malloc(size);
@@ -114,7 +116,7 @@ static void flips_are_refused(void **state)
         put(copy, size);
         check_broken(i, "flipped");
         restitute_table *read = NULL;
-        refused += restitute_table_read(broken, &read, NULL) < 0;
+        refused += restitute_table_read(broken, &read, NULL) < 0 || i == digit;
         restitute_table_destroy(read);
         tried++;
         copy[i] = bytes[i];
@@ -158,12 +160,12 @@ static void foreign_and_later_files_are_refused(void **state)
     refused("is not a table file", RESTITUTE_ERROR_FORMAT);
     unsigned char *later = malloc(size);
     memcpy(later, bytes, size);
-    char *schema = strstr((char *)later, "schema 2");
+    char *schema = strstr((char *)later, "schema 3");
     assert_non_null(schema);
-    schema[7] = '3';
+    schema[7] = '4';
     put(later, size);
-    refused("schema 3: this library reads up to 2", RESTITUTE_ERROR_FORMAT);
-    schema[7] = '1'; /* a table of one contact is the same in both */
+    refused("schema 4: this library reads up to 3", RESTITUTE_ERROR_FORMAT);
+    schema[7] = '1'; /* a table of one contact is the same in all */
     put(later, size);
     free(later);
     restitute_table *read = NULL;
@@ -248,13 +250,13 @@ static void sizes_beyond_the_file_are_refused(void **state)
     }
     free(damaged);
     CHECK(found > 0, "the size is in the file");
-    char *schema = strstr((char *)journal, "schema 2");
+    char *schema = strstr((char *)journal, "schema 3");
     assert_non_null(schema);
     schema[7] = '1'; /* of other impacts */
     put_with_checksum(journal, length);
     assert_int_equal(restitute_table_builder_read(builder, "a", broken, &error), RESTITUTE_ERROR_FORMAT);
-    CHECK(strstr(error.message, "schema 1: this library reads from 2 on"), "%s", error.message);
-    schema[7] = '2';
+    CHECK(strstr(error.message, "schema 1: this library reads from 3 on"), "%s", error.message);
+    schema[7] = '3';
     put_with_checksum(journal, length); /* it was the size that was refused */
     CHECK(restitute_table_builder_read(builder, "a", broken, &error) == RESTITUTE_OK, "%s", error.message);
     restitute_table_builder_destroy(builder);

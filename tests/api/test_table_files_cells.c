@@ -172,12 +172,12 @@ static void wrong_numbers_are_refused(void **state)
         memcpy(copy + place, bytes + place, sizeof wrong[i].value);
     }
     memcpy(copy, bytes, size);
-    char *schema = strstr((char *)copy, "schema 2");
+    char *schema = strstr((char *)copy, "schema 3");
     assert_non_null(schema);
-    schema[7] = '1';
-    put(size);
-    check_refused("schema 1", 0, "build it again");
     schema[7] = '2';
+    put(size);
+    check_refused("schema 2", 0, "build it again");
+    schema[7] = '3';
 }
 
 int main(void)

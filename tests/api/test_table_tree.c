@@ -62,8 +62,8 @@ static restitute_table_data data_of(const restitute_table *of)
 static int same_bits(const restitute_table *a, const restitute_table *b)
 {
     const restitute_table_data x = data_of(a), y = data_of(b);
-    const size_t n = (size_t)x.rebound_cells * 16, leaf = 7 * sizeof *x.leaves;
-    const size_t m = (size_t)(x.nodes[0] * x.nodes[1] * x.nodes[2] * x.nodes[3]);
+    const size_t n = (size_t)x.rebound_cells * 17, leaf = 7 * sizeof *x.leaves;
+    const size_t m = (size_t)(x.nodes[0] * x.nodes[1]);
     return memcmp(x.nodes, y.nodes, sizeof x.nodes) == 0 && x.rebound_cells == y.rebound_cells &&
            x.chain_length == y.chain_length && memcmp(x.chain, y.chain, sizeof x.chain) == 0 &&
            memcmp(x.leaves, y.leaves, (size_t)x.cells * leaf) == 0 &&

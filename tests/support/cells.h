@@ -1,5 +1,5 @@
-/* A table with axes of delta1 and gamma made by hand: cells that are divided at random, values from functions that are cubic along all
- * axes of the cells, so that every cell holds them without error but rounding.
+/* A table with axes of delta1 and gamma made by hand: cells that are divided at random, values from functions that every cell holds
+ * without error but rounding: of degree four along each axis, with no more products of powers than there are in a cell.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CELLS_H
 #define TEST_CELLS_H
@@ -49,18 +49,44 @@ static inline double cells_log_w(double delta1, double gamma)
     return log2(delta1 * cells_h(gamma < 0.5 ? 0.25 : 0.5, gamma));
 }
 
+/* Of degree four, and two. */
+static inline double cells_quartic(double x)
+{
+    return x * (0.1 + x * (-0.03 + x * (0.01 - 0.004 * x)));
+}
+
+static inline double cells_square(double x)
+{
+    return 0.2 * x - 0.07 * x * x;
+}
+
 static inline double cells_ez(double log_w, double gamma)
 {
-    const double a = 0.3 + log_w * (0.1 + log_w * (-0.03 + 0.01 * log_w));
-    return 0.8 - 0.3 * a * (1 + gamma * (0.5 - 0.4 * gamma * gamma));
+    return 0.5 + 0.3 * cells_quartic(log_w) * (1 - 0.3 * gamma) - 0.7 * (1 + 0.1 * log_w) * cells_quartic(gamma) +
+           0.3 * cells_square(log_w) * cells_square(gamma);
+}
+
+/* What is kept at psi = 1, and what there is more of, which has no powers. */
+static inline double cells_at_one(double log_w, double gamma, double chi)
+{
+    const double squares[3] = {cells_square(log_w), cells_square(gamma), cells_square(chi)};
+    return 0.1 + 0.3 * (1 + gamma) * cells_quartic(log_w) * (1.5 - chi) + 0.4 * cells_quartic(gamma) * chi +
+           0.2 * cells_quartic(chi) * (1 - 0.2 * log_w) + 0.5 * squares[0] * squares[1] +
+           0.4 * squares[0] * squares[2] * (1 + gamma) - 0.3 * squares[1] * squares[2];
+}
+
+static inline double cells_linear(double log_w, double gamma, double chi)
+{
+    return (1 + 0.2 * log_w) * (1 - 0.5 * gamma) * (0.3 + 0.2 * chi);
 }
 
 /* What is kept: on the sheet of psi <= 1 by psi; on the others by t, 0 at psi = 1 and 1 at psi_c. Alike at psi = 1, 0 at psi_c. */
-static inline double cells_kept(double log_w, double gamma, double chi, int slips, double place)
+static inline double cells_kept(double log_w, double gamma, double chi, int slips, double x)
 {
-    const double a = 0.5 + log_w * (0.1 + log_w * (-0.03 + 0.01 * log_w)), b = 1 - gamma * (0.5 - 0.3 * gamma * gamma);
-    const double c = 0.8 + 0.2 * chi - 0.1 * chi * chi * chi, x = place;
-    return 0.5 * a * b * c * (slips ? 0.9 * (1 - x) * (1 + x * (0.5 - x)) : 1 - x * (0.6 - 0.5 * x * x));
+    const double one = cells_at_one(log_w, gamma, chi), linear = cells_linear(log_w, gamma, chi);
+    const double more = linear * x * (1 - x) * (slips ? 0.5 - x * x : 0.3 + 0.4 * x * x) +
+                        0.3 * x * (1 - x) * cells_square(log_w) * (1 + gamma);
+    return one * (slips ? 1 - x : 1.2 - 0.2 * x) + more;
 }
 
 /* t of y: y is divided evenly by r(y) up to 1/2, and by r(1 - y) beyond. */
@@ -133,7 +159,7 @@ static inline double cells_place(const restitute_table_data *d, const int64_t le
         width *= 0.5;
         start += width * (double)(leaf[4] >> (leaf[3] - 1 - i) & 1);
     }
-    return start + width * node / 3;
+    return start + width * node / 4;
 }
 
 /* log2 w: two octaves a root, from -2 on. */
@@ -144,32 +170,68 @@ static inline double cells_leaf_log_w(const restitute_table_data *d, const int64
 
 static inline double cells_leaf_gamma(const int64_t leaf[7], int node)
 {
-    return 0.25 * (double)(1 << leaf[0]) * (1 + ((double)leaf[6] + node / 3.0) / (double)(1 << leaf[5]));
+    return 0.25 * (double)(1 << leaf[0]) * (1 + ((double)leaf[6] + node / 4.0) / (double)(1 << leaf[5]));
 }
 
-static inline void cells_fill(struct cells *c, int n_chi)
+/* What a value at a place exceeds that of lower levels by: weights of the values at u = 0, 1/4, 1/2, 3/4, 1. */
+static const double cells_weights[5][5] = {{1, 0, 0, 0, 0},
+                                           {-0.375, 1, -0.75, 0, 0.125},
+                                           {-0.5, 0, 1, 0, -0.5},
+                                           {0.125, 0, -0.75, 1, -0.375},
+                                           {0, 0, 0, 0, 1}};
+
+static inline double cells_leaf_ez(const int64_t leaf[7], const int64_t place[4])
+{
+    double sum = 0;
+    for (int i = 0; i < 25; i++) {
+        const double weight = cells_weights[place[0]][i / 5] * cells_weights[place[1]][i % 5];
+        if (weight != 0) sum += weight * cells_ez(cells_leaf_log_w(NULL, leaf, i / 5), cells_leaf_gamma(leaf, i % 5));
+    }
+    return sum;
+}
+
+static inline double cells_leaf_kept(const restitute_table_data *d, const int64_t leaf[7], const int64_t place[4])
+{
+    double sum = 0;
+    for (int i = 0; i < 625; i++) {
+        const int w = i / 125, g = i / 25 % 5, c = i / 5 % 5, p = i % 5;
+        const double weight = cells_weights[place[0]][w] * cells_weights[place[1]][g] * cells_weights[place[2]][c] *
+                              cells_weights[place[3]][p];
+        if (weight == 0) continue;
+        const double psi = cells_place(d, leaf, 2, p);
+        const double chi = d->chi_low + (d->chi_high - d->chi_low) * cells_place(d, leaf, 1, c);
+        sum += weight * cells_kept(cells_leaf_log_w(d, leaf, w), cells_leaf_gamma(leaf, g), chi, leaf[2] > 0,
+                                   leaf[2] > 0 ? ((double)(leaf[2] - 1) + psi) / 4 : psi);
+    }
+    return sum;
+}
+
+/* Which functions coefficients belong to is asked of a table that is 0. */
+static inline void cells_functions(struct cells *c, int64_t (*place)[4])
+{
+    restitute_table *table = NULL;
+    c->data.ez = c->ez;
+    c->data.ex_cells = c->ex;
+    assert_int_equal(restitute_table_from_data(&c->data, &table, NULL), RESTITUTE_OK);
+    assert_int_equal(restitute_table_cell_functions(table, place), RESTITUTE_OK);
+    restitute_table_destroy(table);
+}
+
+static inline void cells_fill(struct cells *c, int n_ex)
 {
     const restitute_table_data *d = &c->data;
-    c->ez = malloc((size_t)c->rebound.count * 16 * sizeof *c->ez);
-    c->ex = malloc((size_t)(c->tangent.count * 4 * n_chi) * 16 * sizeof *c->ex);
+    int64_t place[136][4];
+    c->ez = calloc((size_t)c->rebound.count * 17, sizeof *c->ez);
+    c->ex = calloc((size_t)(c->tangent.count * n_ex), sizeof *c->ex);
     assert_non_null(c->ez);
     assert_non_null(c->ex);
-    double *ez = c->ez;
-    float *ex = c->ex;
+    cells_functions(c, place);
     for (int64_t i = 0; i < c->rebound.count; i++)
-        for (int m = 0; m < 16; m++)
-            *ez++ = cells_ez(cells_leaf_log_w(NULL, c->rebound.leaf[i], m / 4),
-                             cells_leaf_gamma(c->rebound.leaf[i], m % 4));
+        for (int m = 0, of_ez = 0; m < n_ex; m++)
+            if (place[m][2] + place[m][3] == 0) c->ez[17 * i + of_ez++] = cells_leaf_ez(c->rebound.leaf[i], place[m]);
     for (int64_t i = 0; i < c->tangent.count; i++)
-        for (int k = 0; k < 4; k++)
-            for (int l = 0; l < n_chi; l++)
-                for (int m = 0; m < 16; m++) {
-                    const int64_t *leaf = c->tangent.leaf[i];
-                    const double psi = cells_place(d, leaf, 2, k), chi = cells_place(d, leaf, 1, l);
-                    const double place = leaf[2] > 0 ? ((double)(leaf[2] - 1) + psi) / 4 : psi;
-                    *ex++ = (float)cells_kept(cells_leaf_log_w(d, leaf, m / 4), cells_leaf_gamma(leaf, m % 4),
-                                              d->chi_low + (d->chi_high - d->chi_low) * chi, leaf[2] > 0, place);
-                }
+        for (int m = 0; m < n_ex; m++)
+            c->ex[n_ex * i + m] = (float)cells_leaf_kept(d, c->tangent.leaf[i], place[m]);
 }
 
 /* chi from 1 to chi_high; 1: no axis. delta1 in [0.6, 3], gamma in [0.3, 0.9]. */
@@ -196,9 +258,7 @@ static inline void cells_make(double chi_high, uint64_t seed, struct cells *c)
     d->rebound_cells = c->rebound.count;
     d->leaves = c->tangent.leaf[0];
     d->rebound_leaves = c->rebound.leaf[0];
-    cells_fill(c, chi_high > 1 ? 4 : 1);
-    d->ez = c->ez;
-    d->ex_cells = c->ex;
+    cells_fill(c, chi_high > 1 ? 136 : 50);
 }
 
 static inline void cells_free(struct cells *c)
