@@ -5,20 +5,20 @@
 #include <float.h>
 #include <stdlib.h>
 
-/* Parts of the tolerance that the cubics of a cell may miss half way between nodes, all axes together: ez shifts psi_c. */
+/* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together: ez shifts psi_c. */
 static const double part_for_rebound = 0.15, part_for_tangent = 0.9;
 
 /* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors must not
  * be taken for that. Its usual error is a fiftieth of its estimate, but for spheres that have just begun to rebound, of which more in a
  * hundred are half of it off. */
-static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.8, part_for_close_nodes = 0.2;
+static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.8, part_for_close_nodes = 0.3;
 static const double begins_to_rebound = 0.3, hardly_rebounds = 0.04; /* w, ez */
 
 /* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few cells, and that of ex rests on it. */
 enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 4 };
 
 /* Rounds of checks that may fail, and tables whose seams may tell before the checks do. */
-enum { most_rounds = 12, most_seam_rounds = 3 };
+enum { most_rounds = 12, most_seam_rounds = 2 };
 
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };

@@ -30,12 +30,11 @@ struct rst_pull {
     int64_t cell;
 };
 
-enum { rst_most_pulls = 3 };
+enum { rst_most_pulls = 3, rst_most_in_vain = 12 };
 
 struct rst_cell {
     struct rst_leaf at;
     double error[rst_cell_axes]; /* what its polynomial misses along its edges */
-    double inside;               /* and inside */
     double usual, before;        /* a mean of that sum and those of the cells that it is a part of; when it was halved last */
     struct rst_pull pull[rst_most_pulls]; /* larger neighbours that shift its nodes by much, most first */
     int64_t child;               /* the first of its halves; of these there may be but one */
@@ -88,19 +87,12 @@ int rst_cells_next(struct restitute_table_builder *b, restitute_error *error);
 /* Growth (growth.c). Nonzero: out of memory. */
 int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b);
 void rst_growth_free(struct rst_growth *g);
-/* What all cells to be judged need. */
-int rst_growth_need(struct rst_growth *g);
 /* Judge these cells, and halve what fails; nonzero in `more` if there are new ones. */
 int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder *b, int *more);
 
-/* A leaf is to be halved, unless that has been in vain. */
-void rst_cell_fails(struct rst_cell *cell);
-/* Whether any is; `pardon`: and now none is. */
-int rst_growth_fails(struct rst_growth *g, int pardon);
-
-/* Corner of a cell and the distance of its nodes on the lattice. */
-void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
-                    int32_t step[rst_cell_axes]);
+/* What all cells to be judged need (judge.c), nonzero: out of memory; whether a cell has settled or fails. */
+int rst_growth_need(struct rst_growth *g);
+void rst_cell_judge(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k);
 
 /* The values at its nodes, which were solved. */
 void rst_cell_values(const struct rst_growth *g, const struct rst_leaf *at, double value[rst_most_functions]);
@@ -111,6 +103,15 @@ void rst_cell_local(const struct rst_growth *g, const struct rst_leaf *cell, con
 
 /* Its polynomial as its own impacts tell it, before its nodes are put on neighbours'. */
 void rst_cell_polynomial(const struct rst_growth *g, const struct rst_leaf *at, double coefficient[rst_most_functions]);
+
+/* A leaf is to be halved, unless that has been in vain. */
+void rst_cell_fails(struct rst_cell *cell);
+/* Whether any is; `pardon`: and now none is. */
+int rst_growth_fails(struct rst_growth *g, int pardon);
+
+/* Corner of a cell and the distance of its nodes on the lattice. */
+void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
+                    int32_t step[rst_cell_axes]);
 
 /* Whether a place on the lattice is in a cell. */
 int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes]);

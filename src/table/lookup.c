@@ -151,16 +151,14 @@ struct pair_functions {
     float cross;
 };
 
-/* x, y: the functions of one axis each, by place. */
-static inline struct pair_functions pair_of(const float x[rst_places], const float y[rst_places])
-{
-    const four along_x = {x[0], x[4], x[0], x[4]}, along_y = {y[0], y[4], y[0], y[4]};
-    return (struct pair_functions){.ends = (four){x[0], x[0], x[4], x[4]} * along_y,
-                                   .middles = (four){x[2], x[2], y[2], y[2]} * (four){y[0], y[4], x[0], x[4]},
-                                   .quarters = {(four){x[1], x[1], x[3], x[3]} * along_y,
-                                                (four){y[1], y[1], y[3], y[3]} * along_x},
-                                   .cross = x[2] * y[2]};
-}
+/* f: functions of four axes by place; of which x and y are two. */
+#define PAIR_OF(f, x, y)                                                                                               \
+    {.ends = CHOOSE((f)[0], (f)[4], x, x, 4 + x, 4 + x) * CHOOSE((f)[0], (f)[4], y, 4 + y, y, 4 + y),                  \
+     .middles = CHOOSE((f)[2], (f)[2], x, x, y, y) * CHOOSE((f)[0], (f)[4], y, 4 + y, x, 4 + x),                       \
+     .quarters = {CHOOSE((f)[1], (f)[3], x, x, 4 + x, 4 + x) * CHOOSE((f)[0], (f)[4], y, 4 + y, y, 4 + y),             \
+                  CHOOSE((f)[1], (f)[3], y, y, 4 + y, 4 + y) * CHOOSE((f)[0], (f)[4], x, 4 + x, x, 4 + x)},            \
+     .cross = (f)[2][x] * (f)[2][y]}
+#define CHOOSE __builtin_shufflevector
 
 /* Sums over functions of w and gamma, for one of psi and chi after the other. */
 struct sums {
@@ -206,11 +204,7 @@ static inline double add_up(const struct sums *sum, const struct pair_functions 
 /* The polynomial of a cell whose table has an axis of chi. f: functions of psi, chi, w, gamma. */
 static inline double sum_cell(const float *c, four f[rst_places])
 {
-    float by_axis[4][rst_places];
-    for (int axis = 0; axis < 4; axis++)
-        for (int place = 0; place < rst_places; place++)
-            by_axis[axis][place] = f[place][axis];
-    const struct pair_functions first = pair_of(by_axis[2], by_axis[3]), second = pair_of(by_axis[0], by_axis[1]);
+    const struct pair_functions first = PAIR_OF(f, 2, 3), second = PAIR_OF(f, 0, 1);
     struct sums sum = {{0}, {0}, {{0}, {0}}};
     for (int i = 0; i < 4; i++)
         c = add_level_0(c, all(second.ends[i]), &sum);
@@ -229,9 +223,7 @@ static inline double sum_cell(const float *c, four f[rst_places])
 /* The same without an axis of chi. */
 static inline double sum_cell_without_chi(const float *c, four f[rst_places])
 {
-    const float w[rst_places] = {f[0][2], f[1][2], f[2][2], f[3][2], f[4][2]};
-    const float gamma[rst_places] = {f[0][3], f[1][3], f[2][3], f[3][3], f[4][3]};
-    const struct pair_functions first = pair_of(w, gamma);
+    const struct pair_functions first = PAIR_OF(f, 2, 3);
     struct sums sum = {{0}, {0}, {{0}, {0}}};
     c = add_level_0(c, all(f[0][0]), &sum);
     c = add_level_0(c, all(f[4][0]), &sum);

@@ -5,9 +5,9 @@
 
 #include "cells.h"
 
-/* Parts of what a cell may miss half way between its nodes that it may miss at the nodes of its smaller neighbours: what these have between them follows. Beyond the first it
- * fails; beyond the second if that is why the neighbour fails. */
-static const double part_at_seams = 1.1, part_to_blame = 0.3;
+/* Parts of what a cell may miss where it is compared that it may miss at the nodes of its smaller neighbours: what these have between them
+ * follows. Beyond the first it fails; beyond the second if that is why a check of the neighbour fails. */
+static const double part_at_seams = 1.2, part_to_blame = 0.3;
 
 /* A tree with the values at the nodes of its leaves, then their coefficients. */
 struct harvest {
