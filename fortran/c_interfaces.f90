@@ -9,7 +9,8 @@ module rst_c_interfaces
   use rst_profile, only: plane_profile
   use rst_compression, only: scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
-  use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels
+  use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels, &
+                             double_levels
   use rst_sync_dense, only: trace_type, dense_levels, thin_levels
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
   use rst_sync_quadrature, only: spread_weights
@@ -158,20 +159,26 @@ contains
     grid = choose_grid(g_inf, eta, n_terms, g, tau)
   end subroutine rst_choose_grid
 
-  pure subroutine rst_normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, level, memory, loading, node, failed) &
-    bind(c, name="rst_normal_levels")
+  pure subroutine rst_normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, guessed, level, memory, loading, node, &
+                                    failed) bind(c, name="rst_normal_levels")
     type(grid_type), intent(in) :: grid
     real(c_double), intent(in), value :: g_inf, eta, closeness
-    integer(c_int64_t), intent(in), value :: n_terms, n
+    integer(c_int64_t), intent(in), value :: n_terms, n, guessed
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(out) :: level(0:2*n)
+    type(level_type), intent(inout) :: level(0:2*n)
     real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     integer(c_int64_t), intent(out) :: failed
     logical :: fails
-    call normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, level, memory, loading, node, fails)
+    call normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, guessed /= 0, level, memory, loading, node, fails)
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_normal_levels
+
+  pure subroutine rst_double_levels(n, level) bind(c, name="rst_double_levels")
+    integer(c_int64_t), intent(in), value :: n
+    type(level_type), intent(inout) :: level(0:4*n)
+    call double_levels(n, level)
+  end subroutine rst_double_levels
 
   pure subroutine rst_dense_levels(grid, g_inf, eta, n_terms, g, tau, n, r, coarse, level, trace, node, failed) &
     bind(c, name="rst_dense_levels")
@@ -189,17 +196,16 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node) &
+  pure subroutine rst_thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node) &
     bind(c, name="rst_thin_levels")
     integer(c_int64_t), intent(in), value :: n_terms, n
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
     type(level_type), intent(in) :: level(0:4*n)
     type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
     type(node_type), intent(in) :: node(0:2*n)
     type(level_type), intent(out) :: thin_level(0:2*n)
     type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: thin_node(0:n)
-    call thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node)
+    call thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node)
   end subroutine rst_thin_levels
 
   !> What all runs on these levels share, made once.

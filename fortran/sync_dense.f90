@@ -5,10 +5,10 @@
 !> the normal force, which all follow without iterations over the motion.
 module rst_sync_dense
   use rst_precision, only: dp, ip
-  use rst_memory, only: memory_type, memory_of, parabola_type, spacing_type, spacing_of, parabola_through, remembered, integrated, &
-                        integrated_twice
-  use rst_sync_levels, only: grid_type, level_type, node_type, spread_nodes, first_return, panel_type, panel_of, by_parts, &
-                             loaded_by_parts, longest_panel, first_levels, mass_factor
+  use rst_memory, only: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, &
+                        parabola_through, integrated, integrated_twice
+  use rst_sync_levels, only: grid_type, level_type, node_type, spread_nodes, first_return, by_parts, longest_panel, first_levels, &
+                             mass_factor
   implicit none (type, external)
   private
   public :: trace_type, dense_levels, thin_levels, fade_in_step
@@ -33,7 +33,7 @@ module rst_sync_dense
   end type path_type
 
   type :: motion_type
-    real(dp) :: depth, velocity, acceleration, radius
+    real(dp) :: depth, velocity, acceleration
   end type motion_type
 
 contains
@@ -48,7 +48,7 @@ contains
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n*r)
     type(node_type), intent(out) :: node(0:n*r)
     logical, intent(out) :: failed
-    real(dp) :: offset
+    real(dp) :: offset, spread(3)
     integer(ip) :: p, k
     offset = 0
     call spread_nodes(grid, n*r, node)
@@ -57,25 +57,28 @@ contains
       trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     end do
     do p = 0, n - 2, 2
-      call dense_compression(grid, g_inf, eta, n_terms, g, tau, n*r, r, p*r, coarse(p:p + 2), level, trace, node, offset, failed)
+      spread = spread_of(coarse(p:p + 3), p)
+      call dense_compression(grid, g_inf, eta, n_terms, g, tau, n*r, r, p*r, coarse(p:p + 2), spread, level, trace, node, offset, &
+                             failed)
       if (failed) return
     end do
     do p = n, 2*n - 2, 2
-      call dense_restitution(g_inf, eta, n_terms, g, tau, n*r, r, p*r, coarse(p:p + 2), level, trace, node, offset, failed)
+      spread = spread_of(coarse(p:min(p + 3, 2*n)), p - n)
+      call dense_restitution(g_inf, eta, n_terms, g, tau, n*r, r, p*r, coarse(p:p + 2), spread, level, trace, node, offset, failed)
       if (failed) return
     end do
   end subroutine dense_levels
 
   !> Half as many levels, every other one.
-  pure subroutine thin_levels(n_terms, g, tau, n, level, trace, node, thin_level, thin_trace, thin_node)
+  pure subroutine thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node)
     integer(ip), intent(in) :: n_terms, n  !! n: levels a phase that are left
-    real(dp), intent(in) :: g(n_terms), tau(n_terms)
     type(level_type), intent(in) :: level(0:4*n)
     type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
     type(node_type), intent(in) :: node(0:2*n)
     type(level_type), intent(out) :: thin_level(0:2*n)
     type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: thin_node(0:n)
+    real(dp) :: h, part
     integer(ip) :: l, k
     do l = 0, n
       thin_node(l) = node_type(node(2*l)%radius, 2*node(2*l)%width)
@@ -85,103 +88,138 @@ contains
     do l = 1, 2*n
       thin_level(l) = level(2*l)
       thin_level(l)%step = level(2*l - 1)%step + level(2*l)%step
+      h = thin_level(l)%step
+      part = level(2*l)%step/h
       do k = 1, n_terms
         thin_trace(k, l) = trace(k, 2*l)
-        call fade_in_step(g(k), tau(k), thin_level(l)%step, thin_trace(k, l))
+        call join_steps(part, (part - 1)*part*h*h, trace(k, 2*l - 1), trace(k, 2*l), thin_trace(k, l))
       end do
     end do
   end subroutine thin_levels
 
+  !> Two steps in one. part: of the second; bent: x (x-h) between them.
+  pure subroutine join_steps(part, bent, first, second, both)
+    real(dp), intent(in) :: part, bent
+    type(trace_type), intent(in) :: first, second
+    type(trace_type), intent(inout) :: both
+    real(dp) :: middle
+    middle = second%decay*first%from_end + second%from_start  ! what a velocity of 1 between the steps adds
+    both%decay = second%decay*first%decay
+    both%from_start = second%decay*first%from_start + part*middle
+    both%from_end = second%from_end + (1 - part)*middle
+    both%from_bend = second%decay*first%from_bend + second%from_bend + bent*middle
+  end subroutine join_steps
+
   !> The levels from `start` on to the end of a panel of the compression, in pairs.
-  pure subroutine dense_compression(grid, g_inf, eta, n_terms, g, tau, n, r, start, coarse, level, trace, node, offset, &
-                                    failed)
+  pure subroutine dense_compression(grid, g_inf, eta, n_terms, g, tau, n, r, start, coarse, spread, level, trace, node, &
+                                    offset, failed)
     type(grid_type), intent(in) :: grid
     integer(ip), intent(in) :: n_terms, n, r, start
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms)
     type(level_type), intent(in) :: coarse(0:2)
+    real(dp), intent(in) :: spread(3)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
     real(dp), intent(inout) :: offset  !! time of the level `start` since that of the panel: by how much it is off
     logical, intent(out) :: failed
     type(path_type) :: path
-    type(motion_type) :: motion(0:2)
-    real(dp) :: x(2), t, t_before, h, start_of_pair, resolved
+    real(dp) :: t(0:2), d(0:2), v(0:2), a(0:2), u(2), width(2), h, resolved, part
     integer(ip) :: l, q
     path = path_of(coarse, mass_factor*eta)
-    motion(2) = motion_type(coarse(0)%depth, coarse(0)%velocity, 0.0_dp, sqrt(coarse(0)%depth))
-    t = offset
-    t_before = t
+    part = 1/real(r, dp)
+    t(2) = offset
+    h = 0
+    d(2) = coarse(0)%depth
+    v(2) = coarse(0)%velocity
+    a(2) = sqrt(d(2))
     do l = start, start + 2*r - 2, 2
-      motion(0) = motion(2)
-      start_of_pair = t
+      t(0) = t(2)
+      d(0) = d(2)
+      v(0) = v(2)
+      a(0) = a(2)
       do q = 1, 2
-        h = merge(t - t_before, 0.0_dp, l + q > 1)
-        t_before = t
-        t = max(t + 0.1_dp*h, between(coarse, l + q - start, r))
-        call meet_edge(grid, path, node(l + q)%radius, t_before, t, motion(q), failed)
-        if (failed) return
-        x(q) = t - start_of_pair
-        level(l + q) = level_type(path%time + t, t - t_before, motion(q)%depth, motion(q)%velocity, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
-        node(l + q) = node_type(motion(q)%radius, node(l + q)%width*edge_advance(grid, node(l + q)%radius, motion(q)))
+        t(q) = max(t(q - 1) + 0.1_dp*h, between(start, spread, real(l + q - start, dp)*part))
+      end do
+      u = [node(l + 1)%radius, node(l + 2)%radius]
+      width = [node(l + 1)%width, node(l + 2)%width]
+      call meet_edge(grid, path, u, t, d(1:2), v(1:2), a(1:2), width, failed)
+      if (failed) return
+      h = t(2) - t(1)
+      do q = 1, 2
+        level(l + q) = level_type(path%time + t(q), t(q) - t(q - 1), d(q), v(q), 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+        node(l + q) = node_type(a(q), width(q))
       end do
       resolved = merge(0.0_dp, longest_panel*grid%radius**2/real(n, dp), l < first_levels)
-      call load_pair(g_inf, eta, n_terms, g, tau, resolved, x, motion, level(l + 1:l + 2), trace(:, l:l + 2))
+      call load_pair(g_inf, eta, n_terms, g, tau, resolved, t(1:2) - t(0), d, v, a, level(l + 1:l + 2), trace(:, l:l + 2))
     end do
-    offset = t - (coarse(1)%step + coarse(2)%step)
+    offset = t(2) - (coarse(1)%step + coarse(2)%step)
   end subroutine dense_compression
 
-  !> M_k, P_k, forces of two levels of the compression.
-  pure subroutine load_pair(g_inf, eta, n_terms, g, tau, resolved, x, motion, level, trace)
+  !> M_k, P_k, forces of two levels of the compression: velocity, A D' and A^3 are parabolas in it.
+  pure subroutine load_pair(g_inf, eta, n_terms, g, tau, resolved, x, d, v, a, level, trace)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), resolved, x(2)
-    type(motion_type), intent(in) :: motion(0:2)
+    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), resolved, x(2), d(0:2), v(0:2), a(0:2)
     type(level_type), intent(inout) :: level(2)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2)
-    type(panel_type) :: panel
-    type(memory_type) :: m
-    real(dp) :: a3(0:2), drive
+    type(spacing_type) :: spacing
+    type(parabola_type) :: speeds, cubes, sweeps
+    type(trace_type) :: now(2)
+    real(dp) :: a3(0:2), av(0:2), h(2), drive(2), speed(2)
     integer(ip) :: k, q
-    a3 = motion%depth*motion%radius
-    do q = 1, 2
-      level(q)%force = (2.0_dp/3.0_dp)*g_inf*a3(q) + eta*motion(q)%radius*motion(q)%velocity
-      level(q)%fresh = g_inf*motion(q)%depth + eta*motion(q)%velocity
-    end do
+    a3 = d*a
+    av = a*v
+    level%force = (2.0_dp/3.0_dp)*g_inf*a3(1:2) + eta*av(1:2)
+    level%fresh = g_inf*d(1:2) + eta*v(1:2)
     if (n_terms == 0) return
-    panel = panel_of(x, motion%velocity, motion%radius, a3)
+    spacing = spacing_of(x)
+    speeds = parabola_through(spacing, v)
+    cubes = parabola_through(spacing, a3)
+    sweeps = parabola_through(spacing, av)
+    h = [x(1), x(2) - x(1)]
     do k = 1, n_terms
+      call fade_in_steps(g(k), tau(k), h, now)
+      if (by_parts(x, tau(k), resolved)) then
+        drive = (2.0_dp/3.0_dp)*(g(k)*(a3(1:2) - now%decay*a3(0:1)) - added(now, a3, cubes%bend)/tau(k))
+      else
+        drive = added(now, av, sweeps%bend)
+      end if
+      speed = added(now, v, speeds%bend)
       do q = 1, 2
-        m = memory_of(x(q)/tau(k))
-        if (by_parts(x, tau(k), resolved)) then
-          drive = loaded_by_parts(panel, m, tau(k), x(q), a3(0), a3(q))
-        else
-          drive = remembered(m, x(q), panel%sweeps)
-        end if
-        trace(k, q)%fade = 1
-        trace(k, q)%loading = m%decay*trace(k, 0)%loading + g(k)*drive
-        trace(k, q)%memory = m%decay*trace(k, 0)%memory + g(k)*remembered(m, x(q), panel%speeds)
-        level(q)%force = level(q)%force + trace(k, q)%loading
-        level(q)%fresh = level(q)%fresh + trace(k, q)%memory
-        if (q == 1) call note_step(g(k), x(1), m, trace(k, 1))
+        now(q)%fade = 1
+        now(q)%loading = drive(q) + now(q)%decay*trace(k, q - 1)%loading
+        now(q)%memory = speed(q) + now(q)%decay*trace(k, q - 1)%memory
+        level(q)%force = level(q)%force + now(q)%loading
+        level(q)%fresh = level(q)%fresh + now(q)%memory
+        trace(k, q) = now(q)
       end do
-      call fade_in_step(g(k), tau(k), x(2) - x(1), trace(k, 2))
     end do
   end subroutine load_pair
 
+  !> What a parabola through three values adds to what is remembered in the two steps between them, times g.
+  pure function added(trace, y, bend) result(share)
+    type(trace_type), intent(in) :: trace(2)
+    real(dp), intent(in) :: y(0:2), bend
+    real(dp) :: share(2)
+    share = trace%from_start*y(0:1) + trace%from_end*y(1:2) + trace%from_bend*bend
+  end function added
+
   !> The levels from `start` on to the end of a panel of the restitution. The force follows from that at the same radius.
-  pure subroutine dense_restitution(g_inf, eta, n_terms, g, tau, n, r, start, coarse, level, trace, node, offset, failed)
+  pure subroutine dense_restitution(g_inf, eta, n_terms, g, tau, n, r, start, coarse, spread, level, trace, node, offset, failed)
     integer(ip), intent(in) :: n_terms, n, r, start
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms)
     type(level_type), intent(in) :: coarse(0:2)
+    real(dp), intent(in) :: spread(3)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     type(node_type), intent(in) :: node(0:n)
     real(dp), intent(inout) :: offset  !! time of the level `start` since that of the panel: by how much it is off
     logical, intent(out) :: failed
     type(path_type) :: path
-    real(dp) :: h, t
+    real(dp) :: h, t, part
     integer(ip) :: l, j
     path = path_of(coarse, 0.0_dp)
+    part = 1/real(r, dp)
     t = offset
     do l = start + 1, start + 2*r
       j = 2*n - l
@@ -189,16 +227,12 @@ contains
         h = coarse(l - start)%step + merge(coarse(1)%step, 0.0_dp, l - start == 2) - t
       else if (l == n + 1) then
         h = first_return(g_inf, eta, n_terms, g, tau, level(n)%step)
-      else if (l == n + 2) then
-        h = max(0.1_dp*level(l - 1)%step, between(coarse, l - start, r) - t)
       else
-        h = 2*level(l - 1)%step - level(l - 2)%step
-        if (l > n + 4) h = h + level(l - 1)%step - 2*level(l - 2)%step + level(l - 3)%step
-        h = max(0.5_dp*level(l - 1)%step, h)
+        h = max(0.1_dp*level(l - 1)%step, between(1_ip, spread, real(l - start, dp)*part) - t)
       end if
       call meet_free_edge(g_inf, eta, n_terms, g, tau, path, t, node(j)%radius, trace(:, j:j + 1), level(l - 1), trace(:, l - 1), &
                           h, level(l), trace(:, l), failed)
-      if (failed .and. l > n + 4) then ! the parabola of the steps leads astray
+      if (failed .and. l > n + 2) then ! the guess leads astray
         h = level(l - 1)%step
         call meet_free_edge(g_inf, eta, n_terms, g, tau, path, t, node(j)%radius, trace(:, j:j + 1), level(l - 1), &
                             trace(:, l - 1), h, level(l), trace(:, l), failed)
@@ -287,79 +321,109 @@ contains
                      parabola_through(spacing, (2.0_dp/3.0_dp)*drag*(coarse%depth*a - coarse(0)%depth*a(0))))
   end function path_of
 
+  !> The motion without dashpot.
   pure function on_path(path, x) result(motion)
     type(path_type), intent(in) :: path
     real(dp), intent(in) :: x
     type(motion_type) :: motion
-    motion%acceleration = path%rest%start + x*(path%rest%slope + path%rest%bend*(x - path%rest%middle))
+    motion%acceleration = path%rest%start + x*(path%rest%slope + x*path%rest%bend)
     motion%velocity = path%velocity + integrated(x, path%rest)
     motion%depth = path%depth + x*path%velocity + integrated_twice(x, path%rest)
-    if (path%drag > 0) motion%depth = motion%depth - integrated(x, path%cubes)
-    motion%radius = sqrt(max(motion%depth, tiny(1.0_dp)))
-    if (path%drag > 0) then
-      motion%velocity = motion%velocity - (2.0_dp/3.0_dp)*path%drag*(motion%depth*motion%radius - path%cubed)
-      motion%acceleration = motion%acceleration - path%drag*motion%radius*motion%velocity
-    end if
   end function on_path
 
-  !> Newton's steps of the time to where A (1-u^2) = 2 u radius D', from a guess.
-  pure subroutine meet_edge(grid, path, u, before, time, motion, failed)
+  !> The motion, with dashpot, at two times.
+  pure subroutine follow_path(path, x, depth, velocity, acceleration, radius)
+    type(path_type), intent(in) :: path
+    real(dp), intent(in) :: x(2)
+    real(dp), dimension(2), intent(out) :: depth, velocity, acceleration, radius
+    integer(ip) :: q
+    !$omp simd
+    do q = 1, 2
+      acceleration(q) = path%rest%start + x(q)*(path%rest%slope + x(q)*path%rest%bend)
+      velocity(q) = path%velocity + integrated(x(q), path%rest)
+      depth(q) = path%depth + x(q)*path%velocity + integrated_twice(x(q), path%rest)
+      radius(q) = sqrt(max(depth(q), tiny(1.0_dp)))
+    end do
+    if (path%drag > 0) then
+      do q = 1, 2
+        depth(q) = depth(q) - integrated(x(q), path%cubes)
+        radius(q) = sqrt(max(depth(q), tiny(1.0_dp)))
+        velocity(q) = velocity(q) - (2.0_dp/3.0_dp)*path%drag*(depth(q)*radius(q) - path%cubed)
+        acceleration(q) = acceleration(q) - path%drag*radius(q)*velocity(q)
+      end do
+    end if
+  end subroutine follow_path
+
+  !> Newton's steps of two times t(1:2) to where A (1-u^2) = 2 u radius D', from a guess. `width`: du/dj, then dA/dj: along the
+  !> grid dA/du follows with rho^2 = (A/radius)^2 + D'^2 (see grid_type).
+  pure subroutine meet_edge(grid, path, u, t, d, v, a, width, failed)
     type(grid_type), intent(in) :: grid
     type(path_type), intent(in) :: path
-    real(dp), intent(in) :: u, before  !! before: time of the level before, on the path
-    real(dp), intent(inout) :: time
-    type(motion_type), intent(out) :: motion
+    real(dp), intent(in) :: u(2)
+    real(dp), intent(inout) :: t(0:2), width(2)
+    real(dp), dimension(2), intent(out) :: d, v, a
     logical, intent(out) :: failed
-    real(dp) :: cosine, sine, miss, dx, h
-    integer(ip) :: i
+    real(dp), dimension(2) :: acceleration, cosine, sine, dx, h
+    real(dp) :: miss, part, rho
+    integer(ip) :: i, q
     cosine = (1 - u)*(1 + u)
     sine = 2*u*grid%radius
-    failed = .true.
     do i = 1, most_steps
-      h = time - before
-      motion = on_path(path, time)
-      miss = motion%radius*cosine - sine*motion%velocity
-      dx = -miss/(motion%velocity/(2*motion%radius)*cosine - sine*motion%acceleration)
-      dx = max(-0.5_dp*h, min(h, dx))
-      if (abs(miss) <= rounding*sine) dx = 0
-      failed = .not. abs(dx) <= sharpness*h
+      h = t(1:2) - t(0:1)
+      call follow_path(path, t(1:2), d, v, acceleration, a)
+      !$omp simd private(miss)
+      do q = 1, 2
+        miss = a(q)*cosine(q) - sine(q)*v(q)
+        dx(q) = -2*a(q)*miss/(v(q)*cosine(q) - 2*a(q)*sine(q)*acceleration(q))
+        dx(q) = max(-0.5_dp*h(q), min(h(q), dx(q)))
+        dx(q) = merge(0.0_dp, dx(q), abs(miss) <= rounding*sine(q))
+      end do
+      failed = .not. (abs(dx(1)) <= sharpness*h(1) .and. abs(dx(2)) <= sharpness*h(2))
       if (.not. failed) exit
-      time = time + dx
+      t(1:2) = t(1:2) + dx
     end do
-    motion%depth = max(motion%depth + dx*(motion%velocity + dx/2*motion%acceleration), tiny(1.0_dp))
-    motion%acceleration = motion%acceleration + path%drag*motion%radius*motion%velocity &
-                          + dx*(path%rest%slope + path%rest%bend*(2*time - path%rest%middle))
-    motion%velocity = motion%velocity + dx*(motion%acceleration - path%drag*motion%radius*motion%velocity)
-    motion%radius = sqrt(motion%depth)
-    motion%acceleration = motion%acceleration - path%drag*motion%radius*motion%velocity
-    time = time + dx
+    !$omp simd private(part, rho)
+    do q = 1, 2
+      part = dx(q)*(path%rest%slope + (2*t(q) + dx(q))*path%rest%bend)
+      part = acceleration(q) + path%drag*a(q)*v(q) + part
+      d(q) = max(d(q) + dx(q)*(v(q) + 0.5_dp*dx(q)*acceleration(q)), tiny(1.0_dp))
+      v(q) = v(q) + dx(q)*(part - path%drag*a(q)*v(q))
+      a(q) = sqrt(d(q))
+      acceleration(q) = part - path%drag*a(q)*v(q)
+      t(q) = t(q) + dx(q)
+      rho = 1/(1 + u(q)*u(q))
+      cosine(q) = cosine(q)*rho
+      sine(q) = sine(q)*rho
+      width(q) = width(q)*(a(q)*sine(q) + grid%radius**2*v(q)*cosine(q))*cosine(q)*2*rho &
+                 /(grid%radius*(cosine(q)**2 - 2*sine(q)**2*acceleration(q)))
+    end do
   end subroutine meet_edge
 
-  !> dA/du along the grid, with rho^2 = (A/radius)^2 + D'^2 (see grid_type).
-  pure function edge_advance(grid, u, motion) result(slope)
-    type(grid_type), intent(in) :: grid
-    real(dp), intent(in) :: u
-    type(motion_type), intent(in) :: motion
-    real(dp) :: slope, cosine, sine, rho
-    cosine = (1 - u)*(1 + u)/(1 + u*u)
-    sine = 2*u/(1 + u*u)
-    rho = sqrt((motion%radius/grid%radius)**2 + motion%velocity**2)
-    slope = rho*cosine/(2*grid%radius)/(cosine**2/(2*grid%radius**2) - sine**2*motion%acceleration)*2/(1 + u*u)
-  end function edge_advance
-
-  !> Time of the i-th of 2 r new levels since the start of a panel, by the parabola; after first touch, where it is a square, by
-  !> that times a line.
-  pure function between(coarse, i, r) result(time)
-    type(level_type), intent(in) :: coarse(0:2)
-    integer(ip), intent(in) :: i, r
-    real(dp) :: time, y, x(2)
-    y = real(i, dp)/real(r, dp)
-    x = [coarse(1)%step, coarse(1)%step + coarse(2)%step]
+  !> Differences of the times of a panel since its start, for the cubic through them and the level before, or the one after if that
+  !> is of another phase; after first touch, where times are a square, of them over the square of their numbers.
+  pure function spread_of(coarse, p) result(spread)
+    type(level_type), intent(in) :: coarse(0:)  !! up to 3 if p is 0
+    integer(ip), intent(in) :: p                !! the panel is so many levels behind the start of its phase
+    real(dp) :: spread(3), third
     if (coarse(0)%depth > 0) then
-      time = y*(x(1) + (y - 1)/2*(x(2) - 2*x(1)))
+      if (p > 0) third = coarse(2)%step - 2*coarse(1)%step + coarse(0)%step
+      if (p == 0) third = coarse(3)%step - 2*coarse(2)%step + coarse(1)%step
+      spread = [coarse(1)%step, (coarse(2)%step - coarse(1)%step)*0.5_dp, third*(1.0_dp/6.0_dp)]
     else
-      time = y*y*(x(1) + (y - 1)*(x(2)/4 - x(1)))
+      spread(1) = coarse(1)%time
+      spread(2) = coarse(2)%time*0.25_dp - coarse(1)%time
+      spread(3) = (coarse(3)%time*(1.0_dp/9.0_dp) - coarse(2)%time*0.5_dp + coarse(1)%time)*0.5_dp
     end if
+  end function spread_of
+
+  !> Time since the start of the panel at y levels behind it. start: 0 at first touch.
+  pure function between(start, spread, y) result(time)
+    integer(ip), intent(in) :: start
+    real(dp), intent(in) :: spread(3), y
+    real(dp) :: time
+    time = spread(1) + (y - 1)*(spread(2) + (y - 2)*spread(3))
+    if (start > 0) time = y*time
+    if (start == 0) time = y*y*time
   end function between
 
   pure subroutine fade_in_step(g, tau, h, trace)
@@ -377,4 +441,20 @@ contains
     trace%from_end = g*h*m%phi2
     trace%from_bend = g*h*h*h*(2*m%phi3 - m%phi2)
   end subroutine note_step
+
+  pure subroutine fade_in_steps(g, tau, h, trace)
+    real(dp), intent(in) :: g, tau, h(2)
+    type(trace_type), intent(out) :: trace(2)
+    type(memory_pair_type) :: m
+    real(dp) :: gh
+    integer(ip) :: q
+    call remember_pair(h/tau, m)
+    do q = 1, 2
+      gh = g*h(q)
+      trace(q)%decay = m%decay(q)
+      trace(q)%from_start = gh*(m%phi1(q) - m%phi2(q))
+      trace(q)%from_end = gh*m%phi2(q)
+      trace(q)%from_bend = gh*h(q)*h(q)*(2*m%phi3(q) - m%phi2(q))
+    end do
+  end subroutine fade_in_steps
 end module rst_sync_dense

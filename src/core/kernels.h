@@ -128,14 +128,15 @@ double rst_likely_depth(double g_inf, double eta, int64_t n_terms, const double 
 void rst_choose_grid(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                      struct sync_grid *grid);
 void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
-                       const double *tau, int64_t n, double closeness, struct sync_level *level, double *memory,
-                       double *loading, struct sync_node *node, int64_t *failed);
+                       const double *tau, int64_t n, double closeness, int64_t guessed, struct sync_level *level,
+                       double *memory, double *loading, struct sync_node *node, int64_t *failed);
+void rst_double_levels(int64_t n, struct sync_level *level);
 void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
                       const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
                       struct sync_level *level, struct sync_trace *trace, struct sync_node *node, int64_t *failed);
-void rst_thin_levels(int64_t n_terms, const double *g, const double *tau, int64_t n, const struct sync_level *level,
-                     const struct sync_trace *trace, const struct sync_node *node, struct sync_level *thin_level,
-                     struct sync_trace *thin_trace, struct sync_node *thin_node);
+void rst_thin_levels(int64_t n_terms, int64_t n, const struct sync_level *level, const struct sync_trace *trace,
+                     const struct sync_node *node, struct sync_level *thin_level, struct sync_trace *thin_trace,
+                     struct sync_node *thin_node);
 void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
                        const struct sync_node *node, struct sync_level *level);
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,

@@ -89,8 +89,8 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
                           "iterations do not settle between %lld levels; take the method euler for this solid",
                           (long long)normal->levels);
     for (int k = 1; k < count; k++)
-        rst_thin_levels(s->n_terms, s->g, s->tau, rung[k].levels, rung[k - 1].level, rung[k - 1].trace,
-                        rung[k - 1].node, rung[k].level, rung[k].trace, rung[k].node);
+        rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
+                        rung[k].level, rung[k].trace, rung[k].node);
     for (int k = first; k < count; k++)
         rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
     return RESTITUTE_OK;

@@ -23,6 +23,10 @@ static const double left_in_levels = 0.3;
 /* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
 static const double closeness = 0.002, rounding = 1e-12;
 
+/* So many times less close are the first two runs: no result rests on them but by a small part of what they change, and the next
+ * run, which they guess for. */
+static const double slack_of_first_runs[] = {10, 3};
+
 /* The levels of the tangential problem are denser, and n of them move the edge by n^-2 at the turning point: what is
  * left unfinished is to be less than this part of it. */
 static const double unevenness = 1e-3;
@@ -138,8 +142,13 @@ size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
            doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
 }
 
-/* One run, on the shelf, which has room. Nonzero if iterations do not settle. */
-static int run(const struct rst_problem *problem, const struct rst_shelf *shelf, int64_t levels, struct normal *normal)
+/* A run with half as many levels as that is too coarse to guess from. */
+enum { least_doubled = 8 };
+
+/* One run, on the shelf, which has room. guessed: the run with half the levels is there. Nonzero if iterations do not
+ * settle. */
+static int run(const struct rst_problem *problem, const struct rst_shelf *shelf, int64_t levels, int guessed,
+               double slack, struct normal *normal)
 {
     const struct rst_solid *s = &problem->solid;
     const size_t n = (size_t)levels, m = (size_t)s->n_terms;
@@ -150,8 +159,9 @@ static int run(const struct rst_problem *problem, const struct rst_shelf *shelf,
     int64_t failed;
     memo->known = 0;
     memo->kept = (struct kept){0};
-    rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels, rst_sync_closeness(problem),
-                      level, memory, loading, node, &failed);
+    if (guessed) rst_double_levels(levels / 2, level);
+    rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels,
+                      slack * rst_sync_closeness(problem), guessed, level, memory, loading, node, &failed);
     normal->level = level;
     normal->levels = levels;
     normal->updates += 2 * levels;
@@ -192,7 +202,7 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
     struct rst_shelf *shelf = &workspace->spare;
     int status = choose_grid(problem, normal, error);
     if (!status) status = make_room(problem, shelf, levels, error);
-    if (!status && run(problem, shelf, levels, normal)) normal->levels = 0;
+    if (!status && run(problem, shelf, levels, 0, 1, normal)) normal->levels = 0;
     return status;
 }
 
@@ -243,7 +253,8 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
         if (normal->ahead > problem->max_updates) break;
         status = make_room(problem, shelf, n, error);
         if (status) return status;
-        if (run(problem, shelf, n, normal)) {
+        const double slack = series.count < 2 ? slack_of_first_runs[series.count] : 1;
+        if (run(problem, shelf, n, series.count > 0 && n >= least_doubled, slack, normal)) {
             series.count = 0;
             continue;
         }
@@ -255,7 +266,7 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
         }
     }
     if (found > 0 && normal->levels != found)
-        run(problem, shelf, found, normal); /* the last one has spoilt the levels */
+        run(problem, shelf, found, 0, 1, normal); /* the last one has spoilt the levels */
     normal->levels = found;
     return RESTITUTE_OK;
 }

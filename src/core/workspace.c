@@ -28,9 +28,13 @@ int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
 
 int rst_shelf_levels(struct rst_shelf *shelf, size_t count)
 {
-    const size_t before = shelf->levels_size;
-    if (grow(&shelf->levels, &shelf->levels_size, count)) return 1;
-    if (shelf->levels_size > before) shelf->levels[0] = 0;
+    if (count <= shelf->levels_size) return 0;
+    if (count > SIZE_MAX / sizeof(double)) return 1;
+    double *larger = realloc(shelf->levels, count * sizeof(double));
+    if (!larger) return 1;
+    larger[0] = 0;
+    shelf->levels = larger;
+    shelf->levels_size = count;
     return 0;
 }
 

@@ -33,8 +33,8 @@ struct rst_workspace {
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 
-/* Room for `count` doubles of element data; on a shelf, of levels, the first of which is 0 in new room, and of dense
- * levels. Nonzero: out of memory, the old contents are kept. */
+/* Room for `count` doubles of element data; on a shelf, of levels, where new room keeps what the old had but the first
+ * of them, which is 0, and of dense levels. Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count);
 int rst_shelf_levels(struct rst_shelf *shelf, size_t count);
 int rst_shelf_dense(struct rst_shelf *shelf, size_t count);
