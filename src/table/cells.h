@@ -30,7 +30,7 @@ struct rst_pull {
     int64_t cell;
 };
 
-enum { rst_most_pulls = 3, rst_most_in_vain = 12 };
+enum { rst_most_pulls = 3, rst_most_in_vain = 8 };
 
 struct rst_cell {
     struct rst_leaf at;
