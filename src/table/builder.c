@@ -11,7 +11,7 @@
  * no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
-/* Of one impact of a table with cells, about a thousand levels: a few that hardly rebound would take a thousand times the usual work, and tell
+/* Of one impact at a node of a cell, about a thousand levels: a few that hardly rebound would take a thousand times the usual work, and tell
  * by their estimates that they did not. */
 static const int64_t most_updates = 3000000;
 
@@ -288,7 +288,7 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
     const double for_checks = (b->cells ? part_for_cell_checks : part_for_checks) * b->options.tolerance;
     const double for_filling = b->part ? b->later_tolerance : b->filling_tolerance;
     options.tolerance = fmax(1e-8, b->stage == RST_CHECKING ? for_checks : for_filling);
-    if (b->cells) options.max_updates = most_updates;
+    if (b->cells && b->stage != RST_CHECKING) options.max_updates = most_updates;
     const size_t n = (size_t)p->count;
     int status =
         p->scenes ? restitute_solve_scenes(&options, n, p->scenes, p->results, p->statuses, b->options.threads, error)

@@ -6,16 +6,16 @@
 #include <stdlib.h>
 
 /* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 0.9;
+static const double part_for_rebound = 0.15, part_for_tangent = 0.7;
 
 /* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors, which are up
  * to several times its estimates in a few corners, must not be taken for that; a little more closely where the sphere has just begun to
  * rebound. */
-static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.25, part_for_close_nodes = 0.2;
+static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.3, part_for_close_nodes = 0.2;
 static const double begins_to_rebound = 0.3, hardly_rebounds = 0.04; /* w, ez */
 
 /* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few cells, and that of ex rests on it. */
-enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 4 };
+enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 8 };
 
 /* Rounds of checks that may fail, and tables whose seams may tell before the checks do. */
 enum { most_rounds = 12, most_seam_rounds = 2 };
