@@ -160,15 +160,16 @@ struct pair_functions {
      .cross = (f)[2][x] * (f)[2][y]}
 #define CHOOSE __builtin_shufflevector
 
-/* Sums over functions of w and gamma, for one of psi and chi after the other. */
+/* Sums over functions of w and gamma, for one of psi and chi after the other; those that every one of these has in three parts, since
+ * additions wait for each other. */
 struct sums {
-    four ends, middles, quarters[2];
+    four ends[3], middles, quarters[2];
 };
 
 static inline const float *add_level_0(const float *c, four value, struct sums *sum)
 {
     const four_kept *v = (const four_kept *)(const void *)c;
-    sum->ends += value * v[0];
+    sum->ends[0] += value * v[0];
     sum->middles += value * v[1];
     sum->quarters[0] += value * v[2];
     sum->quarters[1] += value * v[3];
@@ -178,14 +179,14 @@ static inline const float *add_level_0(const float *c, four value, struct sums *
 static inline const float *add_level_1(const float *c, four value, struct sums *sum)
 {
     const four_kept *v = (const four_kept *)(const void *)c;
-    sum->ends += value * v[0];
+    sum->ends[0] += value * v[0];
     sum->middles += value * v[1];
     return c + 8;
 }
 
-static inline const float *add_level_2(const float *c, four value, struct sums *sum)
+static inline const float *add_level_2(const float *c, four value, four *sum)
 {
-    sum->ends += value * *(const four_kept *)(const void *)c;
+    *sum += value * *(const four_kept *)(const void *)c;
     return c + 4;
 }
 
@@ -196,7 +197,7 @@ static inline four all(float x)
 
 static inline double add_up(const struct sums *sum, const struct pair_functions *first, float last)
 {
-    const four total = (first->ends * sum->ends + first->middles * sum->middles) +
+    const four total = (first->ends * (sum->ends[0] + (sum->ends[1] + sum->ends[2])) + first->middles * sum->middles) +
                        (first->quarters[0] * sum->quarters[0] + first->quarters[1] * sum->quarters[1]);
     return (double)(((total[0] + total[1]) + (total[2] + total[3])) + first->cross * last);
 }
@@ -205,7 +206,7 @@ static inline double add_up(const struct sums *sum, const struct pair_functions 
 static inline double sum_cell(const float *c, four f[rst_places])
 {
     const struct pair_functions first = PAIR_OF(f, 2, 3), second = PAIR_OF(f, 0, 1);
-    struct sums sum = {{0}, {0}, {{0}, {0}}};
+    struct sums sum = {{{0}, {0}, {0}}, {0}, {{0}, {0}}};
     for (int i = 0; i < 4; i++)
         c = add_level_0(c, all(second.ends[i]), &sum);
     const four last = second.ends * *(const four_kept *)(const void *)c;
@@ -213,10 +214,10 @@ static inline double sum_cell(const float *c, four f[rst_places])
     for (int i = 0; i < 4; i++)
         c = add_level_1(c, all(second.middles[i]), &sum);
     for (int i = 0; i < 4; i++)
-        c = add_level_2(c, all(second.quarters[0][i]), &sum);
+        c = add_level_2(c, all(second.quarters[0][i]), &sum.ends[1]);
     for (int i = 0; i < 4; i++)
-        c = add_level_2(c, all(second.quarters[1][i]), &sum);
-    add_level_2(c, all(second.cross), &sum);
+        c = add_level_2(c, all(second.quarters[1][i]), &sum.ends[2]);
+    add_level_2(c, all(second.cross), &sum.ends[1]);
     return add_up(&sum, &first, (last[0] + last[1]) + (last[2] + last[3]));
 }
 
@@ -224,13 +225,13 @@ static inline double sum_cell(const float *c, four f[rst_places])
 static inline double sum_cell_without_chi(const float *c, four f[rst_places])
 {
     const struct pair_functions first = PAIR_OF(f, 2, 3);
-    struct sums sum = {{0}, {0}, {{0}, {0}}};
+    struct sums sum = {{{0}, {0}, {0}}, {0}, {{0}, {0}}};
     c = add_level_0(c, all(f[0][0]), &sum);
     c = add_level_0(c, all(f[4][0]), &sum);
     const float last = f[0][0] * c[0] + f[4][0] * c[1];
     c = add_level_1(c + 2, all(f[2][0]), &sum);
-    c = add_level_2(c, all(f[1][0]), &sum);
-    add_level_2(c, all(f[3][0]), &sum);
+    c = add_level_2(c, all(f[1][0]), &sum.ends[1]);
+    add_level_2(c, all(f[3][0]), &sum.ends[2]);
     return add_up(&sum, &first, last);
 }
 
@@ -285,7 +286,7 @@ evaluate_cells(const restitute_table *t, double speed, double gamma, double chi,
     const int64_t sheet = rst_sheet_find(sliding, v_n, critical - 1, &psi, &y, &quotient);
     const double by_chi = t->n_chi > 1 ? clamp((chi - t->chi_low) / (t->chi_high - t->chi_low), 0, rst_below_one) : 0;
     const double kept = tangential_in_cell(t, &spot, by_chi, sheet, psi);
-    pair->ex = clamp((kept + y * ez) * rst_choose(sheet > 0, quotient, 1), -1, 1); /* y is 0 up to psi = 1 */
+    pair->ex = clamp((kept + y * ez) * quotient, -1, 1);
 }
 
 /* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */

@@ -244,33 +244,26 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
 /* r(1/2) */
 static const double rst_largest_r = 0.6916543936097672;
 
-/* One of two numbers; which one cannot be foreseen, and a wrong guess of the processor is dearer than both. */
-static inline double rst_choose(int first, double a, double b)
-{
-    int64_t x, y;
-    memcpy(&x, &a, sizeof x);
-    memcpy(&y, &b, sizeof y);
-    const int64_t mask = -(int64_t)first;
-    x = (x & mask) | (y & ~mask);
-    memcpy(&a, &x, sizeof a);
-    return a;
-}
-
-/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y and `quotient` as of rst_side. The
- * sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Without a branch. */
+/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y, and what the kept value is times: 1, and
+ * 1/psi beyond psi = 1. The sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. What follows waits for the
+ * place, so a guess of the side is faster than both sides, even if every other one is wrong. */
 static inline int64_t rst_sheet_find(double sliding, double v_n, double width, double *place, double *y,
                                      double *quotient)
 {
-    const double beyond = sliding - v_n, distance = fabs(beyond), most = width * v_n + rst_least;
-    const double ratio = 0.5 * (beyond + distance) / most;
-    *y = ratio < 1 ? ratio : 1;
-    const double root = sqrt((0.5 + rst_soft * rst_soft) - fabs(*y - 0.5)) - rst_soft;
-    const double quarters = root * (0.5 * rst_slip_sheets / rst_largest_r);
-    const double half = 0.5 * rst_slip_sheets, on_slip_side = (1 + half) - copysign(half - quarters, 0.5 - *y);
-    const double highest = 5 * rst_below_one;
-    const double larger = 0.5 * ((sliding + v_n) + distance), smaller = 0.5 * ((sliding + v_n) - distance);
-    *quotient = smaller / (larger + rst_least);
-    const double u = rst_choose(sliding > v_n, on_slip_side < highest ? on_slip_side : highest, *quotient * rst_below_one);
+    double u;
+    if (sliding > v_n) {
+        const double ratio = (sliding - v_n) / (width * v_n + rst_least), half = 0.5 * rst_slip_sheets;
+        *y = ratio < 1 ? ratio : 1;
+        const double root = sqrt((0.5 + rst_soft * rst_soft) - fabs(*y - 0.5)) - rst_soft;
+        const double on_slip_side = (1 + half) - copysign(half - root * (half / rst_largest_r), 0.5 - *y);
+        const double highest = 5 * rst_below_one;
+        u = on_slip_side < highest ? on_slip_side : highest;
+        *quotient = v_n / sliding;
+    } else {
+        *y = 0;
+        *quotient = 1;
+        u = sliding / (v_n + rst_least) * rst_below_one;
+    }
     const int64_t sheet = (int64_t)u;
     *place = u - (double)sheet;
     return sheet;
