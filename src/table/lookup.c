@@ -151,6 +151,8 @@ struct pair_functions {
     float cross;
 };
 
+#define CHOOSE __builtin_shufflevector
+
 /* f: functions of four axes by place; of which x and y are two. */
 #define PAIR_OF(f, x, y)                                                                                               \
     {.ends = CHOOSE((f)[0], (f)[4], x, x, 4 + x, 4 + x) * CHOOSE((f)[0], (f)[4], y, 4 + y, y, 4 + y),                  \
@@ -158,7 +160,6 @@ struct pair_functions {
      .quarters = {CHOOSE((f)[1], (f)[3], x, x, 4 + x, 4 + x) * CHOOSE((f)[0], (f)[4], y, 4 + y, y, 4 + y),             \
                   CHOOSE((f)[1], (f)[3], y, y, 4 + y, 4 + y) * CHOOSE((f)[0], (f)[4], x, 4 + x, x, 4 + x)},            \
      .cross = (f)[2][x] * (f)[2][y]}
-#define CHOOSE __builtin_shufflevector
 
 /* Sums over functions of w and gamma, for one of psi and chi after the other; those that every one of these has in three parts, since
  * additions wait for each other. */
