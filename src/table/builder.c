@@ -11,7 +11,7 @@
  * no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
-/* Of one impact at a node of a cell, about a thousand levels: a few that hardly rebound would take a thousand times the usual work, and tell
+/* Of one impact at a node of a cell, about a thousand levels: a few that hardly rebound would take a hundred times the usual work, and tell
  * by their estimates that they did not. */
 static const int64_t most_updates = 3000000;
 

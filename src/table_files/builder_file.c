@@ -7,7 +7,7 @@
 
 static const char title[] = "unfinished table";
 
-/* Builders of schema 1 asked for other impacts. */
+/* Builders of earlier schemas asked for other impacts. */
 enum { oldest_schema = 3 };
 
 static int write_journal(const restitute_table_builder *builder, const char *settings, const char *path,
