@@ -7,4 +7,7 @@
 #include "sync_elements.f90"
 #include "sync_quadrature.f90"
 #include "sync_edge.f90"
+#include "sync_point.f90"
+#include "sync_hinge.f90"
+#include "sync_front.f90"
 #include "sync_shear.f90"

@@ -23,6 +23,7 @@ module rst_sync_shear
                                column_weight, column_alpha, column_kappa
   use rst_sync_quadrature, only: starting_weights, parabolic_weights
   use rst_sync_edge, only: weight_of, shear_force, find_front
+  use rst_sync_front, only: follow_front
   use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_bend, cubic_integral, cubic_root
   implicit none (type, external)
   private
@@ -51,17 +52,30 @@ contains
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
-    integer(ip) :: k
     call place_nodes(scene, node, body, beta, faded)
+    call first_stick(scene, g, tau, level, trace, term, state)
+    state%passive_weight = body(0, column_weight)
+    if (state%time > 0) call stick_together(scene, state%level, tau, level, trace, body, beta, term, state)
+  end subroutine start_shear
+
+  !> At first touch, or where gross slip ends.
+  pure subroutine first_stick(scene, g, tau, level, trace, term, state)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(term_type), intent(inout) :: term(scene%n_terms)
+    type(shear_type), intent(out) :: state
+    integer(ip) :: k
     state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
                        step_before=0, force_before=0, normal_before=0, slope=0, known=0, &
-                       passive_weight=body(0, column_weight), passive_alpha=0, &
+                       passive_weight=0, passive_alpha=0, &
                        level=0, first=1, front=0, updates=0)
     do k = 1, scene%n_terms
       term(k) = term_type(0, 0, 0, 0, 0, 0, 0, 0, 0, 1)  ! the passive node 0 is entered now
     end do
-    if (scene%psi > 1 .and. scene%no_slip == 0) call end_gross_slip(scene, g, tau, level, trace, body, beta, term, state)
-  end subroutine start_shear
+    if (scene%psi > 1 .and. scene%no_slip == 0) call end_gross_slip(scene, g, tau, level, trace, term, state)
+  end subroutine first_stick
 
   !> From state%level to the next level.
   subroutine advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
@@ -92,7 +106,7 @@ contains
     if (next < scene%n) call enter_node(scene, edge, level(next)%velocity, trace(:, next), body, beta, faded, term, state)
   end subroutine advance_shear
 
-  !> One impact to its end; state%velocity is U' then.
+  !> One impact to its end; state%velocity is U' then. Without elements, if slip stays behind one front.
   subroutine follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
     type(scene_type), intent(in) :: scene
     procedure(element_loop) :: elements
@@ -104,6 +118,12 @@ contains
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
+    logical :: holds
+    if (scene%no_slip == 0) then
+      call first_stick(scene, g, tau, level, trace, term, state)
+      call follow_front(scene, g, tau, level, trace, node, term, body(:, column_alpha), beta, state, holds)
+      if (holds) return
+    end if
     call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     do while (state%level < 2*scene%n)
       call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
@@ -127,13 +147,11 @@ contains
   end subroutine place_nodes
 
   !> psi > 1: all elements stick at once when D' = (2 chi - psi)/(2 chi - 1), with q = f (THEORY 4.3).
-  pure subroutine end_gross_slip(scene, g, tau, level, trace, body, beta, term, state)
+  pure subroutine end_gross_slip(scene, g, tau, level, trace, term, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
-    real(dp), intent(inout) :: body(0:scene%capacity - 1, columns)
-    real(dp), intent(inout) :: beta(0:scene%capacity - 1, scene%n_terms)
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(inout) :: state
     type(cubic_type) :: velocity
@@ -171,7 +189,6 @@ contains
       term(k)%stress = m%decay*trace(k, l)%memory + g(k)*h*(level(l)%velocity*(m%phi1 - m%phi2) + target*m%phi2 &
                                                       + bend*h*h*(2*m%phi3 - m%phi2))
     end do
-    call stick_together(scene, l, tau, level, trace, body, beta, term, state)
   end subroutine end_gross_slip
 
   !> All elements in contact after the level l become passive, with q = f.

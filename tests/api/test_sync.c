@@ -87,7 +87,7 @@ static void work_that_is_not_allowed_is_not_done(void **state)
     (void)state;
     for (int64_t most = 1; status != RESTITUTE_OK; most *= 2) {
         restitute_options options = sync_to(1e-5);
-        restitute_impact impact = impact_of(1000, 0.01, 1, 1);
+        restitute_impact impact = impact_of(1000, 0.5, 1, 1);
         restitute_solver *solver;
         restitute_result r;
         restitute_error error;

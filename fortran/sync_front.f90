@@ -1,0 +1,600 @@
+!> The tangential problem of the method `sync` behind one front, without stepping elements.
+!>
+!> In most impacts all that is in contact sticks at first; then slip sets in at the edge, in one direction, and its front moves
+!> inwards until all slips or contact ends. An element that sticks has q = Q - alpha - sum_k e_k beta_k with what it was given at its
+!> entry and e_k = exp(-(s-t_X)/tau_k) (module rst_sync_shear); one that slips has q = -d f, d = 1 or -1. So with the slack
+!>   y = f + d q = f_0 + d Q - (G_inf X^2 + d alpha) - sum_k e_k (M_k + d beta_k),   f_0 = f + G_inf X^2 of an unfading element,
+!> smooth in X and zero at the front c, S = int q dX = d (H - int f dX) with H = int_0^c y dX. Sums over the nodes that stick give it,
+!> and a node is taken off them when the front passes. From the onset of slip on, alpha and beta stand for G_inf X^2 + d alpha
+!> and M_k + d beta_k.
+!>
+!> Slip velocities, over d, are highest for the element that slipped last: relaxation functions are convex in logarithm, so
+!> what an element has gone through before it slipped fades the more slowly the older it is. That element, the sentinel, is
+!> stepped, and as long as it goes on slipping, all do. If it does not, `holds` is false: elements have to be stepped.
+module rst_sync_front
+  use rst_precision, only: dp, ip
+  use rst_sync_levels, only: level_type, node_type, mass_factor
+  use rst_sync_dense, only: trace_type
+  use rst_sync_elements, only: scene_type, shear_type, term_type
+  use rst_sync_quadrature, only: starting_weights
+  use rst_sync_edge, only: weight_of
+  use rst_sync_point, only: point_type, span_type, fade_type, measure_span, weigh_span, note_span, slack_at
+  use rst_sync_hinge, only: hinge, beyond, root_left_out
+  implicit none (type, external)
+  private
+  public :: follow_front
+
+  real(dp), parameter :: explicit_below = 0.2_dp   !! feedback of a step below which one evaluation is enough
+  real(dp), parameter :: close_enough = 1.0e-13_dp !! of a force, where there are more
+  integer(ip), parameter :: most_trials = 20
+  !> Part of the slack at the start of a step below which the end of stick, where H has a root, is near.
+  real(dp), parameter :: end_is_near = 0.85_dp
+
+  !> The sentinel: its alpha and slip velocity; node -1: none.
+  type :: guard_type
+    real(dp) :: alpha, kappa
+    integer(ip) :: node
+  end type guard_type
+
+  !> How U' at the end of a step follows from S there: rest - push weight(0) S. timely: weights for the part 1 - reach of the force.
+  type :: rule_type
+    real(dp) :: push, rest, weight(0:3), timely(0:3), reach, feedback
+  end type rule_type
+
+  !> At the end of a step: velocity, its bend in the step, y at the centre, S.
+  type :: end_type
+    real(dp) :: velocity, bend, slack, force
+  end type end_type
+
+contains
+
+  !> From the first stick, at `state`, to the end; state%velocity is U' then, if `holds`.
+  subroutine follow_front(scene, g, tau, level, trace, node, term, alpha, beta, state, holds)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    type(term_type), intent(in) :: term(scene%n_terms)
+    real(dp), intent(out) :: alpha(0:scene%n), beta(scene%n_terms, 0:scene%n)  !! of the nodes at their entry
+    type(shear_type), intent(inout) :: state
+    logical, intent(out) :: holds
+    select case (scene%n_terms) ! compilers make code for none and one
+    case (0)
+      call walk(0_ip, scene, g, tau, level, trace, node, term, alpha, beta, state, holds)
+    case (1)
+      call walk(1_ip, scene, g, tau, level, trace, node, term, alpha, beta, state, holds)
+    case default
+      call walk(scene%n_terms, scene, g, tau, level, trace, node, term, alpha, beta, state, holds)
+    end select
+  end subroutine follow_front
+
+  subroutine walk(m, scene, g, tau, level, trace, node, start, alpha, beta, state, holds)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(m), tau(m)
+    type(trace_type), intent(in) :: trace(m, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    type(term_type), intent(in) :: start(m)
+    real(dp), intent(out) :: alpha(0:scene%n), beta(m, 0:scene%n)
+    type(shear_type), intent(inout) :: state
+    logical, intent(out) :: holds
+    type(point_type) :: p
+    type(guard_type) :: guard
+    type(fade_type) :: term(m)
+    call begin(m, scene, state, start%stress, p, term)
+    if (scene%psi > 1) then
+      call begin_together(m, scene, tau, level, trace, node, alpha, beta, p, term)
+    else ! the node 0 is touched
+      alpha(0) = 0
+      beta(:, 0) = 0
+      p%weight = weight_of(node, 0_ip)
+    end if
+    do while (.not. abs(p%side) > 0)
+      call stick_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term)
+    end do
+    holds = .true.
+    guard = guard_type(0.0_dp, 0.0_dp, -1_ip)
+    do while (p%level < 2*scene%n .and. holds)
+      if (p%front < 0) then
+        if (slips_on(scene, level(2*scene%n)%velocity, p, guard)) exit
+      end if
+      call front_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term, guard, holds)
+    end do
+    state%velocity = p%velocity
+    if (holds) state%velocity = p%velocity + 2*mass_factor*scene%chi*p%side*full_friction(scene%n, p%level, level)
+  end subroutine walk
+
+  !> At rest on the surface: no node sticks yet.
+  pure subroutine begin(m, scene, state, stress, p, term)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    type(shear_type), intent(in) :: state
+    real(dp), intent(in) :: stress(m)
+    type(point_type), intent(out) :: p
+    type(fade_type), intent(out) :: term(m)
+    p = point_type(time=state%time, shift=state%shift, velocity=state%velocity, force=state%force, force_before=0, step_before=0, &
+                   slope=state%slope, normal=state%force, normal_before=0, sinking=state%velocity, fresh=0, weight=0, alpha=0, &
+                   side=0, slack=0, slack_before=0, level=state%level, known=0, front=0)
+    if (.not. scene%psi > 1) p%sinking = 1
+    term = fade_type(0, 0, 0, 0, 0, 0, 0, 1, 0)
+    term%stress = stress
+  end subroutine begin
+
+  !> Gross slip ends: all elements in contact stick with q = f. Once the contact shrinks there is slip at the edge from now on.
+  pure subroutine begin_together(m, scene, tau, level, trace, node, alpha, beta, p, term)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: tau(m)
+    type(trace_type), intent(in) :: trace(m, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    integer(ip) :: k
+    p%front = min(p%level, 2*scene%n - p%level - 1)
+    alpha(0:p%front + 1) = scene%g_inf*node(0:p%front + 1)%radius**2
+    do k = 1, m
+      beta(k, 0:p%front + 1) = trace(k, 0:p%front + 1)%memory
+      term(k)%age = exp(-(p%time - level(p%front + 1)%time)/tau(k))
+      if (p%level < scene%n) term(k)%age = exp(-(p%time - level(p%front)%time)/tau(k))
+    end do
+    p%fresh = scene%g_inf*p%shift + scene%eta*p%velocity + sum(term%stress)
+    if (p%level < scene%n) then
+      call add_up(m, p%front, trace, node, alpha, beta, p, term)
+    else
+      p%side = 1
+      call speak_of_slack(m, p%front + 1, scene, trace, node, alpha, beta, p, term)
+    end if
+  end subroutine begin_together
+
+  !> Sums over the nodes that stick; age: of the node `last`, front or front + 1.
+  pure subroutine add_up(m, last, trace, node, alpha, beta, p, term)
+    integer(ip), intent(in) :: m, last
+    type(trace_type), intent(in) :: trace(m, 0:last)
+    type(node_type), intent(in) :: node(0:last)
+    real(dp), intent(in) :: alpha(0:last), beta(m, 0:last)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    real(dp) :: weight, age
+    integer(ip) :: i, k
+    p%weight = 0
+    p%alpha = 0
+    do i = 0, p%front
+      weight = weight_of(node, i)
+      p%weight = p%weight + weight
+      p%alpha = p%alpha + weight*alpha(i)
+    end do
+    do k = 1, m
+      age = term(k)%age
+      term(k)%sum = 0
+      do i = last, 0, -1
+        if (i <= p%front) term(k)%sum = term(k)%sum + weight_of(node, i)*age*beta(k, i)
+        age = age*trace(k, i)%decay
+      end do
+    end do
+  end subroutine add_up
+
+  !> From now on alpha and beta are those of the slack, for the side given; nodes 0 to last have been touched.
+  pure subroutine speak_of_slack(m, last, scene, trace, node, alpha, beta, p, term)
+    integer(ip), intent(in) :: m, last
+    type(scene_type), intent(in) :: scene
+    type(trace_type), intent(in) :: trace(m, 0:last)
+    type(node_type), intent(in) :: node(0:last)
+    real(dp), intent(inout) :: alpha(0:last), beta(m, 0:last)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    alpha = scene%g_inf*node%radius**2 + p%side*alpha
+    beta = trace%memory + p%side*beta
+    call add_up(m, last, trace, node, alpha, beta, p, term)
+    p%slack = slack_at(m, scene, p, term)
+    p%slack_before = 0
+  end subroutine speak_of_slack
+
+  !> A step of the compression in which all sticks; at its end the node at the edge is touched, and may slip.
+  pure subroutine stick_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(m), tau(m)
+    type(trace_type), intent(in) :: trace(m, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    type(span_type) :: span
+    real(dp) :: force, velocity, bend, weight
+    integer(ip) :: next, k
+    next = p%level + 1
+    call measure_span(m, scene, g, tau, level(p%level:next), trace(:, next), p, term, span)
+    call stick_force(m, scene, node(next)%radius, level(next), p, term, span, force, velocity, bend)
+    call note_span(m, scene, span, level(next), velocity, force, bend, p, term)
+    alpha(next) = scene%g_inf*p%shift
+    do k = 1, m
+      beta(k, next) = term(k)%stress
+      term(k)%age = 1
+    end do
+    if (abs(velocity) <= level(next)%velocity .and. next < scene%n) then
+      weight = weight_of(node, next)
+      p%front = next
+      p%weight = p%weight + weight
+      p%alpha = p%alpha + weight*alpha(next)
+      do k = 1, m
+        term(k)%sum = term(k)%sum + weight*beta(k, next)
+      end do
+    else
+      p%side = -sign(1.0_dp, velocity)
+      call speak_of_slack(m, next, scene, trace, node, alpha, beta, p, term)
+    end if
+  end subroutine stick_step
+
+  !> S at the end of the step: it is linear in the velocity there but for what the sum over nodes lacks (module rst_sync_edge).
+  pure subroutine stick_force(m, scene, radius, end, p, term, span, force, velocity, bend)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: radius  !! of the contact
+    type(level_type), intent(in) :: end
+    type(point_type), intent(in) :: p
+    type(fade_type), intent(in) :: term(m)
+    type(span_type), intent(in) :: span
+    real(dp), intent(out) :: force, velocity, bend
+    type(rule_type) :: rule
+    real(dp) :: guess, ratio, share, known
+    integer(ip) :: trial
+    rule = rule_of(scene, radius, 1.0_dp, end, span, p)
+    known = p%alpha + sum(term%sum)
+    guess = force_ahead(span%h, p)
+    do trial = 1, most_trials
+      velocity = rule%rest - rule%push*rule%weight(0)*guess
+      bend = -rule%push*(guess - p%force)/(2*span%h)
+      share = answer_of(rule, span)*p%weight
+      ratio = max(-1.0_dp, min(1.0_dp, velocity/max(end%velocity, tiny(1.0_dp))))
+      if (abs(ratio) < 1) share = share + rule%push*rule%weight(0)*end%missing/end%velocity
+      force = (span%base + span%end_response*velocity + span%bend_response*bend)*p%weight - known + ratio*end%missing
+      force = guess + (force - guess)/(1 + share)
+      if (rule%feedback < explicit_below .or. abs(force - guess) <= close_enough) exit
+      guess = force
+    end do
+    velocity = rule%rest - rule%push*rule%weight(0)*force
+    bend = -rule%push*(force - p%force)/(2*span%h)
+  end subroutine stick_force
+
+  !> By how much Q falls with the force at the end of the step.
+  pure function answer_of(rule, span) result(answer)
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    real(dp) :: answer
+    answer = rule%push*(rule%weight(0)*span%end_response + span%bend_response/(2*span%h))
+  end function answer_of
+
+  !> S goes on as in the step before.
+  pure function force_ahead(h, p) result(force)
+    real(dp), intent(in) :: h
+    type(point_type), intent(in) :: p
+    real(dp) :: force
+    force = p%force
+    if (p%known > 0) force = p%force + (p%force - p%force_before(1))*h/p%step_before(1)
+  end function force_ahead
+
+  !> Where little slips, S behaves like int f dX, and the weights are of the measure of time in which that is smooth; where much
+  !> does, S is smooth in time. reach: share of the former.
+  pure function rule_of(scene, radius, reach, end, span, p) result(rule)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: radius, reach  !! radius: of the contact
+    type(level_type), intent(in) :: end
+    type(span_type), intent(in) :: span
+    type(point_type), intent(in) :: p
+    type(rule_type) :: rule
+    real(dp) :: slope_weight, none
+    logical :: usually
+    rule%push = 2*mass_factor*scene%chi
+    rule%feedback = rule%push*span%h*span%end_response*radius
+    rule%reach = reach
+    call weigh_span(rule%feedback, scene%psi > 1, span, end%weight, p, rule%weight, slope_weight, usually)
+    rule%timely = rule%weight
+    if (usually .and. reach < 1) then
+      call starting_weights(2_ip, span%h, p%step_before, 0.0_dp, rule%timely, none)
+      rule%weight = reach*rule%weight + (1 - reach)*rule%timely
+    end if
+    rule%rest = p%velocity - rule%push*(slope_weight*p%slope + (rule%weight(1)*p%force + rule%weight(2)*p%force_before(1) &
+                                                                + rule%weight(3)*p%force_before(2)))
+  end function rule_of
+
+  !> A step with slip behind the front.
+  subroutine front_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term, guard, holds)
+    integer(ip), intent(in) :: m
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: g(m), tau(m)
+    type(trace_type), intent(in) :: trace(m, 0:2*scene%n)
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    type(node_type), intent(in) :: node(0:scene%n)
+    real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    type(guard_type), intent(inout) :: guard
+    logical, intent(out) :: holds
+    type(span_type) :: span
+    type(rule_type) :: rule
+    type(end_type) :: now
+    real(dp) :: reach
+    logical :: turns, stuck
+    integer(ip) :: next, edge, front_before, k
+    next = p%level + 1
+    edge = min(next, 2*scene%n - next)
+    call measure_span(m, scene, g, tau, level(p%level:next), trace(:, next), p, term, span)
+    stuck = p%front >= 0
+    reach = 1
+    if (p%front >= edge) call pass_node(m, node, trace, alpha, beta, p, term)
+    front_before = p%front
+    if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**16
+    rule = rule_of(scene, node(edge)%radius, reach, level(next), span, p)
+    call answer(m, scene, edge, next, level(next), trace(:, next)%fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+    if (turns) then
+      call turn_round(m, edge, scene, trace, node, alpha, beta, p, term)
+      guard%node = -1
+      call answer(m, scene, edge, next, level(next), trace(:, next)%fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+    end if
+    call step_guard(m, scene, span, p%front < front_before, edge, now%slack, alpha, beta, p, term, guard, holds)
+    call finish(stuck, next, scene%n, level, rule, span, p, now)
+    call note_span(m, scene, span, level(next), now%velocity, now%force, now%bend, p, term)
+    if (next <= scene%n) then
+      alpha(next) = scene%g_inf*(node(next)%radius**2 + p%side*p%shift)
+      do k = 1, m
+        beta(k, next) = trace(k, next)%memory + p%side*term(k)%stress
+        if (p%front == next - 1) term(k)%age = 1
+      end do
+    end if
+    if (p%side*p%velocity + p%sinking > 0) holds = .false. ! what is touched last would stick
+  end subroutine front_step
+
+  !> Velocity and bend from S at the end of the step.
+  pure subroutine finish(stuck, next, n, level, rule, span, p, now)
+    logical, intent(in) :: stuck  !! some of it, at the start of the step
+    integer(ip), intent(in) :: next, n
+    type(level_type), intent(in) :: level(0:2*n)
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    type(point_type), intent(in) :: p
+    type(end_type), intent(inout) :: now
+    real(dp) :: missing
+    if (p%front < 0) now%force = -p%side*level(next)%force
+    if (stuck) then
+      missing = 0
+      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) &
+        missing = (1 - rule%reach)*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      now%velocity = rule%rest - rule%push*(rule%weight(0)*now%force + p%side*missing)
+    else
+      now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)
+    end if
+    now%bend = -rule%push*(now%force - p%force)/(2*span%h)
+  end subroutine finish
+
+  !> int int f dX ds over the step that ends at the level l.
+  pure function friction_impulse(l, level) result(passed)
+    integer(ip), intent(in) :: l
+    type(level_type), intent(in) :: level(0:*)
+    real(dp) :: passed
+    passed = dot_product(level(l)%weight, level(l:l - 3:-1)%force)
+  end function friction_impulse
+
+  !> The same from a level to the end.
+  pure function full_friction(n, l, level) result(passed)
+    integer(ip), intent(in) :: n, l
+    type(level_type), intent(in) :: level(0:2*n)
+    real(dp) :: passed
+    integer(ip) :: i
+    passed = 0
+    do i = l + 1, 2*n
+      passed = passed + friction_impulse(i, level)
+    end do
+  end function full_friction
+
+  !> S at the end of the step, and the front. turns: all that slipped has left the contact, and the edge would slip the other way.
+  subroutine answer(m, scene, edge, next, end, fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+    integer(ip), intent(in) :: m, edge, next
+    type(scene_type), intent(in) :: scene
+    type(level_type), intent(in) :: end
+    real(dp), intent(in) :: fade(m)  !! what is left of what the node at the edge had at its entry
+    type(trace_type), intent(in) :: trace(m, 0:edge)
+    type(node_type), intent(in) :: node(0:edge)
+    real(dp), intent(in) :: alpha(0:edge), beta(m, 0:edge)
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    type(end_type), intent(out) :: now
+    logical, intent(out) :: turns
+    real(dp) :: guess, y(-2:1), at_edge, unseen
+    integer(ip) :: trial
+    turns = .false.
+    at_edge = 0
+    unseen = unseen_force(m, next <= scene%n, edge, scene, end, fade, trace, node)
+    call try(force_ahead(span%h, p))
+    if (p%front < 0) return
+    if (rule%feedback > explicit_below) call try(implied(0.0_dp))
+    do trial = 1, most_trials
+      if (next <= scene%n) at_edge = scene%eta*(p%side*now%velocity + end%velocity) ! touched now
+      call slacks(m, next <= scene%n .and. p%front == edge - 1, at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
+      turns = next > scene%n .and. p%front == edge - 1 .and. y(1) > 0
+      if (turns) return
+      do while (y(0) < 0)
+        call pass_node(m, node, trace, alpha, beta, p, term)
+        if (p%front < 0) return
+        call slacks(m, .false., at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
+      end do
+      guess = now%force
+      now%force = implied(hinge(p%front, node, y) + unseen*(node(p%front + 1)%radius/node(edge)%radius)**2)
+      if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough) exit
+      call try(now%force)
+    end do
+  contains
+
+    !> What a guess of S makes of the motion.
+    subroutine try(force)
+      real(dp), intent(in) :: force
+      now%force = force
+      now%velocity = rule%rest - rule%push*rule%weight(0)*force
+      now%bend = -rule%push*(force - p%force)/(2*span%h)
+      now%slack = end%fresh + p%side*(span%base + span%end_response*now%velocity + span%bend_response*now%bend)
+    end subroutine try
+
+    !> S from the sums and what they lack of H; it answers itself through the nodes that stick.
+    function implied(lack) result(force)
+      real(dp), intent(in) :: lack
+      real(dp) :: force
+      force = p%side*(now%slack*p%weight - p%alpha - sum(term%sum) + lack - end%force)
+      force = now%force + (force - now%force)/(1 + answer_of(rule, span)*p%weight)
+    end function implied
+  end subroutine answer
+
+  !> What the sum over nodes, with what `beyond` adds in the last cell, lacks of int f dX. Where the slipping ring is thin, y is f
+  !> but for a little and its integral lacks as much, which is not little beside S.
+  pure function unseen_force(m, compression, edge, scene, end, fade, trace, node) result(unseen)
+    integer(ip), intent(in) :: m, edge
+    logical, intent(in) :: compression
+    type(scene_type), intent(in) :: scene
+    type(level_type), intent(in) :: end
+    real(dp), intent(in) :: fade(m)
+    type(trace_type), intent(in) :: trace(m, 0:edge)
+    type(node_type), intent(in) :: node(0:edge)
+    real(dp) :: unseen, f(-2:1), age
+    integer(ip) :: j, k
+    f = end%fresh
+    do j = 0, max(-2_ip, 1 - edge), -1
+      f(j) = end%fresh - scene%g_inf*node(edge - 1 + j)%radius**2
+    end do
+    do k = 1, m
+      age = fade(k)
+      do j = 0, max(-2_ip, 1 - edge), -1
+        age = age*trace(k, edge + j)%decay
+        f(j) = f(j) - age*trace(k, edge - 1 + j)%memory
+      end do
+    end do
+    f(1) = merge(scene%eta*end%velocity, 0.0_dp, compression)
+    if (edge == 2) f(-2) = f(0)
+    if (edge == 1) f(-1) = f(1)
+    unseen = end%missing - beyond(edge - 1, node, f, 1.0_dp)
+  end function unseen_force
+
+  !> y of the nodes front - 2 to front + 1; the latter may just be touched. `slack`: y at the centre, about which y is even.
+  pure subroutine slacks(m, touched, at_edge, edge, trace, alpha, beta, slack, p, term, y)
+    integer(ip), intent(in) :: m, edge
+    logical, intent(in) :: touched
+    type(trace_type), intent(in) :: trace(m, 0:edge)
+    real(dp), intent(in) :: at_edge, slack, alpha(0:edge), beta(m, 0:edge)
+    type(point_type), intent(in) :: p
+    type(fade_type), intent(in) :: term(m)
+    real(dp), intent(out) :: y(-2:1)
+    real(dp) :: age
+    integer(ip) :: j, k, f
+    f = p%front
+    y = slack
+    do j = 1, max(-2_ip, -f), -1
+      if (j < 1 .or. .not. touched) y(j) = slack - alpha(f + j)
+    end do
+    do k = 1, m
+      age = term(k)%age
+      do j = 1, max(-2_ip, -f), -1
+        if (j < 1 .or. .not. touched) y(j) = y(j) - age*beta(k, f + j)
+        if (f + j > 0) age = age*trace(k, f + j)%decay
+      end do
+    end do
+    if (touched) y(1) = at_edge
+    if (f == 1) y(-2) = y(0)
+    if (f == 0) y(-1) = y(1)
+  end subroutine slacks
+
+  !> The outermost node that sticks slips from now on, or leaves the contact.
+  pure subroutine pass_node(m, node, trace, alpha, beta, p, term)
+    integer(ip), intent(in) :: m
+    type(node_type), intent(in) :: node(0:*)
+    type(trace_type), intent(in) :: trace(m, 0:*)
+    real(dp), intent(in) :: alpha(0:*), beta(m, 0:*)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    real(dp) :: weight
+    integer(ip) :: k
+    weight = weight_of(node, p%front)
+    p%weight = p%weight - weight
+    p%alpha = p%alpha - weight*alpha(p%front)
+    do k = 1, m
+      term(k)%age = term(k)%age*trace(k, p%front + 1)%decay
+      term(k)%sum = term(k)%sum - weight*term(k)%age*beta(k, p%front)
+    end do
+    p%front = p%front - 1
+  end subroutine pass_node
+
+  !> The other side. The slack f - d q has 2 G_inf X^2 and 2 M_k less what was alpha and beta.
+  pure subroutine turn_round(m, edge, scene, trace, node, alpha, beta, p, term)
+    integer(ip), intent(in) :: m, edge
+    type(scene_type), intent(in) :: scene
+    type(trace_type), intent(in) :: trace(m, 0:edge)
+    type(node_type), intent(in) :: node(0:edge)
+    real(dp), intent(inout) :: alpha(0:edge), beta(m, 0:edge)
+    type(point_type), intent(inout) :: p
+    type(fade_type), intent(inout) :: term(m)
+    alpha = 2*scene%g_inf*node%radius**2 - alpha
+    beta = 2*trace%memory - beta
+    p%side = -p%side
+    call add_up(m, edge, trace, node, alpha, beta, p, term)
+    p%slack = 2*p%fresh - p%slack
+    p%slack_before = 0
+  end subroutine turn_round
+
+  !> The sentinel in the step: the node that the front passed last, from where it stuck, or the one before.
+  pure subroutine step_guard(m, scene, span, passed, edge, slack, alpha, beta, p, term, guard, holds)
+    integer(ip), intent(in) :: m, edge
+    type(scene_type), intent(in) :: scene
+    type(span_type), intent(in) :: span
+    logical, intent(in) :: passed
+    real(dp), intent(in) :: slack, alpha(0:*), beta(m, 0:*)
+    type(point_type), intent(in) :: p
+    type(fade_type), intent(inout) :: term(m)
+    type(guard_type), intent(inout) :: guard
+    logical, intent(out) :: holds
+    real(dp) :: y, slip, kept, keep
+    integer(ip) :: k
+    holds = .true.
+    if (passed) then
+      guard = guard_type(alpha(p%front + 1), 0.0_dp, p%front + 1)
+      do k = 1, m
+        term(k)%guard = term(k)%age*beta(k, guard%node)
+      end do
+    else if (guard%node < 0 .or. guard%node >= edge) then
+      return
+    else
+      do k = 1, m
+        term(k)%guard = term(k)%decay*term(k)%guard
+      end do
+    end if
+    keep = 1 - span%drop
+    y = slack - guard%alpha - span%start_response*keep*guard%kappa
+    do k = 1, m
+      y = y - term(k)%guard
+    end do
+    holds = y <= 0
+    slip = y/(span%end_response + span%drop*span%start_response)
+    kept = keep*guard%kappa + span%drop*slip
+    guard%alpha = guard%alpha + scene%g_inf*span%h/2*(kept + slip)
+    guard%kappa = slip
+    do k = 1, m
+      term(k)%guard = term(k)%guard + term(k)%from_start*kept + term(k)%from_end*slip
+    end do
+  end subroutine step_guard
+
+  !> Whether all slips to the end, even if the sentinel kept its lag. The slip velocity of all others, over d, is D' + d U' and changes
+  !> with D' alone.
+  pure function slips_on(scene, velocity, p, guard) result(yes)
+    type(scene_type), intent(in) :: scene
+    real(dp), intent(in) :: velocity  !! D' at the end
+    type(point_type), intent(in) :: p
+    type(guard_type), intent(in) :: guard
+    logical :: yes
+    real(dp) :: now, last
+    now = p%side*p%velocity + p%sinking
+    last = now + (1 - 2*scene%chi)*(velocity - p%sinking)
+    yes = max(now, last) + max(0.0_dp, guard%kappa - now) <= 0
+  end function slips_on
+end module rst_sync_front

@@ -1,0 +1,104 @@
+!> The slack of the method `sync` behind its front (module rst_sync_front): its integral H over X from nodes, and that of H over a
+!> step towards the end of stick.
+module rst_sync_hinge
+  use rst_precision, only: dp, ip
+  use rst_sync_levels, only: node_type
+  use rst_sync_point, only: point_type
+  implicit none (type, external)
+  private
+  public :: hinge, beyond, root_left_out
+
+contains
+
+  !> What the trapezoidal rule over the nodes 0 to f lacks of int_0^c y dX, where the cubic through y at the nodes f-2 to f+1
+  !> has its root c between f and f+1. y is even in X.
+  pure function hinge(f, node, y) result(missing)
+    integer(ip), intent(in) :: f
+    type(node_type), intent(in) :: node(0:f + 1)
+    real(dp), intent(in) :: y(-2:1)
+    real(dp) :: missing, slope, bend, twist, x
+    call expand(y, f, slope, bend, twist)
+    x = 2*y(0)/(-slope + sqrt(max(0.0_dp, slope**2 - 4*bend*y(0))))
+    x = x - twist*x*(x*x - 1)/(slope + 2*bend*x + twist*(3*x*x - 1))
+    if (.not. x <= 1) x = 1
+    missing = beyond(f, node, y, max(0.0_dp, x))
+  end function hinge
+
+  !> The same if c is the part x of the way from f to f+1: Euler-Maclaurin's terms at f and the integral from there on.
+  pure function beyond(f, node, y, x) result(missing)
+    integer(ip), intent(in) :: f
+    type(node_type), intent(in) :: node(0:f + 1)
+    real(dp), intent(in) :: y(-2:1), x
+    real(dp) :: missing, slope, bend, twist, v(-2:1), width_before
+    width_before = 2*node(0)%width - node(1)%width ! of the node -1
+    v(1) = y(1)*node(f + 1)%width
+    v(0) = y(0)*node(f)%width
+    v(-1) = y(-1)*width_before
+    v(-2) = y(-2)*width_before
+    if (f > 0) v(-1) = y(-1)*node(f - 1)%width
+    if (f > 1) v(-2) = y(-2)*node(f - 2)%width
+    call expand(v, f, slope, bend, twist)
+    missing = v(0)*(x - 0.5_dp) + slope*(x*x/2 - 1.0_dp/12) + bend*x**3/3 &
+              + twist*(x*x*(x*x/4 - 0.5_dp) + 1.0_dp/12 + 1.0_dp/120)
+  end function beyond
+
+  !> y(0) + slope x + bend x^2 + twist x (x^2 - 1) through the values at -2 to 1; without the twist next to the centre.
+  pure subroutine expand(y, f, slope, bend, twist)
+    real(dp), intent(in) :: y(-2:1)
+    integer(ip), intent(in) :: f
+    real(dp), intent(out) :: slope, bend, twist
+    slope = (y(1) - y(-1))/2
+    bend = (y(1) + y(-1))/2 - y(0)
+    twist = 0
+    if (f > 0) twist = (y(1) - 3*(y(0) - y(-1)) - y(-2))/6
+  end subroutine expand
+
+  !> What the usual rule lacks of int H ds over a step near the end of stick, where H = C y^(3/2) with smooth C and y, the slack at
+  !> the centre: y is taken as a parabola in time, C as a line. slack, lack: y and H at the end of the step.
+  pure function root_left_out(h, slack, lack, weight, p) result(missing)
+    real(dp), intent(in) :: h, slack, lack, weight(0:3)
+    type(point_type), intent(in) :: p
+    real(dp) :: missing, slope, bend, left, c, rise, before, lack_here, lack_before
+    real(dp), parameter :: place(3) = [0.5_dp - sqrt(0.15_dp), 0.5_dp, 0.5_dp + sqrt(0.15_dp)], &
+                           share(3) = [5.0_dp/18, 8.0_dp/18, 5.0_dp/18]  ! Gauss
+    real(dp), parameter :: all_but_gone = 0.01_dp  !! of the slack: says nothing of C any more
+    integer(ip) :: i
+    missing = 0
+    if (.not. p%slack > 0) return
+    before = p%step_before(1)
+    lack_here = p%side*p%force + p%normal
+    lack_before = p%side*p%force_before(1) + p%normal_before(1)
+    slope = (slack - p%slack)/h
+    bend = 0
+    if (p%slack_before > 0) bend = (slope - (p%slack - p%slack_before)/before)/(h + before)
+    slope = slope - bend*h ! at the start
+    c = lack_here/(p%slack*sqrt(p%slack))
+    rise = 0
+    if (slack > all_but_gone*p%slack) then
+      rise = (lack/(slack*sqrt(slack)) - c)/h
+      do i = 1, 3
+        missing = missing + share(i)*h*root_law(h*place(i))
+      end do
+    else ! substituted such that the root is no more at its end
+      if (p%slack_before > 0) rise = (c - lack_before/(p%slack_before*sqrt(p%slack_before)))/before
+      left = min(h, 2*p%slack/(-slope + sqrt(max(0.0_dp, slope**2 - 4*bend*p%slack))))
+      do i = 1, 3
+        missing = missing + share(i)*2*place(i)*left*root_law(left*(1 - place(i)**2))
+      end do
+    end if
+    missing = missing - (weight(0)*lack + weight(1)*lack_here)
+    if (p%slack_before > 0) then
+      missing = missing - weight(2)*root_law(-before)
+      if (p%known > 2) missing = missing - weight(3)*root_law(-before - p%step_before(2))
+    else
+      missing = missing - (weight(2)*lack_before + weight(3)*(p%side*p%force_before(2) + p%normal_before(2)))
+    end if
+  contains
+    pure function root_law(x) result(law)
+      real(dp), intent(in) :: x
+      real(dp) :: law, y
+      y = max(0.0_dp, p%slack + x*(slope + x*bend))
+      law = (c + rise*x)*y*sqrt(y)
+    end function root_law
+  end function root_left_out
+end module rst_sync_hinge
