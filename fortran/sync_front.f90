@@ -11,14 +11,16 @@
 !> Slip velocities, over d, are highest for the element that slipped last: relaxation functions are convex in logarithm, so
 !> what an element has gone through before it slipped fades the more slowly the older it is. That element, the sentinel, is
 !> stepped, and as long as it goes on slipping, all do. If it does not, `holds` is false: elements have to be stepped.
+!>
+!> Of term_type, beta_sum is over the nodes that stick, age of the node front + 1, and faded_sum is beta of the sentinel.
 module rst_sync_front
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
   use rst_sync_elements, only: scene_type, shear_type, term_type
-  use rst_sync_quadrature, only: starting_weights
+  use rst_sync_quadrature, only: cubic_weights
   use rst_sync_edge, only: weight_of
-  use rst_sync_point, only: point_type, span_type, fade_type, measure_span, weigh_span, note_span, slack_at
+  use rst_sync_point, only: point_type, span_type, measure_span, weigh_span, note_span, slack_at
   use rst_sync_hinge, only: hinge, beyond, root_left_out
   implicit none (type, external)
   private
@@ -55,7 +57,7 @@ contains
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
-    type(term_type), intent(in) :: term(scene%n_terms)
+    type(term_type), intent(inout) :: term(scene%n_terms)
     real(dp), intent(out) :: alpha(0:scene%n), beta(scene%n_terms, 0:scene%n)  !! of the nodes at their entry
     type(shear_type), intent(inout) :: state
     logical, intent(out) :: holds
@@ -69,21 +71,20 @@ contains
     end select
   end subroutine follow_front
 
-  subroutine walk(m, scene, g, tau, level, trace, node, start, alpha, beta, state, holds)
+  subroutine walk(m, scene, g, tau, level, trace, node, term, alpha, beta, state, holds)
     integer(ip), intent(in) :: m
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(m), tau(m)
     type(trace_type), intent(in) :: trace(m, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
     type(node_type), intent(in) :: node(0:scene%n)
-    type(term_type), intent(in) :: start(m)
+    type(term_type), intent(inout) :: term(m)
     real(dp), intent(out) :: alpha(0:scene%n), beta(m, 0:scene%n)
     type(shear_type), intent(inout) :: state
     logical, intent(out) :: holds
     type(point_type) :: p
     type(guard_type) :: guard
-    type(fade_type) :: term(m)
-    call begin(m, scene, state, start%stress, p, term)
+    call begin(scene, state, p)
     if (scene%psi > 1) then
       call begin_together(m, scene, tau, level, trace, node, alpha, beta, p, term)
     else ! the node 0 is touched
@@ -106,20 +107,15 @@ contains
     if (holds) state%velocity = p%velocity + 2*mass_factor*scene%chi*p%side*full_friction(scene%n, p%level, level)
   end subroutine walk
 
-  !> At rest on the surface: no node sticks yet.
-  pure subroutine begin(m, scene, state, stress, p, term)
-    integer(ip), intent(in) :: m
+  !> No node sticks yet.
+  pure subroutine begin(scene, state, p)
     type(scene_type), intent(in) :: scene
     type(shear_type), intent(in) :: state
-    real(dp), intent(in) :: stress(m)
     type(point_type), intent(out) :: p
-    type(fade_type), intent(out) :: term(m)
     p = point_type(time=state%time, shift=state%shift, velocity=state%velocity, force=state%force, force_before=0, step_before=0, &
                    slope=state%slope, normal=state%force, normal_before=0, sinking=state%velocity, fresh=0, weight=0, alpha=0, &
                    side=0, slack=0, slack_before=0, level=state%level, known=0, front=0)
     if (.not. scene%psi > 1) p%sinking = 1
-    term = fade_type(0, 0, 0, 0, 0, 0, 0, 1, 0)
-    term%stress = stress
   end subroutine begin
 
   !> Gross slip ends: all elements in contact stick with q = f. Once the contact shrinks there is slip at the edge from now on.
@@ -132,12 +128,16 @@ contains
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
-    integer(ip) :: k
+    type(term_type), intent(inout) :: term(m)
+    integer(ip) :: i, k
     p%front = min(p%level, 2*scene%n - p%level - 1)
-    alpha(0:p%front + 1) = scene%g_inf*node(0:p%front + 1)%radius**2
+    do i = 0, p%front + 1
+      alpha(i) = scene%g_inf*node(i)%radius**2
+      do k = 1, m
+        beta(k, i) = trace(k, i)%memory
+      end do
+    end do
     do k = 1, m
-      beta(k, 0:p%front + 1) = trace(k, 0:p%front + 1)%memory
       term(k)%age = exp(-(p%time - level(p%front + 1)%time)/tau(k))
       if (p%level < scene%n) term(k)%age = exp(-(p%time - level(p%front)%time)/tau(k))
     end do
@@ -157,7 +157,7 @@ contains
     type(node_type), intent(in) :: node(0:last)
     real(dp), intent(in) :: alpha(0:last), beta(m, 0:last)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     real(dp) :: weight, age
     integer(ip) :: i, k
     p%weight = 0
@@ -169,9 +169,9 @@ contains
     end do
     do k = 1, m
       age = term(k)%age
-      term(k)%sum = 0
+      term(k)%beta_sum = 0
       do i = last, 0, -1
-        if (i <= p%front) term(k)%sum = term(k)%sum + weight_of(node, i)*age*beta(k, i)
+        if (i <= p%front) term(k)%beta_sum = term(k)%beta_sum + weight_of(node, i)*age*beta(k, i)
         age = age*trace(k, i)%decay
       end do
     end do
@@ -185,9 +185,14 @@ contains
     type(node_type), intent(in) :: node(0:last)
     real(dp), intent(inout) :: alpha(0:last), beta(m, 0:last)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
-    alpha = scene%g_inf*node%radius**2 + p%side*alpha
-    beta = trace%memory + p%side*beta
+    type(term_type), intent(inout) :: term(m)
+    integer(ip) :: i, k
+    do i = 0, last
+      alpha(i) = scene%g_inf*node(i)%radius**2 + p%side*alpha(i)
+      do k = 1, m
+        beta(k, i) = trace(k, i)%memory + p%side*beta(k, i)
+      end do
+    end do
     call add_up(m, last, trace, node, alpha, beta, p, term)
     p%slack = slack_at(m, scene, p, term)
     p%slack_before = 0
@@ -203,7 +208,7 @@ contains
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     type(span_type) :: span
     real(dp) :: force, velocity, bend, weight
     integer(ip) :: next, k
@@ -222,7 +227,7 @@ contains
       p%weight = p%weight + weight
       p%alpha = p%alpha + weight*alpha(next)
       do k = 1, m
-        term(k)%sum = term(k)%sum + weight*beta(k, next)
+        term(k)%beta_sum = term(k)%beta_sum + weight*beta(k, next)
       end do
     else
       p%side = -sign(1.0_dp, velocity)
@@ -237,14 +242,14 @@ contains
     real(dp), intent(in) :: radius  !! of the contact
     type(level_type), intent(in) :: end
     type(point_type), intent(in) :: p
-    type(fade_type), intent(in) :: term(m)
+    type(term_type), intent(in) :: term(m)
     type(span_type), intent(in) :: span
     real(dp), intent(out) :: force, velocity, bend
     type(rule_type) :: rule
     real(dp) :: guess, ratio, share, known
     integer(ip) :: trial
     rule = rule_of(scene, radius, 1.0_dp, end, span, p)
-    known = p%alpha + sum(term%sum)
+    known = p%alpha + sum(term%beta_sum)
     guess = force_ahead(span%h, p)
     do trial = 1, most_trials
       velocity = rule%rest - rule%push*rule%weight(0)*guess
@@ -287,7 +292,7 @@ contains
     type(span_type), intent(in) :: span
     type(point_type), intent(in) :: p
     type(rule_type) :: rule
-    real(dp) :: slope_weight, none
+    real(dp) :: slope_weight
     logical :: usually
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
@@ -295,7 +300,7 @@ contains
     call weigh_span(rule%feedback, scene%psi > 1, span, end%weight, p, rule%weight, slope_weight, usually)
     rule%timely = rule%weight
     if (usually .and. reach < 1) then
-      call starting_weights(2_ip, span%h, p%step_before, 0.0_dp, rule%timely, none)
+      rule%timely = cubic_weights(span%h, p%step_before)
       rule%weight = reach*rule%weight + (1 - reach)*rule%timely
     end if
     rule%rest = p%velocity - rule%push*(slope_weight*p%slope + (rule%weight(1)*p%force + rule%weight(2)*p%force_before(1) &
@@ -312,7 +317,7 @@ contains
     type(node_type), intent(in) :: node(0:scene%n)
     real(dp), intent(inout) :: alpha(0:scene%n), beta(m, 0:scene%n)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     type(guard_type), intent(inout) :: guard
     logical, intent(out) :: holds
     type(span_type) :: span
@@ -328,13 +333,15 @@ contains
     reach = 1
     if (p%front >= edge) call pass_node(m, node, trace, alpha, beta, p, term)
     front_before = p%front
-    if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**16
-    rule = rule_of(scene, node(edge)%radius, reach, level(next), span, p)
-    call answer(m, scene, edge, next, level(next), trace(:, next)%fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+    if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**2
+    rule = rule_of(scene, node(edge)%radius, reach**8, level(next), span, p)
+    call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
+                turns)
     if (turns) then
       call turn_round(m, edge, scene, trace, node, alpha, beta, p, term)
       guard%node = -1
-      call answer(m, scene, edge, next, level(next), trace(:, next)%fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+      call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
+                  turns)
     end if
     call step_guard(m, scene, span, p%front < front_before, edge, now%slack, alpha, beta, p, term, guard, holds)
     call finish(stuck, next, scene%n, level, rule, span, p, now)
@@ -376,7 +383,8 @@ contains
     integer(ip), intent(in) :: l
     type(level_type), intent(in) :: level(0:*)
     real(dp) :: passed
-    passed = dot_product(level(l)%weight, level(l:l - 3:-1)%force)
+    passed = (level(l)%weight(0)*level(l)%force + level(l)%weight(1)*level(l - 1)%force) &
+             + (level(l)%weight(2)*level(l - 2)%force + level(l)%weight(3)*level(l - 3)%force)
   end function friction_impulse
 
   !> The same from a level to the end.
@@ -392,18 +400,19 @@ contains
   end function full_friction
 
   !> S at the end of the step, and the front. turns: all that slipped has left the contact, and the edge would slip the other way.
-  subroutine answer(m, scene, edge, next, end, fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
+  subroutine answer(m, scene, edge, next, reach, end, fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
     integer(ip), intent(in) :: m, edge, next
+    real(dp), intent(in) :: reach  !! square of the radius that sticks, by nodes, over that of the contact
     type(scene_type), intent(in) :: scene
     type(level_type), intent(in) :: end
-    real(dp), intent(in) :: fade(m)  !! what is left of what the node at the edge had at its entry
+    type(trace_type), intent(in) :: fade(m)  !! at the level
     type(trace_type), intent(in) :: trace(m, 0:edge)
     type(node_type), intent(in) :: node(0:edge)
     real(dp), intent(in) :: alpha(0:edge), beta(m, 0:edge)
     type(rule_type), intent(in) :: rule
     type(span_type), intent(in) :: span
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     type(end_type), intent(out) :: now
     logical, intent(out) :: turns
     real(dp) :: guess, y(-2:1), at_edge, unseen
@@ -425,7 +434,7 @@ contains
         call slacks(m, .false., at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
       end do
       guess = now%force
-      now%force = implied(hinge(p%front, node, y) + unseen*(node(p%front + 1)%radius/node(edge)%radius)**2)
+      now%force = implied(hinge(p%front, node, y) + unseen*reach)
       if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough) exit
       call try(now%force)
     end do
@@ -444,7 +453,7 @@ contains
     function implied(lack) result(force)
       real(dp), intent(in) :: lack
       real(dp) :: force
-      force = p%side*(now%slack*p%weight - p%alpha - sum(term%sum) + lack - end%force)
+      force = p%side*(now%slack*p%weight - p%alpha - sum(term%beta_sum) + lack - end%force)
       force = now%force + (force - now%force)/(1 + answer_of(rule, span)*p%weight)
     end function implied
   end subroutine answer
@@ -456,18 +465,18 @@ contains
     logical, intent(in) :: compression
     type(scene_type), intent(in) :: scene
     type(level_type), intent(in) :: end
-    real(dp), intent(in) :: fade(m)
-    type(trace_type), intent(in) :: trace(m, 0:edge)
+    type(trace_type), intent(in) :: fade(m), trace(m, 0:edge)
     type(node_type), intent(in) :: node(0:edge)
     real(dp) :: unseen, f(-2:1), age
-    integer(ip) :: j, k
+    integer(ip) :: j, k, inmost
+    inmost = max(-2_ip, 1 - edge)
     f = end%fresh
-    do j = 0, max(-2_ip, 1 - edge), -1
+    do j = 0, inmost, -1
       f(j) = end%fresh - scene%g_inf*node(edge - 1 + j)%radius**2
     end do
     do k = 1, m
-      age = fade(k)
-      do j = 0, max(-2_ip, 1 - edge), -1
+      age = fade(k)%fade
+      do j = 0, inmost, -1
         age = age*trace(k, edge + j)%decay
         f(j) = f(j) - age*trace(k, edge - 1 + j)%memory
       end do
@@ -485,11 +494,25 @@ contains
     type(trace_type), intent(in) :: trace(m, 0:edge)
     real(dp), intent(in) :: at_edge, slack, alpha(0:edge), beta(m, 0:edge)
     type(point_type), intent(in) :: p
-    type(fade_type), intent(in) :: term(m)
+    type(term_type), intent(in) :: term(m)
     real(dp), intent(out) :: y(-2:1)
     real(dp) :: age
     integer(ip) :: j, k, f
     f = p%front
+    if (f >= 2 .and. .not. touched) then ! most nodes, without branches
+      y = slack - alpha(f - 2:f + 1)
+      do k = 1, m
+        age = term(k)%age
+        y(1) = y(1) - age*beta(k, f + 1)
+        age = age*trace(k, f + 1)%decay
+        y(0) = y(0) - age*beta(k, f)
+        age = age*trace(k, f)%decay
+        y(-1) = y(-1) - age*beta(k, f - 1)
+        age = age*trace(k, f - 1)%decay
+        y(-2) = y(-2) - age*beta(k, f - 2)
+      end do
+      return
+    end if
     y = slack
     do j = 1, max(-2_ip, -f), -1
       if (j < 1 .or. .not. touched) y(j) = slack - alpha(f + j)
@@ -513,7 +536,7 @@ contains
     type(trace_type), intent(in) :: trace(m, 0:*)
     real(dp), intent(in) :: alpha(0:*), beta(m, 0:*)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     real(dp) :: weight
     integer(ip) :: k
     weight = weight_of(node, p%front)
@@ -521,7 +544,7 @@ contains
     p%alpha = p%alpha - weight*alpha(p%front)
     do k = 1, m
       term(k)%age = term(k)%age*trace(k, p%front + 1)%decay
-      term(k)%sum = term(k)%sum - weight*term(k)%age*beta(k, p%front)
+      term(k)%beta_sum = term(k)%beta_sum - weight*term(k)%age*beta(k, p%front)
     end do
     p%front = p%front - 1
   end subroutine pass_node
@@ -534,9 +557,14 @@ contains
     type(node_type), intent(in) :: node(0:edge)
     real(dp), intent(inout) :: alpha(0:edge), beta(m, 0:edge)
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
-    alpha = 2*scene%g_inf*node%radius**2 - alpha
-    beta = 2*trace%memory - beta
+    type(term_type), intent(inout) :: term(m)
+    integer(ip) :: i, k
+    do i = 0, edge
+      alpha(i) = 2*scene%g_inf*node(i)%radius**2 - alpha(i)
+      do k = 1, m
+        beta(k, i) = 2*trace(k, i)%memory - beta(k, i)
+      end do
+    end do
     p%side = -p%side
     call add_up(m, edge, trace, node, alpha, beta, p, term)
     p%slack = 2*p%fresh - p%slack
@@ -551,7 +579,7 @@ contains
     logical, intent(in) :: passed
     real(dp), intent(in) :: slack, alpha(0:*), beta(m, 0:*)
     type(point_type), intent(in) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     type(guard_type), intent(inout) :: guard
     logical, intent(out) :: holds
     real(dp) :: y, slip, kept, keep
@@ -560,19 +588,19 @@ contains
     if (passed) then
       guard = guard_type(alpha(p%front + 1), 0.0_dp, p%front + 1)
       do k = 1, m
-        term(k)%guard = term(k)%age*beta(k, guard%node)
+        term(k)%faded_sum = term(k)%age*beta(k, guard%node)
       end do
     else if (guard%node < 0 .or. guard%node >= edge) then
       return
     else
       do k = 1, m
-        term(k)%guard = term(k)%decay*term(k)%guard
+        term(k)%faded_sum = term(k)%decay*term(k)%faded_sum
       end do
     end if
     keep = 1 - span%drop
     y = slack - guard%alpha - span%start_response*keep*guard%kappa
     do k = 1, m
-      y = y - term(k)%guard
+      y = y - term(k)%faded_sum
     end do
     holds = y <= 0
     slip = y/(span%end_response + span%drop*span%start_response)
@@ -580,7 +608,7 @@ contains
     guard%alpha = guard%alpha + scene%g_inf*span%h/2*(kept + slip)
     guard%kappa = slip
     do k = 1, m
-      term(k)%guard = term(k)%guard + term(k)%from_start*kept + term(k)%from_end*slip
+      term(k)%faded_sum = term(k)%faded_sum + term(k)%from_start*kept + term(k)%from_end*slip
     end do
   end subroutine step_guard
 

@@ -3,11 +3,11 @@ module rst_sync_point
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type
   use rst_sync_dense, only: trace_type, fade_in_step
-  use rst_sync_elements, only: scene_type
+  use rst_sync_elements, only: scene_type, term_type
   use rst_sync_quadrature, only: starting_weights, parabolic_weights
   implicit none (type, external)
   private
-  public :: point_type, span_type, fade_type, measure_span, weigh_span, note_span, slack_at
+  public :: point_type, span_type, measure_span, weigh_span, note_span, slack_at
 
   !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
   !> end of the step always.
@@ -35,12 +35,6 @@ module rst_sync_point
     real(dp) :: h, start_response, end_response, bend_response, base, drop
   end type span_type
 
-  !> A relaxation time in a step (see term_type): `sum` over the nodes that stick of beta, `age`: what is left of what node
-  !> front + 1 had at its entry; `guard`: beta of the sentinel.
-  type :: fade_type
-    real(dp) :: decay, from_start, from_end, from_bend, stress, next, sum, age, guard
-  end type fade_type
-
 contains
 
   !> The step to the next level: whole, or what gross slip has left of it.
@@ -51,7 +45,7 @@ contains
     type(level_type), intent(in) :: level(0:1)
     type(trace_type), intent(in) :: trace(m)  !! at the end of the step
     type(point_type), intent(in) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     type(span_type), intent(out) :: span
     type(trace_type) :: t
     logical :: whole
@@ -73,9 +67,9 @@ contains
       span%start_response = span%start_response + t%from_start
       span%end_response = span%end_response + t%from_end
       span%bend_response = span%bend_response + t%from_bend
-      term(k)%next = t%decay*term(k)%stress + t%from_start*p%velocity
-      span%base = span%base + term(k)%next
-      term(k)%sum = t%decay*term(k)%sum
+      term(k)%next_stress = t%decay*term(k)%stress + t%from_start*p%velocity
+      span%base = span%base + term(k)%next_stress
+      term(k)%beta_sum = t%decay*term(k)%beta_sum
       term(k)%age = t%decay*term(k)%age
     end do
     span%drop = min(1.0_dp, span%start_response/span%end_response)
@@ -112,11 +106,11 @@ contains
     type(level_type), intent(in) :: end
     real(dp), intent(in) :: velocity, force, bend
     type(point_type), intent(inout) :: p
-    type(fade_type), intent(inout) :: term(m)
+    type(term_type), intent(inout) :: term(m)
     integer(ip) :: k
     p%shift = p%shift + span%h*(p%velocity + velocity)/2 - bend*span%h**3/6
     do k = 1, m
-      term(k)%stress = term(k)%next + term(k)%from_end*velocity + term(k)%from_bend*bend
+      term(k)%stress = term(k)%next_stress + term(k)%from_end*velocity + term(k)%from_bend*bend
     end do
     p%velocity = velocity
     p%time = end%time
@@ -139,7 +133,7 @@ contains
     integer(ip), intent(in) :: m
     type(scene_type), intent(in) :: scene
     type(point_type), intent(in) :: p
-    type(fade_type), intent(in) :: term(m)
+    type(term_type), intent(in) :: term(m)
     real(dp) :: slack
     integer(ip) :: k
     slack = 0

@@ -8,7 +8,7 @@ module rst_sync_quadrature
   use rst_sync_levels, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, starting_weights, parabolic_weights
+  public :: spread_weights, starting_weights, parabolic_weights, cubic_weights
 
   integer(ip), parameter :: block = 32              !! levels at a time
   real(dp), parameter :: steepest = 2               !! ratio of steps up to which four levels are better than three
@@ -122,6 +122,20 @@ contains
       weight(1:3) = weight(1:3) - twist*bends(before(1), before(2))
     end if
   end subroutine starting_weights
+
+  !> The cubic through four levels in time; the steps between the first three of them, from the last one backwards, are `before`.
+  pure function cubic_weights(h, before) result(weight)
+    real(dp), intent(in) :: h, before(2)
+    real(dp) :: weight(0:3), once(0:2), twice, twist, bend
+    once = [1/h, 1/before(1), 1/before(2)]
+    twice = 1/(before(1) + before(2))
+    twist = -h*h*h*(h + 2*before(1))/(12*(h + before(1) + before(2)))
+    if (max(h*once(1), before(1)*once(2)) > steepest) twist = 0
+    bend = (twist - h*h*h/6)/(h + before(1))
+    twist = twist*twice
+    weight = [h/2 + bend*once(0), h/2 - bend*(once(0) + once(1)) - twist*once(1), bend*once(1) + twist*(once(1) + once(2)), &
+              -twist*once(2)]
+  end function cubic_weights
 
   !> The parabola through three levels, for one in time: what makes those that follow stable where force and velocity hang together
   !> so
