@@ -253,7 +253,7 @@ contains
     guess = force_ahead(span%h, p)
     do trial = 1, most_trials
       velocity = rule%rest - rule%push*rule%weight(0)*guess
-      bend = -rule%push*(guess - p%force)/(2*span%h)
+      bend = -rule%push*span%half_rate*(guess - p%force)
       share = answer_of(rule, span)*p%weight
       ratio = max(-1.0_dp, min(1.0_dp, velocity/max(end%velocity, tiny(1.0_dp))))
       if (abs(ratio) < 1) share = share + rule%push*rule%weight(0)*end%missing/end%velocity
@@ -263,7 +263,7 @@ contains
       guess = force
     end do
     velocity = rule%rest - rule%push*rule%weight(0)*force
-    bend = -rule%push*(force - p%force)/(2*span%h)
+    bend = -rule%push*span%half_rate*(force - p%force)
   end subroutine stick_force
 
   !> By how much Q falls with the force at the end of the step.
@@ -271,7 +271,7 @@ contains
     type(rule_type), intent(in) :: rule
     type(span_type), intent(in) :: span
     real(dp) :: answer
-    answer = rule%push*(rule%weight(0)*span%end_response + span%bend_response/(2*span%h))
+    answer = rule%push*(rule%weight(0)*span%end_response + span%bend_response*span%half_rate)
   end function answer_of
 
   !> S goes on as in the step before.
@@ -280,7 +280,7 @@ contains
     type(point_type), intent(in) :: p
     real(dp) :: force
     force = p%force
-    if (p%known > 0) force = p%force + (p%force - p%force_before(1))*h/p%step_before(1)
+    if (p%known > 0) force = p%force + (p%force - p%force_before(1))*(h/p%step_before(1))
   end function force_ahead
 
   !> Where little slips, S behaves like int f dX, and the weights are of the measure of time in which that is smooth; where much
@@ -375,7 +375,7 @@ contains
     else
       now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)
     end if
-    now%bend = -rule%push*(now%force - p%force)/(2*span%h)
+    now%bend = -rule%push*span%half_rate*(now%force - p%force)
   end subroutine finish
 
   !> int int f dX ds over the step that ends at the level l.
@@ -420,9 +420,10 @@ contains
     turns = .false.
     at_edge = 0
     unseen = unseen_force(m, next <= scene%n, edge, scene, end, fade, trace, node)
-    call try(force_ahead(span%h, p))
+    call try(force_ahead(span%h, p), end, rule, span, p, now)
     if (p%front < 0) return
-    if (rule%feedback > explicit_below) call try(implied(0.0_dp))
+    if (rule%feedback > explicit_below) &
+      call try(implied(m, 0.0_dp, end, rule, span, term, p, now), end, rule, span, p, now)
     do trial = 1, most_trials
       if (next <= scene%n) at_edge = scene%eta*(p%side*now%velocity + end%velocity) ! touched now
       call slacks(m, next <= scene%n .and. p%front == edge - 1, at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
@@ -434,29 +435,44 @@ contains
         call slacks(m, .false., at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
       end do
       guess = now%force
-      now%force = implied(hinge(p%front, node, y) + unseen*reach)
+      now%force = implied(m, hinge(p%front, node, y) + unseen*reach, end, rule, span, term, p, now)
       if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough) exit
-      call try(now%force)
+      call try(now%force, end, rule, span, p, now)
     end do
-  contains
-
-    !> What a guess of S makes of the motion.
-    subroutine try(force)
-      real(dp), intent(in) :: force
-      now%force = force
-      now%velocity = rule%rest - rule%push*rule%weight(0)*force
-      now%bend = -rule%push*(force - p%force)/(2*span%h)
-      now%slack = end%fresh + p%side*(span%base + span%end_response*now%velocity + span%bend_response*now%bend)
-    end subroutine try
-
-    !> S from the sums and what they lack of H; it answers itself through the nodes that stick.
-    function implied(lack) result(force)
-      real(dp), intent(in) :: lack
-      real(dp) :: force
-      force = p%side*(now%slack*p%weight - p%alpha - sum(term%beta_sum) + lack - end%force)
-      force = now%force + (force - now%force)/(1 + answer_of(rule, span)*p%weight)
-    end function implied
   end subroutine answer
+
+  !> What a guess of S makes of the motion.
+  pure subroutine try(force, end, rule, span, p, now)
+    real(dp), intent(in) :: force
+    type(level_type), intent(in) :: end
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    type(point_type), intent(in) :: p
+    type(end_type), intent(out) :: now
+    now%force = force
+    now%velocity = rule%rest - rule%push*rule%weight(0)*force
+    now%bend = -rule%push*span%half_rate*(force - p%force)
+    now%slack = end%fresh + p%side*(span%base + span%end_response*now%velocity + span%bend_response*now%bend)
+  end subroutine try
+
+  !> S from the sums and what they lack of H; it answers itself through the nodes that stick.
+  pure function implied(m, lack, end, rule, span, term, p, now) result(force)
+    integer(ip), intent(in) :: m
+    real(dp), intent(in) :: lack
+    type(level_type), intent(in) :: end
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    type(term_type), intent(in) :: term(m)
+    type(point_type), intent(in) :: p
+    type(end_type), intent(in) :: now
+    real(dp) :: force
+    integer(ip) :: k
+    force = now%slack*p%weight - p%alpha + (lack - end%force)
+    do k = 1, m
+      force = force - term(k)%beta_sum
+    end do
+    force = now%force + (p%side*force - now%force)/(1 + answer_of(rule, span)*p%weight)
+  end function implied
 
   !> What the sum over nodes, with what `beyond` adds in the last cell, lacks of int f dX. Where the slipping ring is thin, y is f
   !> but for a little and its integral lacks as much, which is not little beside S.

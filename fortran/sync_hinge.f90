@@ -16,10 +16,12 @@ contains
     integer(ip), intent(in) :: f
     type(node_type), intent(in) :: node(0:f + 1)
     real(dp), intent(in) :: y(-2:1)
-    real(dp) :: missing, slope, bend, twist, x
+    real(dp) :: missing, slope, bend, twist, x, root, reciprocal
     call expand(y, f, slope, bend, twist)
-    x = 2*y(0)/(-slope + sqrt(max(0.0_dp, slope**2 - 4*bend*y(0))))
-    x = x - twist*x*(x*x - 1)/(slope + 2*bend*x + twist*(3*x*x - 1))
+    root = sqrt(max(0.0_dp, slope**2 - 4*bend*y(0))) ! less the slope at c
+    reciprocal = 1/(root*(root - slope))
+    x = 2*y(0)*root*reciprocal
+    x = x + twist*x*(x*x - 1)*(root - slope)*reciprocal
     if (.not. x <= 1) x = 1
     missing = beyond(f, node, y, max(0.0_dp, x))
   end function hinge
@@ -30,13 +32,14 @@ contains
     type(node_type), intent(in) :: node(0:f + 1)
     real(dp), intent(in) :: y(-2:1), x
     real(dp) :: missing, slope, bend, twist, v(-2:1), width_before
-    width_before = 2*node(0)%width - node(1)%width ! of the node -1
-    v(1) = y(1)*node(f + 1)%width
-    v(0) = y(0)*node(f)%width
-    v(-1) = y(-1)*width_before
-    v(-2) = y(-2)*width_before
-    if (f > 0) v(-1) = y(-1)*node(f - 1)%width
-    if (f > 1) v(-2) = y(-2)*node(f - 2)%width
+    if (f > 1) then
+      v = y*node(f - 2:f + 1)%width
+    else
+      width_before = 2*node(0)%width - node(1)%width ! of the node -1
+      v(0:1) = y(0:1)*node(f:f + 1)%width
+      v(-1) = y(-1)*merge(node(0)%width, width_before, f > 0)
+      v(-2) = y(-2)*width_before
+    end if
     call expand(v, f, slope, bend, twist)
     missing = v(0)*(x - 0.5_dp) + slope*(x*x/2 - 1.0_dp/12) + bend*x**3/3 &
               + twist*(x*x*(x*x/4 - 0.5_dp) + 1.0_dp/12 + 1.0_dp/120)

@@ -30,9 +30,9 @@ module rst_sync_point
   end type point_type
 
   !> A step: responses of Q to the velocity at its start and at its end and to the bend of the velocity, and Q without the latter
-  !> two. Of a slip velocity before, the share 1 - drop goes on.
+  !> two; half_rate = 1/(2h). Of a slip velocity before, the share 1 - drop goes on.
   type :: span_type
-    real(dp) :: h, start_response, end_response, bend_response, base, drop
+    real(dp) :: h, half_rate, start_response, end_response, bend_response, base, drop
   end type span_type
 
 contains
@@ -53,6 +53,7 @@ contains
     whole = p%time <= level(0)%time
     span%h = level(1)%step
     if (.not. whole) span%h = level(1)%time - p%time
+    span%half_rate = 0.5_dp/span%h
     span%start_response = scene%g_inf*span%h/2
     span%end_response = span%start_response + scene%eta
     span%bend_response = -span%start_response*span%h**2/3
