@@ -45,7 +45,8 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
         return RESTITUTE_OK;
     }
     const size_t terms = (size_t)s->n_terms + 2;
-    int status = rst_sync_repeat(problem, workspace, outcome, most_ledger_levels, terms, 2 * rst_sync_lanes * terms,
+    const struct rst_outcome finer = rst_sync_with_elements(problem, outcome);
+    int status = rst_sync_repeat(problem, workspace, &finer, most_ledger_levels, terms, 2 * rst_sync_lanes * terms,
                                  &store, &before, error);
     if (status) return status;
     const struct sync_scene scene = rst_sync_scene(problem, &store);

@@ -19,8 +19,9 @@ static int follow(const struct rst_problem *problem, struct rst_workspace *works
     const struct rst_solid *s = &problem->solid;
     struct store *store = &trace->store;
     double *room;
-    int status = rst_sync_repeat(problem, workspace, outcome, outcome->elements,
-                                 1 + sizeof *trace->knot / sizeof(double), 0, store, &room, error);
+    const struct rst_outcome finer = rst_sync_with_elements(problem, outcome);
+    int status = rst_sync_repeat(problem, workspace, &finer, finer.elements, 1 + sizeof *trace->knot / sizeof(double),
+                                 0, store, &room, error);
     if (status) return status;
     trace->scene = rst_sync_scene(problem, store);
     trace->slides = problem->mode == RST_GROSS_SLIP;

@@ -107,6 +107,9 @@ double rst_sync_largest_force(const struct sync_level *level, int64_t n);
 int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *workspace, struct rst_outcome *outcome,
                     restitute_error *error);
 
+/* The outcome for those who step elements: they need twice the levels for the same error, unless levels are told. */
+struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome);
+
 /* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of
  * both phases and `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
