@@ -39,6 +39,9 @@ static const double hardly_rebounds = 0.02, usual_factor_then = 3, fall_at_least
  * velocity: such errors fall with n^-2, irregularly. */
 static const double turning_back = 1.8, all_but_even = 0.02, usual_error_then = 0.15;
 
+/* A graded grid wants more levels than that: with fewer, times between them are not always found. */
+static const double graded_more = 1.319;
+
 /* Part of the tolerance that the normal problem may take of that of the tangential one, which rests on it. */
 static const double normal_part = 0.25;
 
@@ -296,7 +299,8 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
     }
     double start = normal_levels_to_start(wanted, rst_sync_stepped_swings(problem));
     if (sticks && rst_sync_is_graded(problem))
-        start = fmax(start, rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
+        start =
+            fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
     return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
