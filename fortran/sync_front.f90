@@ -32,6 +32,9 @@ module rst_sync_front
   !> Part of the slack at the start of a step below which the end of stick, where H has a root, is near.
   real(dp), parameter :: end_is_near = 0.85_dp
 
+  !> Steps from the onset of slip to the end of stick, below which elements, which find kinks within steps, are more accurate.
+  integer(ip), parameter :: fewest_steps = 4
+
   !> The sentinel: its alpha and slip velocity; node -1: none.
   type :: guard_type
     real(dp) :: alpha, kappa
@@ -114,7 +117,7 @@ contains
     type(point_type), intent(out) :: p
     p = point_type(time=state%time, shift=state%shift, velocity=state%velocity, force=state%force, force_before=0, step_before=0, &
                    slope=state%slope, normal=state%force, normal_before=0, sinking=state%velocity, fresh=0, weight=0, alpha=0, &
-                   side=0, slack=0, slack_before=0, level=state%level, known=0, front=0)
+                   side=0, slack=0, slack_before=0, level=state%level, known=0, front=0, onset=0)
     if (.not. scene%psi > 1) p%sinking = 1
   end subroutine begin
 
@@ -194,6 +197,7 @@ contains
       end do
     end do
     call add_up(m, last, trace, node, alpha, beta, p, term)
+    p%onset = p%level
     p%slack = slack_at(m, scene, p, term)
     p%slack_before = 0
   end subroutine speak_of_slack
@@ -354,6 +358,7 @@ contains
       end do
     end if
     if (p%side*p%velocity + p%sinking > 0) holds = .false. ! what is touched last would stick
+    if (stuck .and. p%front < 0 .and. p%level - p%onset < fewest_steps) holds = .false. ! ends too soon to be followed
   end subroutine front_step
 
   !> Velocity and bend from S at the end of the step.
@@ -582,6 +587,7 @@ contains
       end do
     end do
     p%side = -p%side
+    p%onset = p%level
     call add_up(m, edge, trace, node, alpha, beta, p, term)
     p%slack = 2*p%fresh - p%slack
     p%slack_before = 0
