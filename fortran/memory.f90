@@ -7,7 +7,7 @@ module rst_memory
   implicit none (type, external)
   private
   public :: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through
-  public :: remembered, integrated, integrated_twice, shares, memory_shares
+  public :: remembered, integrated, integrated_twice, shares, memory_shares, gentle_memory, series_below
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -60,19 +60,9 @@ contains
     real(dp), intent(in) :: z(2)
     type(memory_pair_type), intent(out) :: m
     type(memory_type) :: one
-    real(dp) :: z2, phi3
     integer(ip) :: q
     if (max(z(1), z(2)) < series_below) then
-      !$omp simd private(z2, phi3)
-      do q = 1, 2
-        z2 = z(q)*z(q)
-        phi3 = (c(4) - z(q)*c(5)) + z2*((c(6) - z(q)*c(7)) + z2*(c(8) - z(q)*c(9)))
-        phi3 = (c(0) - z(q)*c(1)) + z2*((c(2) - z(q)*c(3)) + z2*phi3)
-        m%phi3(q) = phi3
-        m%phi2(q) = 0.5_dp - z(q)*m%phi3(q)
-        m%phi1(q) = 1 - z(q)*m%phi2(q)
-        m%decay(q) = 1 - z(q)*m%phi1(q)
-      end do
+      call gentle_memory(2_ip, z, m%decay, m%phi1, m%phi2, m%phi3)
     else
       do q = 1, 2
         one = memory_of(z(q))
@@ -83,6 +73,25 @@ contains
       end do
     end if
   end subroutine remember_pair
+
+  !> The same for z below series_below.
+  pure subroutine gentle_memory(n, z, decay, phi1, phi2, phi3)
+    integer(ip), intent(in) :: n
+    real(dp), intent(in) :: z(n)
+    real(dp), dimension(n), intent(out) :: decay, phi1, phi2, phi3
+    real(dp) :: z2, last
+    integer(ip) :: q
+    !$omp simd private(z2, last)
+    do q = 1, n
+      z2 = z(q)*z(q)
+      last = (c(4) - z(q)*c(5)) + z2*((c(6) - z(q)*c(7)) + z2*(c(8) - z(q)*c(9)))
+      last = (c(0) - z(q)*c(1)) + z2*((c(2) - z(q)*c(3)) + z2*last)
+      phi3(q) = last
+      phi2(q) = 0.5_dp - z(q)*phi3(q)
+      phi1(q) = 1 - z(q)*phi2(q)
+      decay(q) = 1 - z(q)*phi1(q)
+    end do
+  end subroutine gentle_memory
 
   pure function spacing_of(x) result(s)
     real(dp), intent(in) :: x(2)

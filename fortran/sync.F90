@@ -4,6 +4,28 @@
 #include "cubic.f90"
 #include "sync_levels.f90"
 #include "sync_dense.f90"
+#define POINTS rst_sync_points_8
+#define CURVE rst_sync_curve_8
+#define POINTS_DEGREE 8
+#include "sync_points.f90"
+#include "sync_curve.f90"
+#undef POINTS
+#undef CURVE
+#undef POINTS_DEGREE
+#define POINTS rst_sync_points_12
+#define CURVE rst_sync_curve_12
+#define POINTS_DEGREE 12
+#include "sync_points.f90"
+#include "sync_curve.f90"
+#undef POINTS
+#undef CURVE
+#undef POINTS_DEGREE
+#define POINTS rst_sync_points_16
+#define CURVE rst_sync_curve_16
+#define POINTS_DEGREE 16
+#include "sync_points.f90"
+#include "sync_curve.f90"
+#include "sync_sample.f90"
 #include "sync_elements.f90"
 #include "sync_quadrature.f90"
 #include "sync_edge.f90"

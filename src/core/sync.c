@@ -132,7 +132,6 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
                              .followed_time = normal->contact_time,
                              .max_indentation = normal->depth,
                              .max_contact_radius = sqrt(normal->depth),
-                             .max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels),
                              .spacing = sqrt(normal->depth) / n,
                              .step = normal->contact_time / (2 * n),
                              .elements = normal->levels,
@@ -140,6 +139,10 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
                              .updates = normal->updates,
                              .normal_levels = normal->levels};
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
+    if (normal->degree == 0)
+        outcome->max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels);
+    else if (!rst_sync_sticks(problem, -normal->velocity)) /* the tangential problem has levels of its own */
+        outcome->max_normal_force = 15.0 / 8.0 * rst_sync_curve_force(problem, normal);
 }
 
 /* What that adds to the estimate, times n^-2 and, as nothing turns round where damping is strong, at most twice the rebound: three
@@ -285,6 +288,19 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
+/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with half and
+ * maybe a quarter of them, but about `least` if that is less. */
+static int64_t levels_at_will(const struct rst_problem *problem, int64_t least, double rebound)
+{
+    const double needed = rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
+    const double ratio = fmax(1, floor(needed / (double)least));
+    const int64_t whole = rebound < small_rebound ? 8 : 4;
+    int64_t unit = 2;
+    while (unit * (int64_t)ratio % whole)
+        unit *= 2;
+    return multiple_of(unit, needed / ratio);
+}
+
 /* The normal problem, to a part of the tolerance if the contact sticks. Between the levels of a graded grid the
  * motion is not known as well as at them: there the tangential problem has no more levels. */
 static int solve_normal(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
@@ -302,7 +318,10 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         start =
             fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
-    return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
+    const int status =
+        rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
+    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, levels, -normal->velocity) : levels;
+    return status;
 }
 
 /* The first two runs, from the same levels, or three where the rebound is small. If the updates allowed may not be

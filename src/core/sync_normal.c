@@ -137,9 +137,10 @@ static void forget_other_solids(struct rst_workspace *workspace, const struct qu
 
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
 {
-    const size_t n = (size_t)levels, m = (size_t)n_terms;
-    return doubles(sizeof(struct memo), 1) + doubles(sizeof(struct sync_level), 2 * n + 1) +
-           doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
+    const size_t n = (size_t)levels, m = (size_t)n_terms, curve = rst_sync_curve_room(n_terms);
+    const size_t of_levels =
+        doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
+    return doubles(sizeof(struct memo), 1) + (curve > of_levels ? curve : of_levels);
 }
 
 /* A run with half as many levels as that is too coarse to guess from. */
@@ -234,6 +235,19 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
     *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
 }
 
+/* Polynomials, if the updates allowed suffice. */
+static int follow_curve(const struct rst_problem *problem, struct rst_shelf *shelf, double wanted,
+                        struct normal *normal, restitute_error *error)
+{
+    const int status = make_room(problem, shelf, 0, error);
+    if (status) return status;
+    struct memo *memo = memo_of(shelf);
+    memo->known = 0;
+    memo->kept = (struct kept){0};
+    rst_sync_follow_curve(problem, (double *)(memo + 1), wanted, normal);
+    return RESTITUTE_OK;
+}
+
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error)
 {
@@ -248,6 +262,14 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
     forget_other_solids(workspace, &question);
     int status = choose_grid(problem, normal, error);
     if (status) return status;
+    if (rst_sync_may_be_smooth(problem, &normal->grid)) {
+        status = follow_curve(problem, shelf, wanted, normal, error);
+        if (status) return status;
+        if (normal->degree > 0) {
+            remember(shelf, &question, normal);
+            return RESTITUTE_OK;
+        }
+    }
     for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
         normal->ahead = normal->updates + 2 * n;
         if (normal->ahead > problem->max_updates) break;

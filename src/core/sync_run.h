@@ -11,11 +11,14 @@
 /* Most levels that a run may have: with more, rounding adds up to more than they gain. */
 enum { rst_sync_most_levels = 1 << 15 };
 
-/* The solution of the normal problem; level: on its shelf. */
+/* The solution of the normal problem, as levels or as polynomials, on its shelf. */
 struct normal {
     struct sync_grid grid;
-    int64_t levels;             /* of one phase */
+    int64_t levels;             /* of one phase; with polynomials: for those who want levels */
     struct sync_level *level;   /* 2 levels + 1 */
+    int64_t degree;             /* of polynomials; 0: levels */
+    double *curve, turn;        /* their series, and the time of the turning point */
+    double spread[2];           /* of the nodes, see fortran/sync_sample.f90 */
     double velocity, error;     /* at its end, extrapolated, with its estimated error */
     double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
     double contact_time, depth; /* at its end and at the turning point */
@@ -31,6 +34,15 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 /* Solve again, at that number of levels alone and on the spare shelf; normal->levels is 0 if it does not settle. */
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
+
+/* Whether polynomials are worth a trial; if so, try: normal->degree is 0 if they are not good enough. `room`: of
+ * rst_sync_curve_room doubles. */
+int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid);
+void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal);
+size_t rst_sync_curve_room(int64_t n_terms);
+
+/* Largest int_0^A f dX with polynomials. */
+double rst_sync_curve_force(const struct rst_problem *problem, const struct normal *normal);
 
 /* Room that rst_sync_normal takes on its shelf. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);

@@ -1,0 +1,106 @@
+/* The normal problem of the method `sync` as polynomials (fortran/sync_curve.f90), where it is smooth enough for them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "kernels.h"
+#include "status.h"
+#include "sync_run.h"
+
+/* Part of the error wanted that may be left out between the points, see sync_normal.c. */
+static const double left_in_levels = 0.3;
+
+/* Degrees that there are, and down to which error that is wanted each is worth a trial (docs/accuracy.md). */
+static const struct {
+    int64_t degree;
+    double error;
+} degrees[] = {{8, 1e-5}, {12, 1e-8}, {16, 0}};
+enum { degree_count = sizeof degrees / sizeof degrees[0], highest_degree = 16 };
+
+/* A phase is to last no more relaxation times, and to lose no more of the velocity; then there are sharp bends. */
+static const double longest_memory = 4, least_rebound = 0.05;
+
+/* Sweeps stop when velocities change by less than this part of the tolerance, but not before they fall regularly, or by
+ * what rounding leaves. */
+static const double part_unfinished = 0.004, coarsest = 4e-6, rounding = 1e-12;
+
+/* What sweeps leave unfinished, in units of when they stop. */
+static const double share_of_closeness = 4;
+
+/* The end of the restitution is known that much better than what is between the points. */
+static const double part_of_end = 0.05;
+
+/* Levels for the largest force where no others are made. */
+enum { few_levels = 16 };
+
+static size_t columns(size_t terms)
+{
+    return (2 + 2 * terms) + (3 + terms) + (5 + 3 * terms);
+}
+
+static size_t few_room(size_t terms)
+{
+    const size_t n = few_levels;
+    return (2 * n + 1) * (sizeof(struct sync_level) + terms * sizeof(struct sync_trace)) / sizeof(double) +
+           (n + 1) * (sizeof(struct sync_node) / sizeof(double));
+}
+
+size_t rst_sync_curve_room(int64_t n_terms)
+{
+    return (highest_degree + 1) * columns((size_t)n_terms) + few_room((size_t)n_terms);
+}
+
+int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
+{
+    const struct rst_solid *s = &problem->solid;
+    const double depth = grid->radius * grid->radius;
+    if (problem->elements > 0 || s->eta > 0 || grid->start > 0) return 0;
+    for (int64_t k = 0; k < s->n_terms; k++)
+        if (s->tau[k] * longest_memory < 1.4 * depth) return 0;
+    return 1;
+}
+
+void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal)
+{
+    const struct rst_solid *s = &problem->solid;
+    const size_t terms = (size_t)s->n_terms;
+    const double swings = rst_sync_stepped_swings(problem);
+    const double closeness = fmax(rounding, fmin(part_unfinished * problem->tolerance, coarsest) / swings);
+    const double allowed = left_in_levels * wanted / swings;
+    int64_t failed = 0;
+    double left_out;
+    for (int i = 0; i < degree_count && !failed; i++) {
+        const int64_t p = degrees[i].degree;
+        const size_t rows = (size_t)p + 1;
+        double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
+        if (allowed < degrees[i].error) continue;
+        rst_follow_curve(p, normal->grid.radius * normal->grid.radius, s->g_inf, s->n_terms, s->g, s->tau, closeness,
+                         &normal->turn, normal->spread, going, coming, curve, &left_out, &failed);
+        if (failed) return;
+        normal->updates += 2 * p;
+        normal->contact_time = coming[p];
+        normal->velocity = coming[(size_t)p + 2 * rows];
+        normal->depth = going[p];
+        normal->error = part_of_end * left_out + share_of_closeness * closeness;
+        normal->taken_off = left_out;
+        normal->curve = curve;
+        if (-normal->velocity < least_rebound || !isfinite(normal->velocity)) return;
+        if (normal->error <= wanted && left_out <= allowed) {
+            normal->degree = p;
+            normal->reached = 1;
+            return;
+        }
+    }
+}
+
+double rst_sync_curve_force(const struct rst_problem *problem, const struct normal *normal)
+{
+    const struct rst_solid *s = &problem->solid;
+    const size_t terms = (size_t)s->n_terms, n = few_levels;
+    double *room = normal->curve + (highest_degree + 1) * columns(terms);
+    struct sync_level *level = (struct sync_level *)room;
+    struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
+    struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
+    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g, s->tau, normal->curve, few_levels, level,
+                     trace, node);
+    return rst_sync_largest_force(level, few_levels);
+}
