@@ -9,8 +9,9 @@ module rst_c_interfaces
   use rst_profile, only: plane_profile
   use rst_compression, only: scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
-  use rst_sync_levels, only: grid_type, level_type, node_type, likely_depth, choose_grid, normal_levels, &
-                             double_levels
+  use rst_sync_grid, only: grid_type, level_type, node_type, likely_depth, choose_grid
+  use rst_sync_guess, only: double_levels
+  use rst_sync_levels, only: normal_levels
   use rst_sync_dense, only: trace_type, dense_levels, thin_levels
   use rst_sync_curve_8, only: follow_curve_8 => follow_curve
   use rst_sync_curve_12, only: follow_curve_12 => follow_curve

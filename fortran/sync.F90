@@ -2,6 +2,12 @@
 ! that calls would cost more than what they compute.
 #include "memory.f90"
 #include "cubic.f90"
+#include "sync_grid.f90"
+#include "sync_guess.f90"
+#include "sync_sweeps.f90"
+#include "sync_loading.f90"
+#include "sync_compression.f90"
+#include "sync_restitution.f90"
 #include "sync_levels.f90"
 #include "sync_dense.f90"
 #define POINTS rst_sync_points_8

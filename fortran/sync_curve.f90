@@ -11,7 +11,7 @@
 !> point on): s, D, D', g_k M_k. Columns of `curve`, their series: A/y, D', g_k P_k, g_k M_k; s, D, D', g_k M_k.
 module CURVE
   use rst_precision, only: dp, ip
-  use rst_sync_levels, only: mass_factor
+  use rst_sync_grid, only: mass_factor
   use POINTS, only: p, place, integral, slope, series
   implicit none (type, external)
   private

@@ -7,8 +7,9 @@ module rst_sync_dense
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, &
                         parabola_through, integrated, integrated_twice
-  use rst_sync_levels, only: grid_type, level_type, node_type, spread_nodes, first_return, by_parts, longest_panel, first_levels, &
-                             mass_factor
+  use rst_sync_grid, only: grid_type, level_type, node_type, spread_nodes, mass_factor
+  use rst_sync_guess, only: first_return
+  use rst_sync_loading, only: by_parts, longest_panel, first_levels
   implicit none (type, external)
   private
   public :: trace_type, dense_levels, thin_levels, fade_in_step

@@ -5,7 +5,7 @@
 !> kink where stick begins; hinge() knows its error. What the rule lacks of int f dX is level_type%missing.
 module rst_sync_edge
   use rst_precision, only: dp, ip
-  use rst_sync_levels, only: level_type, node_type
+  use rst_sync_grid, only: level_type, node_type
   use rst_sync_dense, only: trace_type
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, columns, column_x2, column_weight, &
                                column_alpha

@@ -5,7 +5,7 @@
 !> in between, time itself.
 module rst_sync_quadrature
   use rst_precision, only: dp, ip
-  use rst_sync_levels, only: level_type
+  use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
   public :: spread_weights, starting_weights, parabolic_weights, cubic_weights

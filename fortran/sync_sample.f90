@@ -2,11 +2,11 @@
 !>
 !> Nodes are where the edge is at y = u (c_1 + c_3 u^2 + c_5 u^4) for even u, odd as sums over nodes want it at the centre. The
 !> slopes at both ends are those of a grid that is even in u = tan(phi/2), tan(phi) = A/(radius D') (grid_type of
-!> rst_sync_levels). All levels of a phase are independent of each other, so they come in groups of lanes.
+!> rst_sync_grid). All levels of a phase are independent of each other, so they come in groups of lanes.
 module rst_sync_sample
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of, gentle_memory, series_below
-  use rst_sync_levels, only: level_type, node_type
+  use rst_sync_grid, only: level_type, node_type
   use rst_sync_dense, only: trace_type
   implicit none (type, external)
   private

@@ -47,7 +47,7 @@ struct rst_chain {
     int64_t n;
 };
 
-/* Twins of grid_type, level_type and node_type of fortran/sync_levels.f90. */
+/* Twins of grid_type, level_type and node_type of fortran/sync_grid.f90. */
 struct sync_grid {
     double radius, start, turn;
 };
