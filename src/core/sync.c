@@ -124,20 +124,19 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
 static void note_normal(const struct rst_problem *problem, const struct normal *normal, struct rst_outcome *outcome)
 {
     const double n = (double)normal->levels;
-    *outcome =
-        (struct rst_outcome){.velocity = normal->velocity,
-                             .shear_velocity = full_slip(problem, normal->velocity),
-                             .error_ez = normal->error,
-                             .contact_time = normal->contact_time,
-                             .followed_time = normal->contact_time,
-                             .max_indentation = normal->depth,
-                             .max_contact_radius = sqrt(normal->depth),
-                             .spacing = sqrt(normal->depth) / n,
-                             .step = normal->contact_time / (2 * n),
-                             .elements = normal->levels,
-                             .steps = 2 * normal->levels,
-                             .updates = normal->updates,
-                             .normal_levels = normal->levels};
+    *outcome = (struct rst_outcome){.velocity = normal->velocity,
+                                    .shear_velocity = full_slip(problem, normal->velocity),
+                                    .error_ez = normal->error,
+                                    .contact_time = normal->contact_time,
+                                    .followed_time = normal->contact_time,
+                                    .max_indentation = normal->depth,
+                                    .max_contact_radius = sqrt(normal->depth),
+                                    .spacing = sqrt(normal->depth) / n,
+                                    .step = normal->contact_time / (2 * n),
+                                    .elements = normal->levels,
+                                    .steps = 2 * normal->levels,
+                                    .updates = normal->updates,
+                                    .normal_levels = normal->levels};
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
     if (normal->degree == 0)
         outcome->max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels);
@@ -288,8 +287,8 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
-/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with half and
- * maybe a quarter of them, but about `least` if that is less. */
+/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with
+ * half and maybe a quarter of them, but about `least` if that is less. */
 static int64_t levels_at_will(const struct rst_problem *problem, int64_t least, double rebound)
 {
     const double needed = rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
@@ -318,8 +317,7 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         start =
             fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
-    const int status =
-        rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
+    const int status = rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
     if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, levels, -normal->velocity) : levels;
     return status;
 }

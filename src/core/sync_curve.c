@@ -100,7 +100,7 @@ double rst_sync_curve_force(const struct rst_problem *problem, const struct norm
     struct sync_level *level = (struct sync_level *)room;
     struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
     struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
-    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g, s->tau, normal->curve, few_levels, level,
-                     trace, node);
+    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g, s->tau, normal->curve,
+                     few_levels, level, trace, node);
     return rst_sync_largest_force(level, few_levels);
 }
