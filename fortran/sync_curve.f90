@@ -67,6 +67,17 @@ contains
     growth = growth*growth
   end function growth_of
 
+  !> exp(s/tau) in the compression, which lasts so many relaxation times.
+  pure subroutine grow(lasts, growth)
+    real(dp), intent(in) :: lasts
+    real(dp), intent(out) :: growth(p)
+    integer(ip) :: l
+    !$omp simd
+    do l = 1, p
+      growth(l) = growth_of(square(l)*lasts)
+    end do
+  end subroutine grow
+
   pure function moments(f) result(sums)
     real(dp), intent(in) :: f(p)
     real(dp) :: sums(p)
@@ -100,8 +111,8 @@ contains
     real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms)
     logical, intent(out) :: failed
     real(dp), dimension(p) :: a, d, v, force, growth, next
-    real(dp) :: change, previous, rate, before, excess
-    integer(ip) :: sweep, k
+    real(dp) :: change, previous, rate, before, excess, part, moved
+    integer(ip) :: sweep, k, l
     failed = .true.
     turn = elastic_time*depth
     d = depth*elastic
@@ -112,26 +123,48 @@ contains
     previous = huge(1.0_dp)
     rate = 0.1_dp
     do sweep = 1, most_sweeps
-      force = (2.0_dp/3.0_dp)*g_inf*a*d
+      !$omp simd
+      do l = 1, p
+        force(l) = (2.0_dp/3.0_dp)*g_inf*a(l)*d(l)
+      end do
       do k = 1, n_terms
-        force = force + going(1:, 2 + k)
+        !$omp simd
+        do l = 1, p
+          force(l) = force(l) + going(l, 2 + k)
+        end do
       end do
       next = moments(force)
-      v = 1 - next*(1/next(p))
       before = turn
-      excess = 1/(mass_factor*next(p)*turn) - 1
+      part = 1/next(p)
+      excess = part/(mass_factor*turn) - 1
       turn = turn*((1 + 0.7_dp*excess)/(1 + 0.3_dp*excess))
-      next = turn*moments(v)
-      change = max(maxval(abs(next - d)), abs(turn - before))*(1/turn)
-      d = next
+      !$omp simd
+      do l = 1, p
+        v(l) = 1 - next(l)*part
+      end do
+      next = moments(v)
+      change = 0
+      !$omp simd reduction(max: change)
+      do l = 1, p
+        next(l) = turn*next(l)
+        change = max(change, abs(next(l) - d(l)))
+        d(l) = next(l)
+        a(l) = sqrt(d(l))
+      end do
+      change = max(change, abs(turn - before))*(1/turn)
       if (.not. (minval(d) > 0 .and. turn < 2*before)) return
-      a = sqrt(d)
       do k = 1, n_terms
         if (.not. turn < tau(k)*longest) return
-        growth = growth_of(square*(turn/tau(k)))
-        next = (g(k)*turn)*moments(a*v*growth)/growth
-        change = max(change, maxval(abs(next - going(1:, 2 + k)))*turn)
-        going(1:, 2 + k) = next
+        call grow(turn/tau(k), growth)
+        next = moments(a*v*growth)
+        moved = 0
+        !$omp simd reduction(max: moved)
+        do l = 1, p
+          next(l) = (g(k)*turn)*next(l)/growth(l)
+          moved = max(moved, abs(next(l) - going(l, 2 + k)))
+          going(l, 2 + k) = next(l)
+        end do
+        change = max(change, moved*turn)
       end do
       if (sweep > 1) rate = max(change/previous, best_rate)
       if (change*min(rate, 1.0_dp) < closeness) exit
@@ -140,7 +173,7 @@ contains
     if (sweep > most_sweeps) return
     failed = .false.
     do k = 1, n_terms
-      growth = growth_of(square*(turn/tau(k)))
+      call grow(turn/tau(k), growth)
       going(1:, 2 + n_terms + k) = (g(k)*turn)*moments(v*growth)/growth
     end do
     going(0, :) = 0
@@ -214,6 +247,7 @@ contains
     logical, intent(out) :: failed
     real(dp), dimension(0:p) :: rate, edge, driven
     real(dp), dimension(p) :: excess, fall, beyond
+    real(dp) :: freed
     integer(ip) :: k, l, n
     rate = 0
     do n = 0, p
@@ -222,24 +256,44 @@ contains
         rate(l) = rate(l) + slope(l, n)*coming(n, 1)
       end do
     end do
-    edge = going(p:0:-1, 1)
-    force = (2.0_dp/3.0_dp)*g_inf*edge*sqrt(edge)
-    do k = 1, n_terms
-      left(:, 2*n_terms + k) = growth_of((coming(:, 1) - turn)*(1/tau(k)))
-      force = force + left(:, k)/left(:, 2*n_terms + k)
+    !$omp simd
+    do l = 0, p
+      edge(l) = going(p - l, 1)
+      force(l) = (2.0_dp/3.0_dp)*g_inf*edge(l)*sqrt(edge(l))
     end do
-    force = -mass_factor*force
-    coming(1:, 3) = integrated(coming(0, 3), force*rate)
-    driven = coming(:, 3)*rate
-    coming(1:, 2) = integrated(coming(0, 2), driven)
-    excess = g_inf*(coming(1:, 2) - edge(1:))
-    fall = g_inf*coming(1:, 3)
     do k = 1, n_terms
-      beyond = integrated(coming(0, 3 + k), g(k)*driven*left(:, 2*n_terms + k))/left(1:, 2*n_terms + k)
-      coming(1:, 3 + k) = beyond
-      beyond = beyond - left(1:, n_terms + k)/left(1:, 2*n_terms + k)
-      excess = excess + beyond
-      fall = fall + g(k)*coming(1:, 3) - beyond*(1/tau(k))
+      !$omp simd
+      do l = 0, p
+        left(l, 2*n_terms + k) = growth_of((coming(l, 1) - turn)*(1/tau(k)))
+        force(l) = force(l) + left(l, k)/left(l, 2*n_terms + k)
+      end do
+    end do
+    !$omp simd
+    do l = 0, p
+      force(l) = -mass_factor*force(l)
+      driven(l) = force(l)*rate(l)
+    end do
+    coming(1:, 3) = integrated(coming(0, 3), driven)
+    !$omp simd
+    do l = 0, p
+      driven(l) = coming(l, 3)*rate(l)
+    end do
+    coming(1:, 2) = integrated(coming(0, 2), driven)
+    !$omp simd
+    do l = 1, p
+      excess(l) = g_inf*(coming(l, 2) - edge(l))
+      fall(l) = g_inf*coming(l, 3)
+    end do
+    do k = 1, n_terms
+      beyond = integrated(coming(0, 3 + k), g(k)*driven*left(:, 2*n_terms + k))
+      !$omp simd private(freed)
+      do l = 1, p
+        freed = 1/left(l, 2*n_terms + k)
+        coming(l, 3 + k) = beyond(l)*freed
+        freed = (beyond(l) - left(l, n_terms + k))*freed
+        excess(l) = excess(l) + freed
+        fall(l) = fall(l) + (g(k)*coming(l, 3) - freed*(1/tau(k)))
+      end do
     end do
     failed = .not. maxval(fall) < 0
     moved = -excess/fall
