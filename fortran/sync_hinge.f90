@@ -61,7 +61,7 @@ contains
   pure function root_left_out(h, slack, lack, weight, p) result(missing)
     real(dp), intent(in) :: h, slack, lack, weight(0:3)
     type(point_type), intent(in) :: p
-    real(dp) :: missing, slope, bend, left, c, rise, before, lack_here, lack_before
+    real(dp) :: missing, slope, bend, left, c, before_c, rise, before, lack_here, lack_before
     real(dp), parameter :: place(3) = [0.5_dp - sqrt(0.15_dp), 0.5_dp, 0.5_dp + sqrt(0.15_dp)], &
                            share(3) = [5.0_dp/18, 8.0_dp/18, 5.0_dp/18]  ! Gauss
     real(dp), parameter :: all_but_gone = 0.01_dp  !! of the slack: says nothing of C any more
@@ -76,6 +76,9 @@ contains
     if (p%slack_before > 0) bend = (slope - (p%slack - p%slack_before)/before)/(h + before)
     slope = slope - bend*h ! at the start
     c = lack_here/(p%slack*sqrt(p%slack))
+    before_c = c
+    if (p%slack_before > 0) before_c = lack_before/(p%slack_before*sqrt(p%slack_before))
+    if (p%slack <= all_but_gone*p%slack_before) c = before_c
     rise = 0
     if (slack > all_but_gone*p%slack) then
       rise = (lack/(slack*sqrt(slack)) - c)/h
@@ -83,7 +86,7 @@ contains
         missing = missing + share(i)*h*root_law(h*place(i))
       end do
     else ! substituted such that the root is no more at its end
-      if (p%slack_before > 0) rise = (c - lack_before/(p%slack_before*sqrt(p%slack_before)))/before
+      rise = (c - before_c)/before
       left = min(h, 2*p%slack/(-slope + sqrt(max(0.0_dp, slope**2 - 4*bend*p%slack))))
       do i = 1, 3
         missing = missing + share(i)*2*place(i)*left*root_law(left*(1 - place(i)**2))

@@ -75,6 +75,17 @@ size_t rst_sync_first_room(int64_t levels, int64_t n_terms)
     return lay_out_rungs(NULL, levels, rst_sync_first_runs, n_terms, rung);
 }
 
+/* Every other level of the rung before each of the rungs `made` to count - 1; runs are made on those from `first` on. */
+static void thin_rungs(const struct rst_problem *problem, int made, int first, int count, const struct store *rung)
+{
+    const struct rst_solid *s = &problem->solid;
+    for (int k = made > 1 ? made : 1; k < count; k++)
+        rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
+                        rung[k].level, rung[k].trace, rung[k].node);
+    for (int k = made > first ? made : first; k < count; k++)
+        rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
+}
+
 /* `ratio` times the levels of the normal problem, then every other one of them, and so on, for runs from rung `first`
  * on. Nonzero: an error, or a time was not found. */
 static int make_rungs(const struct rst_problem *problem, const struct normal *normal, int64_t ratio, int first,
@@ -92,11 +103,7 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "iterations do not settle between %lld levels; take the method euler for this solid",
                           (long long)normal->levels);
-    for (int k = 1; k < count; k++)
-        rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
-                        rung[k].level, rung[k].trace, rung[k].node);
-    for (int k = first; k < count; k++)
-        rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
+    thin_rungs(problem, 0, first, count, rung);
     return RESTITUTE_OK;
 }
 
@@ -128,7 +135,7 @@ int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *wor
 }
 
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
-                          const struct normal *normal, const struct resolution *resolution, int runs,
+                          const struct normal *normal, const struct resolution *resolution, int runs, int needed,
                           struct store *store, double *largest_force, restitute_error *error)
 {
     struct rst_shelf *shelf = rst_sync_shelf(problem, workspace);
@@ -143,11 +150,15 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
         kept->ratio = 0;
         if (rst_shelf_dense(shelf, lay_out_rungs(NULL, all, count, n_terms, rung))) return out_of_memory(all, error);
         lay_out_rungs(shelf->dense, all, count, n_terms, rung);
-        const int status = make_rungs(problem, normal, resolution->ratio, first, count, rung, error);
+        const int status = make_rungs(problem, normal, resolution->ratio, first, first + needed, rung, error);
         if (status) return status;
-        *kept = (struct kept){resolution->ratio, resolution->levels, rst_sync_largest_force(rung->level, all)};
+        *kept = (struct kept){resolution->ratio, resolution->levels, needed, rst_sync_largest_force(rung->level, all)};
     }
     lay_out_rungs(shelf->dense, all, count, n_terms, rung);
+    if (kept->runs < needed) {
+        thin_rungs(problem, first + (int)kept->runs, first, first + needed, rung);
+        kept->runs = needed;
+    }
     for (int k = 0; k < runs; k++) {
         store[k] = rung[first + k];
         taken = 0;

@@ -93,14 +93,15 @@ struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_w
 /* Which dense levels of a shelf are made from the solution there. */
 struct kept {
     int64_t ratio, levels; /* of the resolution; ratio 0: nothing */
+    int64_t runs;          /* for so many runs */
     double largest_force;
 };
 struct kept *rst_sync_kept(const struct rst_shelf *shelf);
 
-/* The levels of the first `runs` runs, on the shelf, where they are kept for other impacts on the solid; the
- * arrays of elements are the same for all. */
+/* The levels of the first `needed` of up to `runs` runs, on the shelf, where they are kept for other impacts on the solid, and
+ * where asking again for more of the same runs goes on; the arrays of elements are the same for all. */
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
-                          const struct normal *normal, const struct resolution *resolution, int runs,
+                          const struct normal *normal, const struct resolution *resolution, int runs, int needed,
                           struct store *store, double *largest_force, restitute_error *error);
 
 /* Those of a run alone, all in workspace->elements; `room`: for `more` doubles. */
