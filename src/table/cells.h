@@ -30,7 +30,7 @@ struct rst_pull {
     int64_t cell;
 };
 
-enum { rst_most_pulls = 3, rst_most_in_vain = 8 };
+enum { rst_most_pulls = 3, rst_most_in_vain = 5 };
 
 struct rst_cell {
     struct rst_leaf at;
@@ -40,7 +40,7 @@ struct rst_cell {
     int64_t child;               /* the first of its halves; of these there may be but one */
     int8_t state;
     int8_t checked;
-    int8_t in_vain; /* halvings on end that have not brought that mean down to half */
+    int8_t in_vain; /* halvings on end, along what it asked for, that have not brought that mean down to half */
 };
 
 struct rst_check {

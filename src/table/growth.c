@@ -7,19 +7,28 @@
 /* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
 static const double share_for_gamma = 0.3;
 
+static const int axis_of_chain[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
+
+static int asks_for(const struct rst_cell *cell)
+{
+    int most = RST_W;
+    for (int a = 0; a < rst_cell_axes; a++)
+        if (cell->error[a] > cell->error[most]) most = a;
+    return most;
+}
+
 /* ---- cells */
 
 void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struct rst_spot_on_lattice *corner,
                     int32_t step[rst_cell_axes])
 {
-    static const int axis_of[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
     int32_t size[rst_cell_axes] = {rst_lattice, rst_lattice >> at->level, rst_lattice, rst_lattice};
     corner->at[RST_W] = (int32_t)at->root * rst_lattice;
     corner->at[RST_G] = (int32_t)at->octave * rst_lattice + (int32_t)at->part * size[RST_G];
     corner->at[RST_C] = 0;
     corner->at[RST_P] = (int32_t)at->sheet * rst_lattice;
     for (int64_t d = 0; d < at->depth; d++) {
-        const int axis = axis_of[g->chain[d]];
+        const int axis = axis_of_chain[g->chain[d]];
         size[axis] /= 2;
         if (at->path >> (at->depth - 1 - d) & 1) corner->at[axis] += size[axis];
     }
@@ -55,8 +64,9 @@ static int is_asked(const struct rst_growth *g, const struct restitute_table_bui
     return beyond > 1 || (high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin));
 }
 
+/* `whole`: what it is a half of, NULL: a root; as_asked: it was halved along the axis along which its polynomial misses most. */
 static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at,
-                    const struct rst_cell *whole)
+                    const struct rst_cell *whole, int as_asked)
 {
     struct rst_spot_on_lattice corner;
     int32_t step[rst_cell_axes];
@@ -73,7 +83,7 @@ static int add_cell(struct rst_growth *g, const struct restitute_table_builder *
                                   .state = RST_TO_JUDGE,
                                   .usual = whole ? whole->usual : 0,
                                   .before = whole ? whole->before : HUGE_VAL,
-                                  .in_vain = (int8_t)(whole ? whole->in_vain + 1 : 0)};
+                                  .in_vain = (int8_t)(whole ? whole->in_vain + as_asked : 0)};
     g->cell[g->count++] = cell;
     return 0;
 }
@@ -82,12 +92,14 @@ static int add_cell(struct rst_growth *g, const struct restitute_table_builder *
 static int add_halves(struct rst_growth *g, const struct restitute_table_builder *b, int64_t k, struct rst_leaf lower)
 {
     const struct rst_cell whole = g->cell[k];
+    const int along = lower.level > whole.at.level ? RST_G : axis_of_chain[g->chain[whole.at.depth]];
+    const int as_asked = along == asks_for(&whole);
     struct rst_leaf upper = lower;
     upper.part += lower.level > whole.at.level;
     upper.path += lower.depth > whole.at.depth;
     g->cell[k].state = RST_DONE_WITH;
     g->cell[k].child = g->count;
-    return add_cell(g, b, lower, &whole) || add_cell(g, b, upper, &whole);
+    return add_cell(g, b, lower, &whole, as_asked) || add_cell(g, b, upper, &whole, as_asked);
 }
 
 int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const struct restitute_table_builder *b)
@@ -103,7 +115,7 @@ int rst_growth_begin(struct rst_growth *g, const struct rst_cells *c, const stru
     for (int64_t o = 0; o < g->of.octaves; o++)
         for (int64_t r = 0; r < g->of.roots; r++)
             for (int64_t s = 0; s < sheets; s++)
-                if (add_cell(g, b, (struct rst_leaf){.octave = o, .root = r, .sheet = s}, NULL)) return 1;
+                if (add_cell(g, b, (struct rst_leaf){.octave = o, .root = r, .sheet = s}, NULL, 0)) return 1;
     return 0;
 }
 
@@ -134,14 +146,6 @@ int rst_growth_fails(struct rst_growth *g, int pardon)
 }
 
 /* ---- how it is halved */
-
-static int asks_for(const struct rst_cell *cell)
-{
-    int most = RST_W;
-    for (int a = 0; a < rst_cell_axes; a++)
-        if (cell->error[a] > cell->error[most]) most = a;
-    return most;
-}
 
 static int64_t mark_of(const struct rst_leaf *at)
 {
@@ -201,7 +205,6 @@ static int times_in_chain(const struct rst_growth *g, int along)
 /* One more halving: along what most of those ask for that wait for it. Nonzero: none is left. */
 static int lengthen_chain(struct rst_growth *g)
 {
-    static const int axis_of[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
     int64_t votes[rst_alongs] = {0};
     int best = -1;
     for (int64_t k = 0; k < g->count; k++) {
@@ -209,11 +212,11 @@ static int lengthen_chain(struct rst_growth *g)
         if (cell->state != RST_TO_HALVE || cell->at.depth != g->chain_length) continue;
         int most = 0;
         for (int along = 0; along < rst_alongs; along++)
-            if (cell->error[axis_of[along]] > cell->error[axis_of[most]]) most = along;
+            if (cell->error[axis_of_chain[along]] > cell->error[axis_of_chain[most]]) most = along;
         votes[most]++;
     }
     for (int along = 0; along < rst_alongs; along++) {
-        if (!g->active[axis_of[along]] || times_in_chain(g, along) >= rst_most_halvings) continue;
+        if (!g->active[axis_of_chain[along]] || times_in_chain(g, along) >= rst_most_halvings) continue;
         if (best < 0 || votes[along] > votes[best]) best = along;
     }
     if (best < 0 || g->chain_length >= rst_deepest) return 1;
