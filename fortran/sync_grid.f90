@@ -53,14 +53,17 @@ contains
 
   !> Grid for a solid, from what a Kelvin-Voigt solid of its stiffness E and viscosity would do, both at the age of the impact:
   !> after the turning point its contact shrinks to A ~ (E D/viscosity^2)^(1/3) before the sphere moves; before it, the
-  !> sphere creeps at D' ~ E D/viscosity.
+  !> sphere creeps at D' ~ E D/viscosity. Where the contact shrinks to a smaller part, both ends are divided by these. Below that
+  !> damping the turning point alone is, and the less, the less the sphere creeps: in the few levels around it all that slips may
+  !> come to slip, but else levels are wanted elsewhere.
   pure function choose_grid(g_inf, eta, n_terms, g, tau) result(grid)
     real(dp), intent(in) :: g_inf, eta
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     type(grid_type) :: grid
-    real(dp), parameter :: even_above = 0.5_dp  !! contacts that stay larger than this part need no grading
-    real(dp) :: depth, stiffness, viscosity, age, small_radius
+    real(dp), parameter :: even_above = 0.5_dp  !! contacts that stay larger than this part need no grading of the start
+    real(dp), parameter :: creeping = 0.125_dp  !! D' of such creep
+    real(dp) :: depth, stiffness, viscosity, age, small_radius, creep
     integer(ip) :: k
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
     grid = grid_type(sqrt(depth), 0.0_dp, 0.0_dp)
@@ -71,10 +74,13 @@ contains
       stiffness = stiffness + g(k)*(age/(1 + age))**2
       viscosity = viscosity + g(k)*tau(k)/(1 + age)**2
     end do
-    small_radius = depth*stiffness/max(viscosity, tiny(1.0_dp)*1.0e200_dp)**2
+    viscosity = max(viscosity, tiny(1.0_dp)*1.0e200_dp)
+    small_radius = depth*stiffness/viscosity**2
+    creep = max(depth*stiffness/viscosity, 1.0e-9_dp)
+    grid%turn = asinh(min(1.0_dp, creeping/creep)**2/creep)
     if (small_radius > (even_above*grid%radius)**3) return
     grid%start = asinh(grid%radius/small_radius**(1.0_dp/3.0_dp))
-    grid%turn = asinh(1/max(depth*stiffness/viscosity, 1.0e-9_dp))
+    grid%turn = asinh(1/creep)
   end function choose_grid
 
   !> Where the levels of the compression are: radius and width hold u and du/dj, until the compression has passed them.
