@@ -28,6 +28,7 @@ module rst_sync_elements
     real(dp) :: passive_weight, passive_alpha    !! weighted sums over the passive nodes
     integer(ip) :: known                         !! how many steps were made, up to 3
     integer(ip) :: level, first, front, updates  !! first: active node; front: outermost node that sticks, -1: none
+    integer(ip) :: turned                        !! nonzero: behind one front, and slip has turned round there
   end type shear_type
 
   !> A step from level to level, as all elements see it. Of the slip velocity before, the share 1 - drop goes on.

@@ -32,8 +32,9 @@ module rst_sync_front
   !> Part of the slack at the start of a step below which the end of stick, where H has a root, is near.
   real(dp), parameter :: end_is_near = 0.85_dp
 
-  !> Steps from the onset of slip to the end of stick, below which elements, which find kinks within steps, are more accurate.
-  integer(ip), parameter :: fewest_steps = 4
+  !> Steps from the onset of slip to the end of stick, below which elements, which find kinks within steps, are more accurate; when
+  !> slip has turned round, which it does within a step.
+  integer(ip), parameter :: fewest_steps = 4, fewest_after_turn = 8
 
   !> The sentinel: its alpha and slip velocity; node -1: none.
   type :: guard_type
@@ -106,6 +107,7 @@ contains
       end if
       call front_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term, guard, holds)
     end do
+    state%turned = p%turned
     state%velocity = p%velocity
     if (holds) state%velocity = p%velocity + 2*mass_factor*scene%chi*p%side*full_friction(scene%n, p%level, level)
   end subroutine walk
@@ -117,7 +119,7 @@ contains
     type(point_type), intent(out) :: p
     p = point_type(time=state%time, shift=state%shift, velocity=state%velocity, force=state%force, force_before=0, step_before=0, &
                    slope=state%slope, normal=state%force, normal_before=0, sinking=state%velocity, fresh=0, weight=0, alpha=0, &
-                   side=0, slack=0, slack_before=0, level=state%level, known=0, front=0, onset=0)
+                   side=0, slack=0, slack_before=0, level=state%level, known=0, front=0, onset=0, turned=0)
     if (.not. scene%psi > 1) p%sinking = 1
   end subroutine begin
 
@@ -358,7 +360,8 @@ contains
       end do
     end if
     if (p%side*p%velocity + p%sinking > 0) holds = .false. ! what is touched last would stick
-    if (stuck .and. p%front < 0 .and. p%level - p%onset < fewest_steps) holds = .false. ! ends too soon to be followed
+    if (stuck .and. p%front < 0 .and. p%level - p%onset < merge(fewest_after_turn, fewest_steps, p%turned > 0)) &
+      holds = .false. ! ends too soon to be followed
   end subroutine front_step
 
   !> Velocity and bend from S at the end of the step.
@@ -383,7 +386,8 @@ contains
     now%bend = -rule%push*span%half_rate*(now%force - p%force)
   end subroutine finish
 
-  !> int int f dX ds over the step that ends at the level l.
+  !> int int f dX ds over the step that ends at the level l. The difference of D' would be exact, but not to the part of a small psi
+  !> that e_x wants.
   pure function friction_impulse(l, level) result(passed)
     integer(ip), intent(in) :: l
     type(level_type), intent(in) :: level(0:*)
@@ -588,6 +592,7 @@ contains
     end do
     p%side = -p%side
     p%onset = p%level
+    p%turned = p%turned + 1
     call add_up(m, edge, trace, node, alpha, beta, p, term)
     p%slack = 2*p%fresh - p%slack
     p%slack_before = 0
@@ -634,8 +639,8 @@ contains
     end do
   end subroutine step_guard
 
-  !> Whether all slips to the end, even if the sentinel kept its lag. The slip velocity of all others, over d, is D' + d U' and changes
-  !> with D' alone.
+  !> Whether all slips to the end, even if the sentinel's lag, which grows by a tenth or so, doubled. The slip velocity of all others,
+  !> over d, is D' + d U' and changes with D' alone.
   pure function slips_on(scene, velocity, p, guard) result(yes)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: velocity  !! D' at the end
@@ -645,6 +650,6 @@ contains
     real(dp) :: now, last
     now = p%side*p%velocity + p%sinking
     last = now + (1 - 2*scene%chi)*(velocity - p%sinking)
-    yes = max(now, last) + max(0.0_dp, guard%kappa - now) <= 0
+    yes = max(now, last) + 2*max(0.0_dp, guard%kappa - now) <= 0
   end function slips_on
 end module rst_sync_front

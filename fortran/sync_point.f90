@@ -27,7 +27,7 @@ module rst_sync_point
     real(dp) :: side                      !! d; 0: all stick
     real(dp) :: slack, slack_before       !! y at the centre, here and at the level before; 0: not known
     integer(ip) :: level, known, front    !! known: how many steps were made, up to 3
-    integer(ip) :: onset                  !! level from which on it slips on that side
+    integer(ip) :: onset, turned          !! level from which on it slips on that side; how often that has changed
   end type point_type
 
   !> A step: responses of Q to the velocity at its start and at its end and to the bend of the velocity, and Q without the latter

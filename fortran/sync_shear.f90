@@ -70,7 +70,7 @@ contains
     state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
                        step_before=0, force_before=0, normal_before=0, slope=0, known=0, &
                        passive_weight=0, passive_alpha=0, &
-                       level=0, first=1, front=0, updates=0)
+                       level=0, first=1, front=0, updates=0, turned=0)
     do k = 1, scene%n_terms
       term(k) = term_type(0, 0, 0, 0, 0, 0, 0, 0, 0, 1)  ! the passive node 0 is entered now
     end do

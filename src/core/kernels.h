@@ -72,7 +72,7 @@ struct sync_scene {
 struct sync_shear {
     double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;
     double passive_weight, passive_alpha;
-    int64_t known, level, first, front, updates;
+    int64_t known, level, first, front, updates, turned;
 };
 
 /* Twin of term_type of fortran/sync_elements.f90. */

@@ -31,16 +31,16 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
  * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
  * is much faster than the impact. */
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
-enum { most_alone = 160 };
+static const double most_alone = 160;
+
+/* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound of `tiny`, from so
+ * many levels on that slip is followed at all; at `tiny`: `least_alone`. */
+static const double more_if_small = 2, tiny = 0.03, growth_below_tiny = 1.3, least_alone = 128, more_levels = 0.45;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
  * from the second doubling on, and for impacts with so small a rebound from the first, since their times differ by
  * decades. */
 static const double fall_at_least = 1.0 / 8, small_rebound = 0.3;
-
-/* For solids with relaxation times errors fall late and irregularly below that rebound: the estimate goes over to all
- * of the change, for no less than 3/16 of the one before, and three times the usual error. */
-static const double hardly_rebounds = 0.02, usual_factor_then = 3, fall_at_least_then = 3.0 / 16, little_lack = 0.1;
 
 /* Above that chi slip may turn round within a step, or end everywhere; just above 1/2 gross slip hardly changes its
  * velocity: such errors fall with n^-2, irregularly. */
@@ -109,6 +109,7 @@ double rst_sync_largest_force(const struct sync_level *level, int64_t n)
 struct run {
     int64_t levels, updates;
     int one_front; /* slip stayed behind one front: no element was stepped */
+    int turned;    /* and turned round there */
     double velocity;
 };
 
@@ -123,6 +124,7 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
     *run = (struct run){.levels = store->levels,
                         .updates = 2 * store->levels + shear.updates * (1 + s->n_terms),
                         .one_front = shear.updates == 0,
+                        .turned = shear.turned > 0,
                         .velocity = shear.velocity};
     outcome->updates += run->updates;
 }
@@ -160,45 +162,39 @@ static double second_order_error(double chi)
     return chi > 2 ? 6 * usual_error_then * sqrt(chi / 2) : usual_error_then;
 }
 
-/* How much of what is true of solids that hardly rebound holds, 0 to 1. Kelvin-Voigt solids behave well all the same. */
-static double lack_of_rebound(const struct rst_problem *problem, double rebound)
-{
-    return problem->solid.n_terms > 0 ? 1 / (1 + pow(rebound / hardly_rebounds, 3)) : 0;
-}
-
-static double between(double none, double all, double part)
-{
-    return none + part * (all - none);
-}
-
-/* Whether a run whose slip stays behind one front needs no other beside it. */
+/* Whether a run whose slip stays behind one front, and does not turn round, needs no other beside it. */
 static int may_stand_alone(const struct rst_problem *problem, const struct normal *normal)
 {
     return problem->elements <= 0 && problem->mode != RST_NO_SLIP && problem->psi >= thinnest_alone &&
-           -normal->velocity >= small_rebound;
+           (-normal->velocity >= small_rebound || problem->solid.n_terms > 0);
+}
+
+/* Below which number of levels none does. */
+static double least_levels_alone(double rebound)
+{
+    return rebound < small_rebound ? least_alone * pow(tiny / rebound, more_levels) : 0;
 }
 
 /* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, double n)
+static double error_alone(const struct rst_problem *problem, double rebound, double n)
 {
     const double thin = 1 + thin_behind_front / (least_slip + problem->psi), chi = fmax(1, problem->chi);
-    return usual_alone * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    double error = usual_alone * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
+    return error;
 }
 
 /* That of the second of two runs, without what both have of the normal problem. */
-static double error_beside(const struct rst_problem *problem, const struct normal *normal, double change_before,
-                           const struct run *before, const struct run *now)
+static double error_beside(const struct rst_problem *problem, double change_before, const struct run *before,
+                           const struct run *now)
 {
-    const double n = (double)now->levels, change = now->velocity - before->velocity;
-    const double lack = lack_of_rebound(problem, -normal->velocity);
-    const double fall = between(fall_at_least, fall_at_least_then, lack);
+    const double n = (double)now->levels, change = now->velocity - before->velocity, chi = fmax(1, problem->chi);
     const int one_front = before->one_front && now->one_front && problem->elements <= 0;
     const double of_run = one_front ? usual_behind_front : usual_error;
     const double thin = 1 + (one_front ? thin_behind_front : thin_slip) / (least_slip + problem->psi);
-    const double usual = between(1, usual_factor_then, lack) * of_run * thin * pow(fmax(1, problem->chi), 1.5);
-    return between(one_front ? share_behind_front : share_of_change, 1, lack) *
-               fmax(fabs(change), fall * fabs(change_before)) / problem->psi +
-           usual / (n * n * n);
+    return (one_front ? share_behind_front : share_of_change) *
+               fmax(fabs(change), fall_at_least * fabs(change_before)) / problem->psi +
+           of_run * thin * chi * sqrt(chi) / (n * n * n);
 }
 
 /* The velocity, extrapolated where there was a run with half the levels before, and its error. change_before: between
@@ -210,9 +206,9 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
     outcome->shear_velocity = now->velocity;
     if (before->levels > 0) {
         outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
-        outcome->error_ex = error_beside(problem, normal, change_before, before, now);
+        outcome->error_ex = error_beside(problem, change_before, before, now);
     } else
-        outcome->error_ex = error_alone(problem, n);
+        outcome->error_ex = error_alone(problem, -normal->velocity, n);
     outcome->error_ex +=
         rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
         fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
@@ -366,7 +362,8 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
     struct store store[rst_sync_first_runs];
     struct run quarter;
     double force;
-    const int alone = !half_alone && resolution->levels <= most_alone && may_stand_alone(problem, normal);
+    const double least = least_levels_alone(-normal->velocity), n = (double)resolution->levels;
+    const int alone = !half_alone && n >= least && n <= fmax(most_alone, 2 * least) && may_stand_alone(problem, normal);
     const int needed = alone ? 1 : runs;
     int status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, needed, store, &force, error);
     if (status) return status;
@@ -377,7 +374,7 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
         return RESTITUTE_OK;
     }
     follow_shear(problem, workspace, &store[0], now, outcome);
-    if (alone && now->one_front) return RESTITUTE_OK;
+    if (alone && now->one_front && !now->turned) return RESTITUTE_OK;
     if (alone)
         status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, runs, store, &force, error);
     if (status) return status;
@@ -406,15 +403,15 @@ static int next_run(const struct rst_problem *problem, struct rst_workspace *wor
 }
 
 /* Twice the levels of the tangential problem: fewer left out, more between those of the normal problem, or more of it
- * where between its levels the motion is not known as well as at them: on a graded grid, and where the solid hardly
- * rebounds. normal->levels is 0 if that does not settle. */
+ * where between its levels the motion is not known as well as at them: on a graded grid. normal->levels is 0 if that
+ * does not settle. */
 static int double_levels(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
                          struct resolution *resolution, restitute_error *error)
 {
     struct normal finer;
     int status = RESTITUTE_OK;
     if (resolution->levels >= resolution->ratio * normal->levels) {
-        if (rst_sync_is_graded(problem) || lack_of_rebound(problem, -normal->velocity) > little_lack) {
+        if (rst_sync_is_graded(problem)) {
             status = rst_sync_normal_again(problem, workspace, 2 * normal->levels, &finer, error);
             normal->levels = finer.levels;
             normal->level = finer.level;
@@ -435,8 +432,10 @@ static double levels_alone(double tolerance, double swings)
 /* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
 static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
 {
-    const double swings = rst_sync_swings(problem), alone = levels_alone(problem->tolerance, swings);
-    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= most_alone) return alone;
+    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
+    const double alone = fmax(least, levels_alone(problem->tolerance, swings));
+    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
+        return alone;
     return rst_sync_levels_to_start(problem->tolerance, swings);
 }
 
