@@ -37,5 +37,7 @@
 #include "sync_edge.f90"
 #include "sync_point.f90"
 #include "sync_hinge.f90"
+#include "sync_slack.f90"
+#include "sync_sentinel.f90"
 #include "sync_front.f90"
 #include "sync_shear.f90"

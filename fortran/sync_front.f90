@@ -20,8 +20,10 @@ module rst_sync_front
   use rst_sync_elements, only: scene_type, shear_type, term_type
   use rst_sync_quadrature, only: cubic_weights
   use rst_sync_edge, only: weight_of
-  use rst_sync_point, only: point_type, span_type, measure_span, weigh_span, note_span, slack_at
-  use rst_sync_hinge, only: hinge, beyond, root_left_out
+  use rst_sync_point, only: point_type, span_type, measure_span, weigh_span, note_span
+  use rst_sync_hinge, only: hinge, root_left_out
+  use rst_sync_slack, only: add_up, speak_of_slack, unseen_force, slacks, pass_node, turn_round
+  use rst_sync_sentinel, only: guard_type, step_guard, slips_on
   implicit none (type, external)
   private
   public :: follow_front
@@ -35,12 +37,6 @@ module rst_sync_front
   !> Steps from the onset of slip to the end of stick, below which elements, which find kinks within steps, are more accurate; when
   !> slip has turned round, which it does within a step.
   integer(ip), parameter :: fewest_steps = 4, fewest_after_turn = 8
-
-  !> The sentinel: its alpha and slip velocity; node -1: none.
-  type :: guard_type
-    real(dp) :: alpha, kappa
-    integer(ip) :: node
-  end type guard_type
 
   !> How U' at the end of a step follows from S there: rest - push weight(0) S. timely: weights for the part 1 - reach of the force.
   type :: rule_type
@@ -154,55 +150,6 @@ contains
       call speak_of_slack(m, p%front + 1, scene, trace, node, alpha, beta, p, term)
     end if
   end subroutine begin_together
-
-  !> Sums over the nodes that stick; age: of the node `last`, front or front + 1.
-  pure subroutine add_up(m, last, trace, node, alpha, beta, p, term)
-    integer(ip), intent(in) :: m, last
-    type(trace_type), intent(in) :: trace(m, 0:last)
-    type(node_type), intent(in) :: node(0:last)
-    real(dp), intent(in) :: alpha(0:last), beta(m, 0:last)
-    type(point_type), intent(inout) :: p
-    type(term_type), intent(inout) :: term(m)
-    real(dp) :: weight, age
-    integer(ip) :: i, k
-    p%weight = 0
-    p%alpha = 0
-    do i = 0, p%front
-      weight = weight_of(node, i)
-      p%weight = p%weight + weight
-      p%alpha = p%alpha + weight*alpha(i)
-    end do
-    do k = 1, m
-      age = term(k)%age
-      term(k)%beta_sum = 0
-      do i = last, 0, -1
-        if (i <= p%front) term(k)%beta_sum = term(k)%beta_sum + weight_of(node, i)*age*beta(k, i)
-        age = age*trace(k, i)%decay
-      end do
-    end do
-  end subroutine add_up
-
-  !> From now on alpha and beta are those of the slack, for the side given; nodes 0 to last have been touched.
-  pure subroutine speak_of_slack(m, last, scene, trace, node, alpha, beta, p, term)
-    integer(ip), intent(in) :: m, last
-    type(scene_type), intent(in) :: scene
-    type(trace_type), intent(in) :: trace(m, 0:last)
-    type(node_type), intent(in) :: node(0:last)
-    real(dp), intent(inout) :: alpha(0:last), beta(m, 0:last)
-    type(point_type), intent(inout) :: p
-    type(term_type), intent(inout) :: term(m)
-    integer(ip) :: i, k
-    do i = 0, last
-      alpha(i) = scene%g_inf*node(i)%radius**2 + p%side*alpha(i)
-      do k = 1, m
-        beta(k, i) = trace(k, i)%memory + p%side*beta(k, i)
-      end do
-    end do
-    call add_up(m, last, trace, node, alpha, beta, p, term)
-    p%onset = p%level
-    p%slack = slack_at(m, scene, p, term)
-    p%slack_before = 0
-  end subroutine speak_of_slack
 
   !> A step of the compression in which all sticks; at its end the node at the edge is touched, and may slip.
   pure subroutine stick_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term)
@@ -482,174 +429,4 @@ contains
     end do
     force = now%force + (p%side*force - now%force)/(1 + answer_of(rule, span)*p%weight)
   end function implied
-
-  !> What the sum over nodes, with what `beyond` adds in the last cell, lacks of int f dX. Where the slipping ring is thin, y is f
-  !> but for a little and its integral lacks as much, which is not little beside S.
-  pure function unseen_force(m, compression, edge, scene, end, fade, trace, node) result(unseen)
-    integer(ip), intent(in) :: m, edge
-    logical, intent(in) :: compression
-    type(scene_type), intent(in) :: scene
-    type(level_type), intent(in) :: end
-    type(trace_type), intent(in) :: fade(m), trace(m, 0:edge)
-    type(node_type), intent(in) :: node(0:edge)
-    real(dp) :: unseen, f(-2:1), age
-    integer(ip) :: j, k, inmost
-    inmost = max(-2_ip, 1 - edge)
-    f = end%fresh
-    do j = 0, inmost, -1
-      f(j) = end%fresh - scene%g_inf*node(edge - 1 + j)%radius**2
-    end do
-    do k = 1, m
-      age = fade(k)%fade
-      do j = 0, inmost, -1
-        age = age*trace(k, edge + j)%decay
-        f(j) = f(j) - age*trace(k, edge - 1 + j)%memory
-      end do
-    end do
-    f(1) = merge(scene%eta*end%velocity, 0.0_dp, compression)
-    if (edge == 2) f(-2) = f(0)
-    if (edge == 1) f(-1) = f(1)
-    unseen = end%missing - beyond(edge - 1, node, f, 1.0_dp)
-  end function unseen_force
-
-  !> y of the nodes front - 2 to front + 1; the latter may just be touched. `slack`: y at the centre, about which y is even.
-  pure subroutine slacks(m, touched, at_edge, edge, trace, alpha, beta, slack, p, term, y)
-    integer(ip), intent(in) :: m, edge
-    logical, intent(in) :: touched
-    type(trace_type), intent(in) :: trace(m, 0:edge)
-    real(dp), intent(in) :: at_edge, slack, alpha(0:edge), beta(m, 0:edge)
-    type(point_type), intent(in) :: p
-    type(term_type), intent(in) :: term(m)
-    real(dp), intent(out) :: y(-2:1)
-    real(dp) :: age
-    integer(ip) :: j, k, f
-    f = p%front
-    if (f >= 2 .and. .not. touched) then ! most nodes, without branches
-      y = slack - alpha(f - 2:f + 1)
-      do k = 1, m
-        age = term(k)%age
-        y(1) = y(1) - age*beta(k, f + 1)
-        age = age*trace(k, f + 1)%decay
-        y(0) = y(0) - age*beta(k, f)
-        age = age*trace(k, f)%decay
-        y(-1) = y(-1) - age*beta(k, f - 1)
-        age = age*trace(k, f - 1)%decay
-        y(-2) = y(-2) - age*beta(k, f - 2)
-      end do
-      return
-    end if
-    y = slack
-    do j = 1, max(-2_ip, -f), -1
-      if (j < 1 .or. .not. touched) y(j) = slack - alpha(f + j)
-    end do
-    do k = 1, m
-      age = term(k)%age
-      do j = 1, max(-2_ip, -f), -1
-        if (j < 1 .or. .not. touched) y(j) = y(j) - age*beta(k, f + j)
-        if (f + j > 0) age = age*trace(k, f + j)%decay
-      end do
-    end do
-    if (touched) y(1) = at_edge
-    if (f == 1) y(-2) = y(0)
-    if (f == 0) y(-1) = y(1)
-  end subroutine slacks
-
-  !> The outermost node that sticks slips from now on, or leaves the contact.
-  pure subroutine pass_node(m, node, trace, alpha, beta, p, term)
-    integer(ip), intent(in) :: m
-    type(node_type), intent(in) :: node(0:*)
-    type(trace_type), intent(in) :: trace(m, 0:*)
-    real(dp), intent(in) :: alpha(0:*), beta(m, 0:*)
-    type(point_type), intent(inout) :: p
-    type(term_type), intent(inout) :: term(m)
-    real(dp) :: weight
-    integer(ip) :: k
-    weight = weight_of(node, p%front)
-    p%weight = p%weight - weight
-    p%alpha = p%alpha - weight*alpha(p%front)
-    do k = 1, m
-      term(k)%age = term(k)%age*trace(k, p%front + 1)%decay
-      term(k)%beta_sum = term(k)%beta_sum - weight*term(k)%age*beta(k, p%front)
-    end do
-    p%front = p%front - 1
-  end subroutine pass_node
-
-  !> The other side. The slack f - d q has 2 G_inf X^2 and 2 M_k less what was alpha and beta.
-  pure subroutine turn_round(m, edge, scene, trace, node, alpha, beta, p, term)
-    integer(ip), intent(in) :: m, edge
-    type(scene_type), intent(in) :: scene
-    type(trace_type), intent(in) :: trace(m, 0:edge)
-    type(node_type), intent(in) :: node(0:edge)
-    real(dp), intent(inout) :: alpha(0:edge), beta(m, 0:edge)
-    type(point_type), intent(inout) :: p
-    type(term_type), intent(inout) :: term(m)
-    integer(ip) :: i, k
-    do i = 0, edge
-      alpha(i) = 2*scene%g_inf*node(i)%radius**2 - alpha(i)
-      do k = 1, m
-        beta(k, i) = 2*trace(k, i)%memory - beta(k, i)
-      end do
-    end do
-    p%side = -p%side
-    p%onset = p%level
-    p%turned = p%turned + 1
-    call add_up(m, edge, trace, node, alpha, beta, p, term)
-    p%slack = 2*p%fresh - p%slack
-    p%slack_before = 0
-  end subroutine turn_round
-
-  !> The sentinel in the step: the node that the front passed last, from where it stuck, or the one before.
-  pure subroutine step_guard(m, scene, span, passed, edge, slack, alpha, beta, p, term, guard, holds)
-    integer(ip), intent(in) :: m, edge
-    type(scene_type), intent(in) :: scene
-    type(span_type), intent(in) :: span
-    logical, intent(in) :: passed
-    real(dp), intent(in) :: slack, alpha(0:*), beta(m, 0:*)
-    type(point_type), intent(in) :: p
-    type(term_type), intent(inout) :: term(m)
-    type(guard_type), intent(inout) :: guard
-    logical, intent(out) :: holds
-    real(dp) :: y, slip, kept, keep
-    integer(ip) :: k
-    holds = .true.
-    if (passed) then
-      guard = guard_type(alpha(p%front + 1), 0.0_dp, p%front + 1)
-      do k = 1, m
-        term(k)%faded_sum = term(k)%age*beta(k, guard%node)
-      end do
-    else if (guard%node < 0 .or. guard%node >= edge) then
-      return
-    else
-      do k = 1, m
-        term(k)%faded_sum = term(k)%decay*term(k)%faded_sum
-      end do
-    end if
-    keep = 1 - span%drop
-    y = slack - guard%alpha - span%start_response*keep*guard%kappa
-    do k = 1, m
-      y = y - term(k)%faded_sum
-    end do
-    holds = y <= 0
-    slip = y/(span%end_response + span%drop*span%start_response)
-    kept = keep*guard%kappa + span%drop*slip
-    guard%alpha = guard%alpha + scene%g_inf*span%h/2*(kept + slip)
-    guard%kappa = slip
-    do k = 1, m
-      term(k)%faded_sum = term(k)%faded_sum + term(k)%from_start*kept + term(k)%from_end*slip
-    end do
-  end subroutine step_guard
-
-  !> Whether all slips to the end, even if the sentinel's lag, which grows by a tenth or so, doubled. The slip velocity of all others,
-  !> over d, is D' + d U' and changes with D' alone.
-  pure function slips_on(scene, velocity, p, guard) result(yes)
-    type(scene_type), intent(in) :: scene
-    real(dp), intent(in) :: velocity  !! D' at the end
-    type(point_type), intent(in) :: p
-    type(guard_type), intent(in) :: guard
-    logical :: yes
-    real(dp) :: now, last
-    now = p%side*p%velocity + p%sinking
-    last = now + (1 - 2*scene%chi)*(velocity - p%sinking)
-    yes = max(now, last) + 2*max(0.0_dp, guard%kappa - now) <= 0
-  end function slips_on
 end module rst_sync_front
