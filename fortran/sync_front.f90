@@ -18,9 +18,9 @@ module rst_sync_front
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
   use rst_sync_elements, only: scene_type, shear_type, term_type
-  use rst_sync_quadrature, only: cubic_weights
+  use rst_sync_quadrature, only: choose_weights, cubic_weights, explicit_below, most_trials
   use rst_sync_edge, only: weight_of
-  use rst_sync_point, only: point_type, span_type, measure_span, weigh_span, note_span
+  use rst_sync_point, only: point_type, span_type, measure_span, note_span
   use rst_sync_hinge, only: hinge, root_left_out
   use rst_sync_slack, only: add_up, speak_of_slack, unseen_force, slacks, pass_node, turn_round
   use rst_sync_sentinel, only: guard_type, step_guard, slips_on
@@ -28,9 +28,7 @@ module rst_sync_front
   private
   public :: follow_front
 
-  real(dp), parameter :: explicit_below = 0.2_dp   !! feedback of a step below which one evaluation is enough
   real(dp), parameter :: close_enough = 1.0e-13_dp !! of a force, where there are more
-  integer(ip), parameter :: most_trials = 20
   !> Part of the slack at the start of a step below which the end of stick, where H has a root, is near.
   real(dp), parameter :: end_is_near = 0.85_dp
 
@@ -250,7 +248,8 @@ contains
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
     rule%reach = reach
-    call weigh_span(rule%feedback, scene%psi > 1, span, end%weight, p, rule%weight, slope_weight, usually)
+    call choose_weights(rule%feedback, p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, &
+                        rule%weight, slope_weight, usually)
     rule%timely = rule%weight
     if (usually .and. reach < 1) then
       rule%timely = cubic_weights(span%h, p%step_before)

@@ -4,16 +4,10 @@ module rst_sync_point
   use rst_sync_levels, only: level_type
   use rst_sync_dense, only: trace_type, fade_in_step
   use rst_sync_elements, only: scene_type, term_type
-  use rst_sync_quadrature, only: starting_weights, parabolic_weights
+  use rst_sync_quadrature, only: shortest_start
   implicit none (type, external)
   private
-  public :: point_type, span_type, measure_span, weigh_span, note_span, slack_at
-
-  !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
-  !> end of the step always.
-  real(dp), parameter :: stiff_above = 1.5_dp, very_stiff_above = 6
-  !> Part of a step below which the first one after gross slip says nothing of slopes: their errors grow as it falls.
-  real(dp), parameter :: shortest_start = 0.1_dp
+  public :: point_type, span_type, measure_span, note_span, slack_at
 
   !> Where the contact point is at a level, and the sums over the nodes that stick, 0 to front (module rst_sync_front).
   type :: point_type
@@ -76,29 +70,6 @@ contains
     end do
     span%drop = min(1.0_dp, span%start_response/span%end_response)
   end subroutine measure_span
-
-  !> Weights of the forces in their integral over the step, and that of their slope at the end of gross slip; whether they are
-  !> the usual ones.
-  pure subroutine weigh_span(feedback, after_gross_slip, span, usual, p, weight, slope_weight, usually)
-    real(dp), intent(in) :: feedback, usual(0:3)
-    logical, intent(in) :: after_gross_slip
-    type(span_type), intent(in) :: span
-    type(point_type), intent(in) :: p
-    real(dp), intent(out) :: weight(0:3), slope_weight
-    logical, intent(out) :: usually
-    usually = .false.
-    slope_weight = 0
-    if (feedback > very_stiff_above) then
-      weight = [span%h, 0.0_dp, 0.0_dp, 0.0_dp]
-    else if (feedback > stiff_above) then
-      weight = parabolic_weights(span%h, p%step_before(1))
-    else if (p%known < 3) then
-      call starting_weights(p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, after_gross_slip), weight, slope_weight)
-    else
-      weight = usual
-      usually = .true.
-    end if
-  end subroutine weigh_span
 
   !> The contact point at the end of the step.
   pure subroutine note_span(m, scene, span, end, velocity, force, bend, p, term)

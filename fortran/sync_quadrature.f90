@@ -8,10 +8,19 @@ module rst_sync_quadrature
   use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, starting_weights, parabolic_weights, cubic_weights
+  public :: spread_weights, choose_weights, cubic_weights
+  public :: explicit_below, shortest_start, most_trials
 
   integer(ip), parameter :: block = 32              !! levels at a time
   real(dp), parameter :: steepest = 2               !! ratio of steps up to which four levels are better than three
+
+  real(dp), parameter :: explicit_below = 0.2_dp    !! feedback of a step below which one evaluation is enough
+  integer(ip), parameter :: most_trials = 20        !! where there are more
+  !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
+  !> end of the step always.
+  real(dp), parameter :: stiff_above = 1.5_dp, very_stiff_above = 6
+  !> Part of a step below which the first one after gross slip says nothing of slopes: their errors grow as it falls.
+  real(dp), parameter :: shortest_start = 0.1_dp
 
 contains
 
@@ -96,6 +105,27 @@ contains
       level(i)%weight(3) = -dsdy(i - 3)*twist*twice(i - 1)*once(i - 2)
     end do
   end subroutine weigh
+
+  !> Weights of the forces in their integral over a step, and that of their slope at the end of gross slip, if there was any (see
+  !> starting_weights); whether they are the usual ones.
+  pure subroutine choose_weights(feedback, known, h, before, ease, usual, weight, slope_weight, usually)
+    real(dp), intent(in) :: feedback, h, before(2), ease, usual(0:3)
+    integer(ip), intent(in) :: known
+    real(dp), intent(out) :: weight(0:3), slope_weight
+    logical, intent(out) :: usually
+    usually = .false.
+    slope_weight = 0
+    if (feedback > very_stiff_above) then
+      weight = [h, 0.0_dp, 0.0_dp, 0.0_dp]
+    else if (feedback > stiff_above) then
+      weight = parabolic_weights(h, before(1))
+    else if (known < 3) then
+      call starting_weights(known, h, before, ease, weight, slope_weight)
+    else
+      weight = usual
+      usually = .true.
+    end if
+  end subroutine choose_weights
 
   !> The same for the first three steps, in time: after `known` steps, the last of them `before`. Where the slope of the force at
   !> the

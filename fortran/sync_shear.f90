@@ -21,7 +21,7 @@ module rst_sync_shear
   use rst_sync_dense, only: trace_type, fade_in_step
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
                                column_weight, column_alpha, column_kappa
-  use rst_sync_quadrature, only: starting_weights, parabolic_weights
+  use rst_sync_quadrature, only: choose_weights, explicit_below, shortest_start, most_trials
   use rst_sync_edge, only: weight_of, shear_force, find_front
   use rst_sync_front, only: follow_front
   use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_bend, cubic_integral, cubic_root
@@ -30,13 +30,6 @@ module rst_sync_shear
   public :: follow_shear
   public :: start_shear, advance_shear, place_nodes, measure_step  !! of the history and the ledger, level by level
 
-  real(dp), parameter :: explicit_below = 0.2_dp  !! feedback of a step below which one evaluation is enough
-  integer(ip), parameter :: most_trials = 20
-  !> Feedback of a step: the cubic through four levels is stable up to 3, the parabola through three up to 6, the force at the
-  !> end of the step always.
-  real(dp), parameter :: stiff_above = 1.5_dp, very_stiff_above = 6
-  !> Part of a step below which the first one after gross slip says nothing of slopes: their errors grow as it falls.
-  real(dp), parameter :: shortest_start = 0.1_dp
   real(dp), parameter :: slides_within = 1.0e-9_dp !! of full friction, what sums of rounding leave
 
 contains
@@ -335,17 +328,10 @@ contains
     type(shear_type), intent(in) :: state
     real(dp), intent(out) :: weight(0:3), start
     real(dp) :: slope_weight
-    start = 0
-    if (feedback > very_stiff_above) then
-      weight = [step%h, 0.0_dp, 0.0_dp, 0.0_dp]
-    else if (feedback > stiff_above) then
-      weight = parabolic_weights(step%h, state%step_before(1))
-    else if (state%known < 3) then
-      call starting_weights(state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), weight, slope_weight)
-      start = slope_weight*state%slope
-    else
-      weight = normal%weight
-    end if
+    logical :: usually
+    call choose_weights(feedback, state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), &
+                        normal%weight, weight, slope_weight, usually)
+    start = slope_weight*state%slope
   end subroutine weigh_forces
 
   pure subroutine note_force(h, force, normal_force, state)

@@ -26,7 +26,7 @@ static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, l
  * stepped.) */
 static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behind_front = 0.06;
 
-/* There one run alone says enough, unless the rebound is small or all but nothing slips: of 44 000 random runs with 16 to 144
+/* There one run alone says enough, unless all but nothing slips or slip turns round: of 44 000 random runs with 16 to 144
  * levels 99 in 100 are off by less than this times max(1, chi)^(3/2) n^-3 and the larger of n^(-1/2) and a tenth (half of them by
  * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
  * is much faster than the impact. */
