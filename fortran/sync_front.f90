@@ -94,7 +94,7 @@ contains
       call stick_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term)
     end do
     holds = .true.
-    guard = guard_type(0.0_dp, 0.0_dp, -1_ip)
+    guard = guard_type()
     do while (p%level < 2*scene%n .and. holds)
       if (p%front < 0) then
         if (slips_on(scene, level(2*scene%n)%velocity, p, guard)) exit
@@ -295,7 +295,8 @@ contains
       call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
                   turns)
     end if
-    call step_guard(m, scene, span, p%front < front_before, edge, now%slack, alpha, beta, p, term, guard, holds)
+    call step_guard(m, scene, span, p%front < front_before, edge, level(next)%velocity, now%slack, alpha, beta, p, term, guard, &
+                    holds)
     call finish(stuck, next, scene%n, level, rule, span, p, now)
     call note_span(m, scene, span, level(next), now%velocity, now%force, now%bend, p, term)
     if (next <= scene%n) then
