@@ -8,7 +8,7 @@ module rst_sync_quadrature
   use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, choose_weights, cubic_weights
+  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time
   public :: explicit_below, shortest_start, most_trials
 
   integer(ip), parameter :: block = 32              !! levels at a time
@@ -78,6 +78,13 @@ contains
     last = 2*n/3
   end function last_of_start
 
+  !> Whether y is time itself at the level.
+  pure function weighed_in_time(n, level) result(yes)
+    integer(ip), intent(in) :: n, level
+    logical :: yes
+    yes = min(level, 2*n - level) > last_of_start(n)
+  end function weighed_in_time
+
   !> Of the levels 0 to last, from the steps of y and ds/dy.
   pure subroutine weigh(last, h, dsdy, level)
     integer(ip), intent(in) :: last
@@ -98,7 +105,7 @@ contains
     do i = 0, last
       twist = -h(i)**3*(h(i) + 2*h(i - 1))/(12*(h(i) + h(i - 1) + h(i - 2)))
       if (max(h(i)*once(i - 1), h(i - 1)*once(i - 2)) > steepest) twist = 0
-      bend = (twist - h(i)**3/6)*twice(i)
+      bend = (twist - h(i)**3*(1.0_dp/6.0_dp))*twice(i)
       level(i)%weight(0) = dsdy(i)*(h(i)/2 + bend*once(i))
       level(i)%weight(1) = dsdy(i - 1)*(h(i)/2 - bend*(once(i) + once(i - 1)) - twist*twice(i - 1)*once(i - 1))
       level(i)%weight(2) = dsdy(i - 2)*(bend*once(i - 1) + twist*twice(i - 1)*(once(i - 1) + once(i - 2)))
@@ -161,7 +168,7 @@ contains
     twice = 1/(before(1) + before(2))
     twist = -h*h*h*(h + 2*before(1))/(12*(h + before(1) + before(2)))
     if (max(h*once(1), before(1)*once(2)) > steepest) twist = 0
-    bend = (twist - h*h*h/6)/(h + before(1))
+    bend = (twist - h*h*h*(1.0_dp/6.0_dp))/(h + before(1))
     twist = twist*twice
     weight = [h/2 + bend*once(0), h/2 - bend*(once(0) + once(1)) - twist*once(1), bend*once(1) + twist*(once(1) + once(2)), &
               -twist*once(2)]
