@@ -16,7 +16,7 @@ module rst_sync_elements
   type, bind(c) :: scene_type
     real(dp) :: chi, psi, g_inf, eta
     integer(ip) :: n_terms, n, capacity  !! capacity: of the element arrays, n + 1 rounded up to whole lanes
-    integer(ip) :: no_slip
+    integer(ip) :: no_slip, stepped  !! stepped: with elements from the start
   end type scene_type
 
   !> Where the contact point is at a level. Twin of `struct sync_shear` in C.

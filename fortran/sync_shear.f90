@@ -112,7 +112,7 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
     logical :: holds
-    if (scene%no_slip == 0) then
+    if (scene%no_slip == 0 .and. scene%stepped == 0) then
       call first_stick(scene, g, tau, level, trace, term, state)
       call follow_front(scene, g, tau, level, trace, node, term, body(:, column_alpha), beta, state, holds)
       if (holds) return

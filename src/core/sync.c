@@ -113,12 +113,14 @@ struct run {
     double velocity;
 };
 
+/* stepped: do not try without elements. */
 static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                         const struct store *store, struct run *run, struct rst_outcome *outcome)
+                         const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = rst_sync_scene(problem, store);
+    struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
+    scene.stepped = stepped;
     rst_follow_shear(&scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node, store->body,
                      store->beta, store->faded, store->term, &shear);
     *run = (struct run){.levels = store->levels,
@@ -370,17 +372,17 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = 0;
     if (half_alone) {
-        follow_shear(problem, workspace, &store[1], now, outcome);
+        follow_shear(problem, workspace, &store[1], 0, now, outcome);
         return RESTITUTE_OK;
     }
-    follow_shear(problem, workspace, &store[0], now, outcome);
+    follow_shear(problem, workspace, &store[0], 0, now, outcome);
     if (alone && now->one_front && !now->turned) return RESTITUTE_OK;
     if (alone)
         status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, runs, store, &force, error);
     if (status) return status;
-    follow_shear(problem, workspace, &store[1], before, outcome);
+    follow_shear(problem, workspace, &store[1], !now->one_front, before, outcome);
     if (runs > 2) {
-        follow_shear(problem, workspace, &store[2], &quarter, outcome);
+        follow_shear(problem, workspace, &store[2], !now->one_front, &quarter, outcome);
         *change_before = before->velocity - quarter.velocity;
     }
     return RESTITUTE_OK;
@@ -398,7 +400,7 @@ static int next_run(const struct rst_problem *problem, struct rst_workspace *wor
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
     *before = *now;
-    follow_shear(problem, workspace, &store, now, outcome);
+    follow_shear(problem, workspace, &store, 0, now, outcome);
     return RESTITUTE_OK;
 }
 
