@@ -17,7 +17,7 @@ module rst_sync_front
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, term_type
+  use rst_sync_elements, only: scene_type, shear_type, term_type, from_touch
   use rst_sync_quadrature, only: choose_weights, cubic_weights, weighed_in_time, explicit_below, most_trials
   use rst_sync_edge, only: weight_of
   use rst_sync_point, only: point_type, span_type, measure_span, note_span
@@ -254,13 +254,15 @@ contains
     logical :: usually
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
-    rule%reach = reach
-    call choose_weights(rule%feedback, p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, &
-                        rule%weight, slope_weight, usually)
+    rule%reach = reach**8
+    call choose_weights(rule%feedback, merge(3_ip, p%known, from_touch(scene)), span%h, p%step_before, &
+                        merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, rule%weight, slope_weight, usually)
     rule%timely = rule%weight
-    if (usually .and. reach < 1 .and. .not. in_time) then
+    if (usually .and. scene%smooth /= 0) then
+      rule%reach = 0
+    else if (usually .and. reach < 1 .and. .not. in_time) then
       rule%timely = cubic_weights(span%h, p%step_before)
-      rule%weight = reach*rule%weight + (1 - reach)*rule%timely
+      rule%weight = rule%reach*rule%weight + (1 - rule%reach)*rule%timely
     end if
     rule%kick = rule%push*rule%weight(0)
     rule%rest = slope_weight*p%slope + (rule%weight(2)*p%force_before(1) + rule%weight(3)*p%force_before(2))
@@ -295,7 +297,7 @@ contains
     if (p%front >= edge) call pass_node(m, node, trace, alpha, beta, p, term)
     front_before = p%front
     if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**2
-    rule = rule_of(scene, weighed_in_time(scene%n, next), node(edge)%radius, reach**8, level(next), span, p)
+    rule = rule_of(scene, weighed_in_time(scene%n, next), node(edge)%radius, reach, level(next), span, p)
     call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
                 turns)
     if (turns) then

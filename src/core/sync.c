@@ -83,7 +83,8 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct
                                .n_terms = problem->solid.n_terms,
                                .n = store->levels,
                                .capacity = store->capacity,
-                               .no_slip = problem->mode == RST_NO_SLIP};
+                               .no_slip = problem->mode == RST_NO_SLIP,
+                               .smooth = store->smooth};
 }
 
 struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome)
