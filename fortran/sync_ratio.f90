@@ -36,6 +36,10 @@ module rst_sync_ratio
     last(6, 3) = reshape([1537, -9819, 27210, -44470, 70821, 32001, -1134, 7222, -19900, 32076, -44470, -27554, &
                           353, -2247, 6186, -9950, 13605, 8853], [6, 3])/40320.0_dp
 
+  !> The integral over a step of the polynomial alone: amid, from the step outwards, and the last two steps.
+  real(dp), parameter :: amid(3) = [802, -93, 11]/1440.0_dp, passed_before_last(6) = [-11, 77, -258, 1022, 637, -27]/1440.0_dp, &
+                         passed_last(6) = [27, -173, 482, -798, 1427, 475]/1440.0_dp
+
   !> ds/dj from the steps to the six levels after the first of a phase: there and at the next two; amid of six steps.
   real(dp), parameter :: &
     rate_at_end(6, 0:2) = reshape([147, -213, 237, -163, 62, -10, 10, 87, -63, 37, -13, 2, -2, 22, 57, -23, 7, -1], &
@@ -44,83 +48,112 @@ module rst_sync_ratio
 
 contains
 
-  !> level%weight of all levels, 8 a phase or more.
+  !> level%weight of all levels, 10 a phase or more.
   pure subroutine spread_ratios(n, node, level)
     integer(ip), intent(in) :: n
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
-    real(dp) :: f(-3:block + 2), once(-3:block + 2), g(6)
-    integer(ip) :: from, to, i
-    call weigh_in_time(n, max(3_ip, n - 4), min(2*n, n + 5), level)
-    do i = 0, 5
-      g(i + 1) = level(i)%force*rate(n, i, level)
-    end do
-    level(1)%weight = [dot_product(first, g)/level(1)%force, 0.0_dp, 0.0_dp, 0.0_dp]
-    level(2)%weight = [matmul(g, second)/level(2:1:-1)%force, 0.0_dp, 0.0_dp]
-    level(3)%weight = [matmul(g, third)/level(3:1:-1)%force, 0.0_dp]
-    do from = 4, n - 5, block
-      to = min(from + block - 1, n - 5)
-      do i = -3, to - from + 2
-        f(i) = level(from + i)%force*rate(n, from + i, level)
-        once(i) = 1/level(from + i)%force
-      end do
-      call weigh_inner(to - from, f, once, level(from:))
-    end do
-    do from = n + 6, 2*n - 2, block
-      to = min(from + block - 1, 2*n - 2)
-      do i = -3, to - from + 2
-        f(i) = node(2*n - from - i)%radius*rate(n, from + i, level)
-      end do
-      do i = -3, to - from
-        once(i) = 1/node(2*n - from - i)%radius
-      end do
-      call weigh_inner(to - from, f, once, level(from:))
-    end do
-    do i = 0, 5
-      g(i + 1) = node(5 - i)%radius*rate(n, 2*n - 5 + i, level)
-    end do
-    level(2*n - 1)%weight = matmul(g, last_but_one)/node(1:4)%radius
-    level(2*n)%weight = [0.0_dp, matmul(g, last)/node(1:3)%radius]
-    do i = n + 6, 2*n
-      call pass_friction(n, i, level)
-    end do
+    call weigh_in_time(n, n - 4, n + 5, level)
+    call weigh_compression(n, level)
+    call weigh_restitution(n, node, level)
   end subroutine spread_ratios
 
-  pure subroutine pass_friction(n, l, level)
-    integer(ip), intent(in) :: n, l
+  pure subroutine weigh_compression(n, level)
+    integer(ip), intent(in) :: n
     type(level_type), intent(inout) :: level(0:2*n)
-    real(dp) :: f(6), j
-    integer(ip) :: i, last
-    last = min(l + 2, 2*n)
-    do i = 0, 5
-      f(6 - i) = level(last - i)%force*rate(n, last - i, level)
+    real(dp), dimension(-3:block + 2) :: f, once
+    integer(ip) :: from, to, i
+    do from = 4, n - 5, block
+      to = min(from + block - 1, n - 5)
+      call find_rates(n, from - 3, to + 2, level, f)
+      do i = -3, to - from + 2
+        once(i) = 1/level(from + i)%force
+        f(i) = f(i)*level(from + i)%force
+      end do
+      call weigh_inner(to - from, f, once, level(from:))
+      if (from > 4) cycle
+      level(1)%weight = 0
+      level(2)%weight = 0
+      level(3)%weight(3) = 0
+      level(1)%weight(0) = dot_product(first(2:), f(:1))*once(-3)
+      do i = 1, 2
+        level(2)%weight(i - 1) = dot_product(second(2:, i), f(:1))*once(-1 - i)
+      end do
+      do i = 1, 3
+        level(3)%weight(i - 1) = dot_product(third(2:, i), f(:1))*once(-i)
+      end do
     end do
-    if (l == 2*n) then
-      j = dot_product([27, -173, 482, -798, 1427, 475]/1440.0_dp, f)
-    else if (l == 2*n - 1) then
-      j = dot_product([-11, 77, -258, 1022, 637, -27]/1440.0_dp, f)
-    else
-      j = dot_product([11, -93, 802, 802, -93, 11]/1440.0_dp, f)
-    end if
-    j = j - dot_product(level(l)%weight, level(l:l - 3:-1)%force)
-    j = j/(level(l)%force**2 + level(l - 1)%force**2)
-    level(l)%weight(0:1) = level(l)%weight(0:1) + j*level(l:l - 1:-1)%force
+  end subroutine weigh_compression
+
+  pure subroutine weigh_restitution(n, node, level)
+    integer(ip), intent(in) :: n
+    type(node_type), intent(in) :: node(0:n)
+    type(level_type), intent(inout) :: level(0:2*n)
+    real(dp), dimension(-3:block + 2) :: f, a, once
+    real(dp) :: passed(0:block + 1)
+    integer(ip) :: from, to, end, i
+    do from = n + 6, 2*n - 2, block
+      to = min(from + block - 1, 2*n - 2)
+      end = to - from + 2
+      call find_rates(n, from - 3, to + 2, level, f)
+      do i = -3, end
+        a(i) = f(i)*node(2*n - from - i)%radius
+        f(i) = f(i)*level(from + i)%force
+      end do
+      do i = -3, end - 1
+        once(i) = 1/node(2*n - from - i)%radius
+      end do
+      call weigh_inner(end - 2, a, once, level(from:))
+      do i = 0, end - 2
+        passed(i) = amid(1)*(f(i - 1) + f(i)) + amid(2)*(f(i - 2) + f(i + 1)) + amid(3)*(f(i - 3) + f(i + 2))
+      end do
+      if (to == 2*n - 2) then
+        do i = 0, 3
+          level(2*n - 1)%weight(i) = dot_product(last_but_one(:, i), a(end - 5:end))*once(end - 1 - i)
+        end do
+        level(2*n)%weight(0) = 0
+        do i = 1, 3
+          level(2*n)%weight(i) = dot_product(last(:, i), a(end - 5:end))*once(end - i)
+        end do
+        passed(end - 1) = dot_product(passed_before_last, f(end - 5:end))
+        passed(end) = dot_product(passed_last, f(end - 5:end))
+        to = 2*n
+      end if
+      do i = 0, to - from
+        call pass_friction(passed(i), level(from + i - 3:from + i))
+      end do
+    end do
+  end subroutine weigh_restitution
+
+  !> The weights of the last of the levels are to give int F ds for S = F.
+  pure subroutine pass_friction(passed, level)
+    real(dp), intent(in) :: passed  !! the integral
+    type(level_type), intent(inout) :: level(-3:0)
+    real(dp) :: lack
+    lack = passed - (level(0)%weight(0)*level(0)%force + level(0)%weight(1)*level(-1)%force) &
+           - (level(0)%weight(2)*level(-2)%force + level(0)%weight(3)*level(-3)%force)
+    lack = lack/(level(0)%force**2 + level(-1)%force**2)
+    level(0)%weight(0) = level(0)%weight(0) + lack*level(0)%force
+    level(0)%weight(1) = level(0)%weight(1) + lack*level(-1)%force
   end subroutine pass_friction
 
-  !> ds/dj; l is none of the three levels around the turning point.
-  pure function rate(n, l, level)
-    integer(ip), intent(in) :: n, l
+  !> ds/dj at levels that are none of the three around the turning point; rate: from the first of them on.
+  pure subroutine find_rates(n, from, to, level, rate)
+    integer(ip), intent(in) :: n, from, to
     type(level_type), intent(in) :: level(0:2*n)
-    real(dp) :: rate
-    if (l < 3) then
-      rate = dot_product(rate_at_end(:, l), level(1:6)%step)
-    else if (l > 2*n - 3) then
-      rate = dot_product(rate_at_end(:, 2*n - l), level(2*n:2*n - 5:-1)%step)
-    else
-      rate = rate_amid(1)*(level(l)%step + level(l + 1)%step) + rate_amid(2)*(level(l - 1)%step + level(l + 2)%step) &
-             + rate_amid(3)*(level(l - 2)%step + level(l + 3)%step)
-    end if
-  end function rate
+    real(dp), intent(inout) :: rate(from:*)
+    integer(ip) :: l
+    do l = max(3_ip, from), min(2*n - 3, to)
+      rate(l) = rate_amid(1)*(level(l)%step + level(l + 1)%step) + rate_amid(2)*(level(l - 1)%step + level(l + 2)%step) &
+                + rate_amid(3)*(level(l - 2)%step + level(l + 3)%step)
+    end do
+    do l = from, 2
+      rate(l) = dot_product(rate_at_end(:, l), level(1:6)%step)
+    end do
+    do l = 2*n - 2, to
+      rate(l) = dot_product(rate_at_end(:, 2*n - l), level(2*n:2*n - 5:-1)%step)
+    end do
+  end subroutine find_rates
 
   pure subroutine weigh_inner(count, f, once, level)
     integer(ip), intent(in) :: count

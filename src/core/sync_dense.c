@@ -40,7 +40,7 @@ static void lay_out_elements(double *block, int64_t levels, int64_t n_terms, siz
 }
 
 /* Most of them: levels may be halved until one is left. */
-enum { most_rungs = 20, fewest_smooth = 8 };
+enum { most_rungs = 20, fewest_smooth = 10 };
 
 /* `levels`, half of them, and so on, behind each other; returns how many doubles that takes. */
 static size_t lay_out_rungs(double *block, int64_t levels, int count, int64_t n_terms, struct store rung[most_rungs])
