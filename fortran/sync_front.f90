@@ -40,6 +40,7 @@ module rst_sync_front
   !> of the force.
   type :: rule_type
     real(dp) :: push, rest, kick, weight(0:3), timely(0:3), reach, feedback
+    logical :: smooth  !! usual weights of module rst_sync_ratio
   end type rule_type
 
   !> At the end of a step: velocity, its bend in the step, y at the centre, S.
@@ -258,9 +259,8 @@ contains
     call choose_weights(rule%feedback, merge(3_ip, p%known, from_touch(scene)), span%h, p%step_before, &
                         merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, rule%weight, slope_weight, usually)
     rule%timely = rule%weight
-    if (usually .and. scene%smooth /= 0) then
-      rule%reach = 0
-    else if (usually .and. reach < 1 .and. .not. in_time) then
+    rule%smooth = usually .and. scene%smooth /= 0
+    if (.not. rule%smooth .and. usually .and. reach < 1 .and. .not. in_time) then
       rule%timely = cubic_weights(span%h, p%step_before)
       rule%weight = rule%reach*rule%weight + (1 - rule%reach)*rule%timely
     end if
@@ -330,12 +330,15 @@ contains
     type(span_type), intent(in) :: span
     type(point_type), intent(in) :: p
     type(end_type), intent(inout) :: now
-    real(dp) :: missing
+    real(dp) :: missing, share
     if (p%front < 0) now%force = -p%side*level(next)%force
     if (stuck) then
       missing = 0
-      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) &
-        missing = (1 - rule%reach)*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) then
+        share = 1 - rule%reach
+        if (rule%smooth) share = min(1.0_dp, abs(now%force)/level(next)%force) ! its law is that of thick rings
+        missing = share*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      end if
       now%velocity = rule%rest - rule%push*(rule%weight(0)*now%force + p%side*missing)
     else
       now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)
