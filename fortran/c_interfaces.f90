@@ -19,6 +19,7 @@ module rst_c_interfaces
   use rst_sync_sample, only: sample_curve
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
   use rst_sync_quadrature, only: spread_weights
+  use rst_sync_ratio, only: spread_ratios
   use rst_sync_edge, only: balance_levels
   use rst_sync_shear, only: follow_shear
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
@@ -246,14 +247,18 @@ contains
   end subroutine rst_thin_levels
 
   !> What all runs on these levels share, made once.
-  pure subroutine rst_finish_levels(g_inf, n_terms, n, trace, node, level) bind(c, name="rst_finish_levels")
+  pure subroutine rst_finish_levels(g_inf, n_terms, n, smooth, trace, node, level) bind(c, name="rst_finish_levels")
     real(c_double), intent(in), value :: g_inf
-    integer(c_int64_t), intent(in), value :: n_terms, n
+    integer(c_int64_t), intent(in), value :: n_terms, n, smooth
     type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     call balance_levels(g_inf, n_terms, n, trace, node, level)
-    call spread_weights(n, level)
+    if (smooth /= 0) then
+      call spread_ratios(n, node, level)
+    else
+      call spread_weights(n, level)
+    end if
   end subroutine rst_finish_levels
 
   subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &

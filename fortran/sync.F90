@@ -34,6 +34,7 @@
 #include "sync_sample.f90"
 #include "sync_elements.f90"
 #include "sync_quadrature.f90"
+#include "sync_ratio.f90"
 #include "sync_edge.f90"
 #include "sync_point.f90"
 #include "sync_hinge.f90"

@@ -17,7 +17,7 @@ module rst_sync_front
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, term_type
+  use rst_sync_elements, only: scene_type, shear_type, term_type, from_touch
   use rst_sync_quadrature, only: choose_weights, cubic_weights, weighed_in_time, explicit_below, most_trials
   use rst_sync_edge, only: weight_of
   use rst_sync_point, only: point_type, span_type, measure_span, note_span
@@ -40,6 +40,7 @@ module rst_sync_front
   !> of the force.
   type :: rule_type
     real(dp) :: push, rest, kick, weight(0:3), timely(0:3), reach, feedback
+    logical :: smooth  !! usual weights of module rst_sync_ratio
   end type rule_type
 
   !> At the end of a step: velocity, its bend in the step, y at the centre, S.
@@ -254,13 +255,14 @@ contains
     logical :: usually
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
-    rule%reach = reach
-    call choose_weights(rule%feedback, p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, &
-                        rule%weight, slope_weight, usually)
+    rule%reach = reach**8
+    call choose_weights(rule%feedback, merge(3_ip, p%known, from_touch(scene)), span%h, p%step_before, &
+                        merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, rule%weight, slope_weight, usually)
     rule%timely = rule%weight
-    if (usually .and. reach < 1 .and. .not. in_time) then
+    rule%smooth = usually .and. scene%smooth /= 0
+    if (.not. rule%smooth .and. usually .and. reach < 1 .and. .not. in_time) then
       rule%timely = cubic_weights(span%h, p%step_before)
-      rule%weight = reach*rule%weight + (1 - reach)*rule%timely
+      rule%weight = rule%reach*rule%weight + (1 - rule%reach)*rule%timely
     end if
     rule%kick = rule%push*rule%weight(0)
     rule%rest = slope_weight*p%slope + (rule%weight(2)*p%force_before(1) + rule%weight(3)*p%force_before(2))
@@ -295,7 +297,7 @@ contains
     if (p%front >= edge) call pass_node(m, node, trace, alpha, beta, p, term)
     front_before = p%front
     if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**2
-    rule = rule_of(scene, weighed_in_time(scene%n, next), node(edge)%radius, reach**8, level(next), span, p)
+    rule = rule_of(scene, weighed_in_time(scene%n, next), node(edge)%radius, reach, level(next), span, p)
     call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
                 turns)
     if (turns) then
@@ -329,12 +331,15 @@ contains
     type(span_type), intent(in) :: span
     type(point_type), intent(in) :: p
     type(end_type), intent(inout) :: now
-    real(dp) :: missing
+    real(dp) :: missing, share
     if (p%front < 0) now%force = -p%side*level(next)%force
     if (stuck) then
       missing = 0
-      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) &
-        missing = (1 - rule%reach)*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) then
+        share = 1 - rule%reach
+        if (rule%smooth) share = min(1.0_dp, abs(now%force)/level(next)%force) ! its law is that of thick rings
+        missing = share*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      end if
       now%velocity = rule%rest - rule%push*(rule%weight(0)*now%force + p%side*missing)
     else
       now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)

@@ -8,7 +8,7 @@ module rst_sync_quadrature
   use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time
+  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time, weigh_in_time
   public :: explicit_below, shortest_start, most_trials
 
   integer(ip), parameter :: block = 32              !! levels at a time
@@ -42,14 +42,7 @@ contains
       end do
       call weigh(last - first, h, dsdy, level(first:))
     end do
-    dsdy = 1
-    do first = max(3_ip, last_of_start(n) + 1), 2*n - last_of_start(n) - 1, block
-      last = min(first + block - 1, 2*n - last_of_start(n) - 1)
-      do i = -2, last - first
-        h(i) = level(first + i)%step
-      end do
-      call weigh(last - first, h, dsdy, level(first:))
-    end do
+    call weigh_in_time(n, max(3_ip, last_of_start(n) + 1), 2*n - last_of_start(n) - 1, level)
     rest = 0
     last = 2*n
     do while (last >= 2*n - last_of_start(n))
@@ -70,6 +63,22 @@ contains
       last = first - 1
     end do
   end subroutine spread_weights
+
+  !> From one level to another, where y is time.
+  pure subroutine weigh_in_time(n, from, to, level)
+    integer(ip), intent(in) :: n, from, to
+    type(level_type), intent(inout) :: level(0:2*n)
+    integer(ip) :: first, last, i
+    real(dp) :: h(-2:block), dsdy(-3:block)
+    dsdy = 1
+    do first = from, to, block
+      last = min(first + block - 1, to)
+      do i = -2, last - first
+        h(i) = level(first + i)%step
+      end do
+      call weigh(last - first, h, dsdy, level(first:))
+    end do
+  end subroutine weigh_in_time
 
   !> The last level that is reached in the root of time; as many before the end it is the root of what is left.
   pure function last_of_start(n) result(last)

@@ -19,8 +19,8 @@ module rst_sync_shear
   use rst_memory, only: memory_type, memory_of
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type, fade_in_step
-  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
-                               column_weight, column_alpha, column_kappa
+  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, from_touch, &
+                               column_x2, column_weight, column_alpha, column_kappa
   use rst_sync_quadrature, only: choose_weights, explicit_below, shortest_start, most_trials
   use rst_sync_edge, only: weight_of, shear_force, find_front
   use rst_sync_front, only: follow_front
@@ -329,8 +329,8 @@ contains
     real(dp), intent(out) :: weight(0:3), start
     real(dp) :: slope_weight
     logical :: usually
-    call choose_weights(feedback, state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), &
-                        normal%weight, weight, slope_weight, usually)
+    call choose_weights(feedback, merge(3_ip, state%known, from_touch(scene)), step%h, state%step_before, &
+                        merge(step%drop, 0.0_dp, scene%psi > 1), normal%weight, weight, slope_weight, usually)
     start = slope_weight*state%slope
   end subroutine weigh_forces
 

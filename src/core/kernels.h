@@ -67,7 +67,7 @@ struct sync_trace {
 struct sync_scene {
     double chi, psi, g_inf, eta;
     int64_t n_terms, n, capacity;
-    int64_t no_slip, stepped; /* stepped: with elements from the start */
+    int64_t no_slip, smooth, stepped; /* stepped: with elements from the start */
 };
 struct sync_shear {
     double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;
@@ -143,7 +143,7 @@ void rst_sample_curve(int64_t p, double turn, const double spread[2], double g_i
 void rst_thin_levels(int64_t n_terms, int64_t n, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, struct sync_level *thin_level, struct sync_trace *thin_trace,
                      struct sync_node *thin_node);
-void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
+void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, int64_t smooth, const struct sync_trace *trace,
                        const struct sync_node *node, struct sync_level *level);
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
                       const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,

@@ -33,6 +33,9 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
 static const double most_alone = 160;
 
+/* The same where the motion is known as polynomials, and the least levels then. */
+static const double smooth_alone = 8, least_smooth = 14;
+
 /* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound of `tiny`, from so
  * many levels on that slip is followed at all; at `tiny`: `least_alone`. */
 static const double more_if_small = 2, tiny = 0.03, growth_below_tiny = 1.3, least_alone = 128, more_levels = 0.45;
@@ -83,7 +86,8 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct
                                .n_terms = problem->solid.n_terms,
                                .n = store->levels,
                                .capacity = store->capacity,
-                               .no_slip = problem->mode == RST_NO_SLIP};
+                               .no_slip = problem->mode == RST_NO_SLIP,
+                               .smooth = store->smooth};
 }
 
 struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome)
@@ -178,10 +182,10 @@ static double least_levels_alone(double rebound)
 }
 
 /* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, double rebound, double n)
+static double error_alone(const struct rst_problem *problem, double rebound, double n, int smooth)
 {
     const double thin = 1 + thin_behind_front / (least_slip + problem->psi), chi = fmax(1, problem->chi);
-    double error = usual_alone * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    double error = (smooth ? smooth_alone : usual_alone) * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
     if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
     return error;
 }
@@ -210,7 +214,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
         outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
         outcome->error_ex = error_beside(problem, change_before, before, now);
     } else
-        outcome->error_ex = error_alone(problem, -normal->velocity, n);
+        outcome->error_ex = error_alone(problem, -normal->velocity, n, normal->degree > 0);
     outcome->error_ex +=
         rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
         fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
@@ -319,13 +323,30 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
+/* The count with which the estimate of a run alone meets the tolerance. */
+static double levels_alone(double tolerance, double swings, int smooth)
+{
+    const double part = smooth ? smooth_alone / usual_alone : 1, least = smooth ? least_smooth : 16;
+    return fmax(least, fmax(2.6 * pow(swings, 3.0 / 7) * pow(part / tolerance, 2.0 / 7),
+                            1.32 * sqrt(swings) * cbrt(part / tolerance)));
+}
+
+/* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
+static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
+{
+    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
+    const double alone = fmax(least, levels_alone(problem->tolerance, swings, normal->degree > 0));
+    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
+        return alone;
+    return rst_sync_levels_to_start(problem->tolerance, swings);
+}
+
 /* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with
  * half and maybe a quarter of them, but about `least` if that is less. */
-static int64_t levels_at_will(const struct rst_problem *problem, int64_t least, double rebound)
+static int64_t levels_at_will(const struct rst_problem *problem, const struct normal *normal, int64_t least)
 {
-    const double needed = rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
-    const double ratio = fmax(1, floor(needed / (double)least));
-    const int64_t whole = rebound < small_rebound ? 8 : 4;
+    const double needed = levels_needed(problem, normal), ratio = fmax(1, floor(needed / (double)least));
+    const int64_t whole = -normal->velocity < small_rebound ? 8 : may_stand_alone(problem, normal) ? 2 : 4;
     int64_t unit = 2;
     while (unit * (int64_t)ratio % whole)
         unit *= 2;
@@ -350,7 +371,7 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
             fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
     const int status = rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
-    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, levels, -normal->velocity) : levels;
+    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, normal, levels) : levels;
     return status;
 }
 
@@ -423,22 +444,6 @@ static int double_levels(const struct rst_problem *problem, struct rst_workspace
     }
     resolution->levels *= 2;
     return status;
-}
-
-/* The count with which the estimate of a run alone meets the tolerance. */
-static double levels_alone(double tolerance, double swings)
-{
-    return fmax(16, fmax(2.6 * pow(swings, 3.0 / 7) * pow(tolerance, -2.0 / 7), 1.32 * sqrt(swings) / cbrt(tolerance)));
-}
-
-/* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
-static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
-{
-    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
-    const double alone = fmax(least, levels_alone(problem->tolerance, swings));
-    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
-        return alone;
-    return rst_sync_levels_to_start(problem->tolerance, swings);
 }
 
 static int too_many(const struct rst_problem *problem, int64_t levels)

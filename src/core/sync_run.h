@@ -65,6 +65,7 @@ double rst_sync_closeness(const struct rst_problem *problem);
 /* What a run works on. */
 struct store {
     int64_t levels;           /* n */
+    int64_t smooth;           /* made from polynomials: fortran/sync_ratio.f90 */
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
     struct sync_trace *trace; /* n_terms times 2n + 1 */
