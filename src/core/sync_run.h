@@ -17,7 +17,8 @@ struct normal {
     int64_t levels;             /* of one phase; with polynomials: for those who want levels */
     struct sync_level *level;   /* 2 levels + 1 */
     int64_t degree;             /* of polynomials; 0: levels */
-    double *curve, turn;        /* their series, and the time of the turning point */
+    double *curve, *layer;      /* their series, and what memory has beside them */
+    double turn[3];             /* time of the turning point; see follow_curve in fortran/sync_curve.f90 */
     double spread[2];           /* of the nodes, see fortran/sync_sample.f90 */
     double velocity, error;     /* at its end, extrapolated, with its estimated error */
     double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
