@@ -17,34 +17,35 @@ module CURVE
   public :: follow_curve
 
   real(dp), parameter :: mirrored = 2.5_dp     !! relaxation times of the compression up to which the restitution mirrors it
-  real(dp), parameter :: settles_within = 8    !! relaxation times: what is left out of P_k is where the contact is that young
+  !> What is left out of P_k is where the contact is that many relaxation times old, and in ripples behind, which average out.
+  real(dp), parameter :: settles_within = 8, ripples = 0.05_dp
 
 contains
 
   !> depth: the largest, roughly. closeness: see normal_levels. turn: s_m and, unless memory lasts long, T and a delay, see
   !> turn_round of rst_sync_fading_*, otherwise 0. spread: slopes of y
   !> over u = tan(phi/2) at both ends, for rst_sync_sample. left_out: by series.
-  pure subroutine follow_curve(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, kept, &
-                               left_out, failed)
+  pure subroutine follow_curve(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+                               factors, left_out, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn(3), spread(2), left_out
     real(dp), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
-    real(dp), intent(out) :: layer(n_terms, 2), kept(0:(p + 1)**2, n_terms)
+    real(dp), intent(out) :: layer(n_terms, 2), x_kept(n_terms), factors(0:p, 0:p, n_terms)
     logical, intent(out) :: failed
     real(dp) :: radius, force
     integer(ip) :: k
     turn(2:) = 0
     layer = 0
-    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), kept, failed)
+    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, factors, failed)
     if (failed) return
     if (eta > 0 .or. any(turn(1) > mirrored*tau)) then
       call fit_going(n_terms, turn(1), going, curve)
       do k = 1, n_terms
         going(p, 2 + n_terms + k) = going(p, 2 + n_terms + k) + layer(k, 1)/growth_of(turn(1)/tau(k))
       end do
-      call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), kept, turn(3), turn(2), coming, &
-                   layer(:, 2), failed)
+      call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, factors, turn(3), &
+                   turn(2), coming, layer(:, 2), failed)
     else
       call come_back(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, coming, failed)
       call fit_going(n_terms, turn(1), going, curve)
@@ -100,7 +101,7 @@ contains
       most = max(next_of(last(:, 2)), next_of(last(:, 5 + 2*m)))
       if (.not. turn(2) > 0) most = max(most, next_of(last(:, 3 + 2*m))*(1/turn(1)))
       do k = 1, m
-        most = max(most, min(turn(1), settles_within*tau(k))*next_of(last(:, 2 + k)), &
+        most = max(most, min(turn(1), settles_within*tau(k) + ripples*turn(1))*next_of(last(:, 2 + k)), &
                    turn(1)*max(next_of(last(:, 2 + m + k)), next_of(last(:, 5 + 2*m + k))))
       end do
     end associate

@@ -1,94 +1,85 @@
-!> Equations (A + x) f = r for a small matrix A and numbers x that change little from sweep to sweep: the inverse is kept, and made
-!> again only after x has changed; what changed since is taken from the solution before.
-module rst_sync_elimination
+!> Linear equations and guesses for values at the points of one degree (module rst_sync_points_*), from sweep to sweep.
+module ELIMINATION
   use rst_precision, only: dp, ip
+  use POINTS, only: p
   implicit none (type, external)
   private
   public :: solve_again, accelerate
 
   real(dp), parameter :: kept_within = 0.04_dp !! of x
-  real(dp), parameter :: boldest = 2
+  real(dp), parameter :: boldest = 2, least_bold = 0.5_dp
 
 contains
 
-  !> kept: x of the inverse and the inverse; the former 0 if there is none. f: before, and after.
-  pure subroutine solve_again(n, a, x, r, kept, f)
-    integer(ip), intent(in) :: n
-    real(dp), intent(in) :: a(n, n), x, r(n)
-    real(dp), intent(inout) :: kept(0:n*n), f(n)
-    real(dp) :: right(n)
-    integer(ip) :: i, l
-    if (.not. abs(x - kept(0)) < kept_within*x) then
-      kept(0) = x
-      call invert(n, a, x, kept(1:))
+  !> Equations (A + x) f = r, for an x that changes little from sweep to sweep: the factors of A + x are kept and made again only after
+  !> x has changed; what it changed since is taken from the solution before. x_kept: that of the factors, 0 if there are none. f:
+  !> before, and after.
+  pure subroutine solve_again(a, x, r, x_kept, factors, f)
+    real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p)
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), f(0:p)
+    real(dp) :: rest(0:p)
+    integer(ip) :: j, l
+    if (.not. abs(x - x_kept) < kept_within*x) then
+      x_kept = x
+      call factorise(a, x, factors)
     end if
-    !$omp simd
-    do l = 1, n
-      right(l) = r(l) - (x - kept(0))*f(l)
+    rest = r - (x - x_kept)*f
+    do j = 0, p
+      do l = j + 1, p
+        rest(l) = rest(l) - factors(l, j)*rest(j)
+      end do
     end do
-    f = 0
-    do i = 1, n
-      !$omp simd
-      do l = 1, n
-        f(l) = f(l) + kept((i - 1)*n + l)*right(i)
+    do j = p, 0, -1
+      f(j) = rest(j)*factors(j, j)
+      do l = 0, j - 1
+        rest(l) = rest(l) - factors(l, j)*f(j)
       end do
     end do
   end subroutine solve_again
 
-  !> The next guess x of a sequence, of which the step `step` was found at x: as if the steps fell by one factor, which the step before,
-  !> from x_before, tells (Anderson's mixing of depth one). first: there was none.
-  pure subroutine accelerate(n, first, step, step_before, x_before, x)
-    integer(ip), intent(in) :: n
-    logical, intent(in) :: first
-    real(dp), intent(in) :: step(n)
-    real(dp), intent(inout) :: step_before(n), x_before(n), x(n)
-    real(dp) :: here(n), part, square
-    integer(ip) :: l
-    here = x
-    part = 0
-    if (.not. first) then
-      square = tiny(1.0_dp)
-      do l = 1, n
-        part = part + step(l)*(step(l) - step_before(l))
-        square = square + (step(l) - step_before(l))**2
-      end do
-      part = max(-boldest, min(part/square, 0.5_dp))
-      !$omp simd
-      do l = 1, n
-        x(l) = x(l) + step(l) - part*(x(l) + step(l) - (x_before(l) + step_before(l)))
-      end do
-    else
-      x = x + step
-    end if
-    x_before = here
-    step_before = step
-  end subroutine accelerate
-
-  !> By elimination in the order in which rows come.
-
-  pure subroutine invert(n, matrix, x, a)
-    integer(ip), intent(in) :: n
-    real(dp), intent(in) :: matrix(n, n), x
-    real(dp), intent(out) :: a(n, n)
-    real(dp) :: column(n), pivot
+  !> The triangular factors of A + x, rows in the order in which they come; of the diagonal the inverse.
+  pure subroutine factorise(a, x, factors)
+    real(dp), intent(in) :: a(0:p, 0:p), x
+    real(dp), intent(out) :: factors(0:p, 0:p)
     integer(ip) :: i, j, l
-    a = matrix
-    do j = 1, n
-      a(j, j) = a(j, j) + x
+    factors = a
+    do j = 0, p
+      factors(j, j) = factors(j, j) + x
     end do
-    do j = 1, n
-      pivot = 1/a(j, j)
-      column = a(:, j)
-      column(j) = 0
-      a(:, j) = 0
-      a(j, j) = 1
-      do i = 1, n
-        a(j, i) = a(j, i)*pivot
-        !$omp simd
-        do l = 1, n
-          a(l, i) = a(l, i) - column(l)*a(j, i)
+    do j = 0, p
+      factors(j, j) = 1/factors(j, j)
+      do l = j + 1, p
+        factors(l, j) = factors(l, j)*factors(j, j)
+      end do
+      do i = j + 1, p
+        do l = j + 1, p
+          factors(l, i) = factors(l, i) - factors(l, j)*factors(j, i)
         end do
       end do
     end do
-  end subroutine invert
-end module rst_sync_elimination
+  end subroutine factorise
+
+  !> The next guess x of a sequence, of which the step `step` was found at x: as if steps fell by one factor, which the step before,
+  !> from x_before, tells (Anderson's mixing of depth one).
+  pure subroutine accelerate(first, step, step_before, x_before, x)
+    logical, intent(in) :: first
+    real(dp), intent(in) :: step(0:p)
+    real(dp), intent(inout) :: step_before(0:p), x_before(0:p), x(0:p)
+    real(dp) :: next(0:p), part, square
+    integer(ip) :: l
+    next = x + step
+    if (.not. first) then
+      part = 0
+      square = tiny(1.0_dp)
+      do l = 0, p
+        part = part + step(l)*(step(l) - step_before(l))
+        square = square + (step(l) - step_before(l))**2
+      end do
+      part = max(-boldest, min(part/square, least_bold))
+      next = next - part*(next - (x_before + step_before))
+    end if
+    x_before = x
+    step_before = step
+    x = next
+  end subroutine accelerate
+end module ELIMINATION

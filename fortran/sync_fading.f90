@@ -12,7 +12,7 @@ module FADING
   use rst_precision, only: dp, ip
   use rst_sync_grid, only: mass_factor, soften
   use rst_memory, only: growth_of
-  use rst_sync_elimination, only: solve_again, accelerate
+  use ELIMINATION, only: solve_again, accelerate
   use POINTS, only: p, down, back, curl
   use GOING, only: longest, most_sweeps, best_rate
   implicit none (type, external)
@@ -35,24 +35,26 @@ module FADING
 contains
 
   !> delay: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
-  !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k); of `kept`: see solve_again.
-  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, kept, delay, lasts, coming, left, &
-                          failed)
+  !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, factors: see solve_again.
+  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, factors, delay, lasts, &
+                          coming, left, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
     real(dp), intent(in) :: loading(0:p, 2 + 2*n_terms), layer(n_terms)
-    real(dp), intent(out) :: kept(0:(p + 1)**2, n_terms), delay, lasts, coming(0:p, 3 + n_terms), left(n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms), delay, lasts, coming(0:p, 3 + n_terms), left(n_terms)
     logical, intent(out) :: failed
     type(edges_type) :: edges
     real(dp) :: force(0:p), excess(p), stiffness(p), rate(p), later, change, previous, part, part_before, least, longest_tau
-    real(dp), dimension(p) :: guess, guess_before, step, step_before !! of B, at last of T
+    real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of T and B
     integer(ip) :: sweep
     call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lasts, edges)
     coming(0, 2) = going(p, 1)
     coming(:, 3:) = 0
-    kept(0, :) = 0
+    x_kept = 0
     force(0) = -mass_factor*((2.0_dp/3.0_dp)*g_inf*going(p, 1)*sqrt(going(p, 1)) + sum(going(p, 3:2 + n_terms)))
     failed = .true.
+    guess_before = 0
+    step_before = 0
     previous = huge(1.0_dp)
     part_before = best_rate
     least = 0
@@ -62,11 +64,12 @@ contains
       least = max(least, lasts*passed(1) + turn*edges%ago(1))
       if (sweep == 1 .or. least < felt_until*longest_tau) call find_edges(loading, edges)
       call weigh(g_inf, n_terms, g, tau, least, turn, lasts, loading, layer, edges, force(1:), excess, stiffness, rate)
-      call move(g_inf, eta, n_terms, g, tau, lasts, force, going, kept, coming, left, excess, rate)
+      call move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, factors, coming, left, excess, rate)
       if (.not. rate(p) < 0) return
       later = max(-0.3_dp*lasts, min(0.3_dp*lasts, -excess(p)/rate(p)))
-      step = (excess + rate*passed*later)/stiffness
-      step(p) = later
+      step(0) = later
+      step(1:p - 1) = (excess(:p - 1) + rate(:p - 1)*passed(:p - 1)*later)/stiffness(:p - 1)
+      step(p) = 0
       change = maxval(abs(step))*(1/turn)
       if (.not. change < 1) return
       part = max(change/previous, best_rate)
@@ -74,11 +77,11 @@ contains
       if (sweep > 1 .and. change*min(max(part, part_before), 1.0_dp) < closeness) exit
       part_before = part
       previous = change
-      guess = edges%square
-      guess(p) = lasts
-      call accelerate(p, sweep == 1, step, step_before, guess_before, guess)
-      lasts = guess(p)
-      call shift_edges(least < felt_until*longest_tau, turn, guess, edges)
+      guess(0) = lasts
+      guess(1:) = edges%square
+      call accelerate(sweep == 1, step, step_before, guess_before, guess)
+      lasts = guess(0)
+      call shift_edges(least < felt_until*longest_tau, turn, guess(1:), edges)
     end do
     if (sweep > most_sweeps) return
     failed = .false.
@@ -194,10 +197,11 @@ contains
   end subroutine weigh
 
   !> The motion by the forces, and the rest of what the edges lack; force: then D''.
-  pure subroutine move(g_inf, eta, n_terms, g, tau, lasts, force, going, kept, coming, left, excess, rate)
+  pure subroutine move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, factors, coming, left, excess, rate)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), lasts, going(0:p, 2 + 2*n_terms)
-    real(dp), intent(inout) :: force(0:p), kept(0:(p + 1)**2, n_terms), coming(0:p, 3 + n_terms), left(n_terms), excess(p), rate(p)
+    real(dp), intent(inout) :: force(0:p), coming(0:p, 3 + n_terms), left(n_terms), excess(p), rate(p)
+    real(dp), intent(inout) :: x_kept(n_terms), factors(0:p, 0:p, n_terms)
     real(dp) :: held(p)
     integer(ip) :: k, l
     force(1:) = -mass_factor*force(1:)
@@ -209,7 +213,8 @@ contains
       rate(l) = rate(l) + (g_inf*coming(l, 3) + eta*force(l))
     end do
     do k = 1, n_terms
-      call remember(lasts, g(k), tau(k), coming(:, 3), going(p, 2 + n_terms + k), kept(:, k), coming(:, 3 + k), left(k))
+      call remember(lasts, g(k), tau(k), coming(:, 3), going(p, 2 + n_terms + k), x_kept(k), factors(:, :, k), &
+                    coming(:, 3 + k), left(k))
       held = coming(1:, 3 + k)
       if (lasts > longest*tau(k) .and. lasts*passed(1) < felt_until*tau(k)) then
         !$omp simd
@@ -240,9 +245,9 @@ contains
   end function returned
 
   !> g M at the points from `start` at the turning point on, without the layer where there is one.
-  pure subroutine remember(lasts, g, tau, v, start, kept, memory, layer)
+  pure subroutine remember(lasts, g, tau, v, start, x_kept, factors, memory, layer)
     real(dp), intent(in) :: lasts, g, tau, v(0:p), start
-    real(dp), intent(inout) :: kept(0:(p + 1)**2), memory(0:p)
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), memory(0:p)
     real(dp), intent(out) :: layer
     real(dp) :: growth(p)
     integer(ip) :: l
@@ -255,7 +260,7 @@ contains
       memory(0) = start
       memory(1:) = (start + (g*lasts)*returned([v(0), v(1:p - 1)*growth(:p - 1)]))/growth
     else
-      call solve_again(p + 1, curl, lasts/tau, (g*lasts)*v, kept, memory)
+      call solve_again(curl, lasts/tau, (g*lasts)*v, x_kept, factors, memory)
       layer = start - memory(0)
     end if
   end subroutine remember

@@ -9,8 +9,8 @@ module GOING
   use rst_precision, only: dp, ip
   use rst_sync_grid, only: mass_factor, soften
   use rst_memory, only: growth_of
-  use rst_sync_elimination, only: solve_again, accelerate
-  use POINTS, only: p, up, moment, fore
+  use ELIMINATION, only: solve_again, accelerate
+  use POINTS, only: p, up, moment, from_rest, fore
   implicit none (type, external)
   private
   public :: compress, longest, most_sweeps, best_rate
@@ -38,18 +38,20 @@ contains
   end function moments
 
   !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
-  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer; of `kept`: see solve_again.
-  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, kept, failed)
+  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, factors: see solve_again.
+  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, factors, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
-    real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms), kept(0:(p + 1)**2, n_terms)
+    real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms)
     logical, intent(out) :: failed
     real(dp), dimension(p) :: a, d, v, next
     real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of s_m and forces
     real(dp) :: change, previous, rate, rate_before, excess, part, moved, stiffness, viscosity
     integer(ip) :: sweep, k, l
     failed = .true.
-    kept(0, :) = 0
+    x_kept = 0
+    going(0, :) = 0
     call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
     part = viscosity/(stiffness*depth)
     turn = depth*(elastic_time + 0.26_dp*part/(1 + 0.13_dp*part))
@@ -61,11 +63,13 @@ contains
         going(1:, 2 + k) = g(k)*(2.0_dp/3.0_dp)*d*a/(1 + square*(0.6_dp*turn/tau(k)))
       else
         going(1:, 2 + k) = (g(k)*tau(k))*a*v
-        call load(turn, g(k), tau(k), a*v, kept(:p*p, k), going(1:, 2 + k))
+        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
       end if
     end do
     guess(0) = turn
     call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), guess(1:))
+    guess_before = 0
+    step_before = 0
     previous = huge(1.0_dp)
     rate_before = best_rate
     do sweep = 1, most_sweeps
@@ -90,12 +94,11 @@ contains
       if (.not. (minval(d) > 0 .and. turn < 2*guess(0))) return
       do k = 1, n_terms
         next = going(1:, 2 + k)
-        call load(turn, g(k), tau(k), a*v, kept(:p*p, k), next)
+        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
         moved = 0
         !$omp simd reduction(max: moved)
         do l = 1, p
           moved = max(moved, abs(next(l) - going(l, 2 + k)))
-          going(l, 2 + k) = next(l)
         end do
         change = max(change, moved*turn)
       end do
@@ -106,16 +109,16 @@ contains
       step(0) = turn
       call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), step(1:))
       step = step - guess
-      call accelerate(p + 1, sweep == 1, step, step_before, guess_before, guess)
+      call accelerate(sweep == 1, step, step_before, guess_before, guess)
     end do
     if (sweep > most_sweeps) return
     failed = .false.
-    going(0, :) = 0
     going(0, 2) = 1
     going(1:, 1) = d
     going(1:, 2) = v
     do k = 1, n_terms
-      call remember(turn, g(k), tau(k), going(:, 2), kept(:, k), going(:, 2 + n_terms + k), layer(k))
+      call remember(turn, g(k), tau(k), going(:, 2), x_kept(k), factors(:, :, k), &
+                    going(:, 2 + n_terms + k), layer(k))
     end do
   end subroutine compress
 
@@ -138,10 +141,10 @@ contains
   end subroutine press
 
   !> g int_0^s exp(-(s-r)/tau) f dr at the points.
-  pure subroutine load(turn, g, tau, f, kept, held)
+  pure subroutine load(turn, g, tau, f, x_kept, factors, held)
     real(dp), intent(in) :: turn, g, tau, f(p)
-    real(dp), intent(inout) :: kept(0:p*p), held(p)
-    real(dp) :: growth(p), lasts
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), held(0:p)
+    real(dp) :: growth(p), lasts, right(0:p)
     integer(ip) :: l
     lasts = turn/tau
     if (lasts < longest) then
@@ -149,24 +152,26 @@ contains
       do l = 1, p
         growth(l) = growth_of(square(l)*lasts)
       end do
-      held = (g*turn)*moments(f*growth)/growth
+      held(1:) = (g*turn)*moments(f*growth)/growth
     else
-      call solve_again(p, moment, tau/turn, (g*tau)*moments(f), kept, held)
+      right(0) = 0
+      right(1:) = (g*tau)*moments(f)
+      call solve_again(from_rest, tau/turn, right, x_kept, factors, held)
     end if
   end subroutine load
 
   !> The same of the speed v, without the layer where there is one.
-  pure subroutine remember(turn, g, tau, v, kept, memory, layer)
+  pure subroutine remember(turn, g, tau, v, x_kept, factors, memory, layer)
     real(dp), intent(in) :: turn, g, tau, v(0:p)
-    real(dp), intent(inout) :: kept(0:(p + 1)**2)
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p)
     real(dp), intent(out) :: memory(0:p), layer
     layer = 0
     memory = 0
     if (turn < longest*tau) then
-      call load(turn, g, tau, v(1:), kept(:p*p), memory(1:))
+      call load(turn, g, tau, v(1:), x_kept, factors, memory)
     else
-      kept(0) = 0
-      call solve_again(p + 1, fore, turn/tau, (g*turn)*v, kept, memory)
+      x_kept = 0
+      call solve_again(fore, turn/tau, (g*turn)*v, x_kept, factors, memory)
       layer = -memory(0)
     end if
   end subroutine remember

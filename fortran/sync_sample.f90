@@ -29,12 +29,17 @@ contains
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     real(dp) :: c(3), rise(0:highest)
-    integer(ip) :: first
+    integer(ip) :: first, k
     call derive(p, curve(:, 1), rise)
     c(1) = max(1.3_dp, min(spread(1), 1.9_dp)) ! beyond, y would not rise everywhere
     c(3) = (max(0.15_dp, min(spread(2), 0.5_dp)) - 3 + 2*c(1))/2
     c(2) = 1 - c(1) - c(3)
-    do first = 0, n, lanes
+    level(0) = level_type(0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+    node(0) = node_type(0.0_dp, c(1)*sqrt(turn(1))*(1/real(n, dp)))
+    do k = 1, n_terms
+      trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+    end do
+    do first = 1, n, lanes
       call sample_compression(p, turn(1), c, g_inf, eta, n_terms, tau, curve, layer(:, 1), rise(:p), n, first, level, trace, node)
     end do
     do first = 1, n, lanes
@@ -148,12 +153,6 @@ contains
       level(l) = level_type(turn*y(q)*y(q), turn*slope(q), depth(q), velocity(q), force(q), fresh(q), 0.0_dp, 0.0_dp)
       node(l) = node_type(radius(q), width(q))
     end do
-    if (first == 0) then
-      level(0) = level_type(0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
-      do k = 1, n_terms
-        trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
-      end do
-    end if
   end subroutine sample_compression
 
   !> The restitution by edges.

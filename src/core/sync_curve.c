@@ -27,7 +27,7 @@ static const double part_unfinished = 0.004, coarsest = 4e-6, rounding = 1e-12;
 static const double share_of_closeness = 4;
 
 /* The end of the restitution is known that much better than what is between the points. */
-static const double part_of_end = 0.1;
+static const double part_of_end = 0.05, part_of_end_if_memory_fades = 0.25;
 
 /* Levels for the largest force where no others are made. */
 enum { few_levels = 16 };
@@ -46,8 +46,8 @@ static size_t few_room(size_t terms)
 
 size_t rst_sync_curve_room(int64_t n_terms)
 {
-    const size_t terms = (size_t)n_terms, rows = highest_degree + 1, inverses = terms * (rows * rows + 1);
-    return rows * columns(terms) + 2 * terms + (inverses > few_room(terms) ? inverses : few_room(terms));
+    const size_t terms = (size_t)n_terms, rows = highest_degree + 1, factors = terms * (1 + rows * rows);
+    return rows * columns(terms) + 2 * terms + (factors > few_room(terms) ? factors : few_room(terms));
 }
 
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
@@ -71,13 +71,13 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         if (allowed < degrees[i].error) continue;
         rst_follow_curve(p, normal->grid.radius * normal->grid.radius, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
                          closeness, normal->turn, normal->spread, going, coming, curve, layer,
-                         layer + 2 * terms, &left_out, &failed);
+                         layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
         if (failed) return;
         normal->updates += 2 * p;
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
         normal->velocity = fmax(-1, coming[(size_t)p + 2 * rows]);
         normal->depth = going[p];
-        normal->error = part_of_end * left_out + share_of_closeness * closeness;
+        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * left_out + share_of_closeness * closeness;
         normal->taken_off = left_out;
         normal->curve = curve;
         normal->layer = layer;
