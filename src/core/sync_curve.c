@@ -16,6 +16,10 @@ static const struct {
 } degrees[] = {{8, 1e-5}, {12, 1e-8}, {16, 0}};
 enum { degree_count = sizeof degrees / sizeof degrees[0], highest_degree = 16 };
 
+/* Where friction is so strong that all but the edge sticks, forces and the sums over nodes are to agree better than polynomials
+ * let them if a phase lasts longer than so many relaxation times. */
+static const double thinnest_slip = 0.02, gentle_memory = 3.5;
+
 /* Where more of the velocity is lost there are sharp bends. */
 static const double least_rebound = 0.05;
 
@@ -50,9 +54,19 @@ size_t rst_sync_curve_room(int64_t n_terms)
     return rows * columns(terms) + 2 * terms + (factors > few_room(terms) ? factors : few_room(terms));
 }
 
+int rst_sync_is_thin(const struct rst_problem *problem)
+{
+    return problem->mode == RST_PARTIAL_SLIP && problem->psi < thinnest_slip;
+}
+
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
 {
-    return problem->elements <= 0 && grid->start <= 0;
+    const struct rst_solid *s = &problem->solid;
+    const double lasts = 1.4 * grid->radius * grid->radius;
+    if (problem->elements > 0 || grid->start > 0) return 0;
+    for (int64_t k = 0; k < s->n_terms && rst_sync_is_thin(problem); k++)
+        if (s->tau[k] * gentle_memory < lasts) return 0;
+    return 1;
 }
 
 void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal)
@@ -77,7 +91,8 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
         normal->velocity = fmax(-1, coming[(size_t)p + 2 * rows]);
         normal->depth = going[p];
-        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * left_out + share_of_closeness * closeness;
+        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * left_out +
+                        share_of_closeness * closeness;
         normal->taken_off = left_out;
         normal->curve = curve;
         normal->layer = layer;
