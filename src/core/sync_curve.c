@@ -84,8 +84,8 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
         if (allowed < degrees[i].error) continue;
         rst_follow_curve(p, normal->grid.radius * normal->grid.radius, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
-                         closeness, normal->turn, normal->spread, going, coming, curve, layer,
-                         layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
+                         closeness, normal->turn, normal->spread, going, coming, curve, layer, layer + 2 * terms,
+                         layer + 3 * terms, &left_out, &failed);
         if (failed) return;
         normal->updates += 2 * p;
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
