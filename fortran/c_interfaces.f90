@@ -207,7 +207,7 @@ contains
     integer(c_int64_t), intent(in), value :: p, n_terms
     real(c_double), intent(in), value :: depth, g_inf, eta, closeness
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: turn(3), spread(2), left_out
+    real(c_double), intent(out) :: turn(4), spread(2), left_out
     real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
     real(c_double), intent(out) :: layer(n_terms, 2), x_kept(n_terms), factors(0:p, 0:p, n_terms)
     integer(c_int64_t), intent(out) :: failed
@@ -230,7 +230,7 @@ contains
     bind(c, name="rst_sample_curve")
     integer(c_int64_t), intent(in), value :: p, n_terms, n
     real(c_double), intent(in), value :: g_inf, eta
-    real(c_double), intent(in) :: turn(3), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
+    real(c_double), intent(in) :: turn(4), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)

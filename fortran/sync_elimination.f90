@@ -6,16 +6,15 @@ module ELIMINATION
   private
   public :: solve_again, accelerate
 
-  real(dp), parameter :: kept_within = 0.04_dp !! of x
   real(dp), parameter :: boldest = 2, least_bold = 0.5_dp
 
 contains
 
   !> Equations (A + x) f = r, for an x that changes little from sweep to sweep: the factors of A + x are kept and made again only after
-  !> x has changed; what it changed since is taken from the solution before. x_kept: that of the factors, 0 if there are none. f:
+  !> x has changed by more than the part kept_within; what it changed since is taken from the solution before. x_kept: that of the factors, 0 if there are none. f:
   !> before, and after.
-  pure subroutine solve_again(a, x, r, x_kept, factors, f)
-    real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p)
+  pure subroutine solve_again(a, x, r, kept_within, x_kept, factors, f)
+    real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p), kept_within
     real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), f(0:p)
     real(dp) :: rest(0:p)
     integer(ip) :: j, l

@@ -21,6 +21,7 @@ module FADING
 
   real(dp), parameter :: passed(p) = 1 - down(1:)**2 !! time since the turning point over T
   real(dp), parameter :: prolonged = 0.35_dp         !! restitution, by how many delays
+  real(dp), parameter :: kept_within = 0.04_dp       !! see solve_again
   real(dp), parameter :: felt_until = 36             !! relaxation times
   integer(ip), parameter :: soon = 6                 !! sweeps after which no more than this part is to change
   real(dp), parameter :: still = 0.01_dp
@@ -34,20 +35,21 @@ module FADING
 
 contains
 
-  !> delay: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
+  !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
   !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, factors: see solve_again.
-  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, factors, delay, lasts, &
-                          coming, left, failed)
+  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, factors, delay, lead, &
+                          lasts, coming, left, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
     real(dp), intent(in) :: loading(0:p, 2 + 2*n_terms), layer(n_terms)
-    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms), delay, lasts, coming(0:p, 3 + n_terms), left(n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms), delay, lead, lasts
+    real(dp), intent(out) :: coming(0:p, 3 + n_terms), left(n_terms)
     logical, intent(out) :: failed
     type(edges_type) :: edges
     real(dp) :: force(0:p), excess(p), stiffness(p), rate(p), later, change, previous, part, part_before, least, longest_tau
     real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of T and B
     integer(ip) :: sweep
-    call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lasts, edges)
+    call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lead, lasts, edges)
     coming(0, 2) = going(p, 1)
     coming(:, 3:) = 0
     x_kept = 0
@@ -92,21 +94,28 @@ contains
   end subroutine retreat
 
   !> Nearly what a Kelvin-Voigt solid of that stiffness and viscosity would do if the force stayed as it is at the turning point: with
-  !> delay = viscosity/stiffness it is (s - s_m + delay)^2 = (s_m - t)^2 + delay^2.
-  pure subroutine turn_round(g_inf, eta, n_terms, g, tau, turn, depth, delay, lasts, edges)
+  !> delay = viscosity/stiffness it is (s - s_m + delay)^2 = (s_m - t)^2 + delay^2. Forces fall, and so
+  !> edges are ahead of that, by `lead`, where springs settle at once.
+  pure subroutine turn_round(g_inf, eta, n_terms, g, tau, turn, depth, delay, lead, lasts, edges)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), turn, depth
-    real(dp), intent(out) :: delay, lasts
+    real(dp), intent(out) :: delay, lead, lasts
     type(edges_type), intent(out) :: edges
-    real(dp) :: stiffness, viscosity, part
-    integer(ip) :: l
+    real(dp) :: stiffness, viscosity, part, settling
+    integer(ip) :: k, l
     call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
     delay = viscosity/stiffness
     lasts = turn + prolonged*delay
     part = 2*delay/lasts
+    settling = 0
+    do k = 1, n_terms
+      settling = settling + min(3.0_dp, turn/tau(k))*tau(k)*(g(k)*tau(k))/viscosity
+    end do
+    lead = 0.65_dp*delay/(delay + settling + tiny(1.0_dp))
     !$omp simd
     do l = 1, p
-      edges%ago_2(l) = passed(l)*((passed(l) + part)/(1 + part))
+      edges%ago_2(l) = passed(l)*((passed(l) + part)/(1 + part) + lead*part*passed(l)*(1 - passed(l))/(passed(l) + 0.06_dp))
+      edges%ago_2(l) = min(edges%ago_2(l), 1.0_dp)
       edges%ago(l) = sqrt(edges%ago_2(l))
     end do
   end subroutine turn_round
@@ -260,7 +269,7 @@ contains
       memory(0) = start
       memory(1:) = (start + (g*lasts)*returned([v(0), v(1:p - 1)*growth(:p - 1)]))/growth
     else
-      call solve_again(curl, lasts/tau, (g*lasts)*v, x_kept, factors, memory)
+      call solve_again(curl, lasts/tau, (g*lasts)*v, kept_within, x_kept, factors, memory)
       layer = start - memory(0)
     end if
   end subroutine remember

@@ -17,6 +17,7 @@ module GOING
 
   integer(ip), parameter :: most_sweeps = 30
   real(dp), parameter :: longest = 4.0_dp    !! a phase, in relaxation times, with exp(s/tau) in the integrand
+  real(dp), parameter :: kept_within = 0.25_dp !! see solve_again
   real(dp), parameter :: best_rate = 0.05_dp !! of sweeps, that is believed
   real(dp), parameter :: square(p) = up(1:)**2
   !> D of an elastic impact over its largest, nearly, and s_m over the same; viscous ones turn later, at less than `depth`.
@@ -156,7 +157,7 @@ contains
     else
       right(0) = 0
       right(1:) = (g*tau)*moments(f)
-      call solve_again(from_rest, tau/turn, right, x_kept, factors, held)
+      call solve_again(from_rest, tau/turn, right, kept_within, x_kept, factors, held)
     end if
   end subroutine load
 
@@ -171,7 +172,7 @@ contains
       call load(turn, g, tau, v(1:), x_kept, factors, memory)
     else
       x_kept = 0
-      call solve_again(fore, turn/tau, (g*turn)*v, x_kept, factors, memory)
+      call solve_again(fore, turn/tau, (g*turn)*v, kept_within, x_kept, factors, memory)
       layer = -memory(0)
     end if
   end subroutine remember

@@ -23,7 +23,7 @@ contains
   !> n levels a phase. turn, spread, curve, layer: see follow_curve.
   pure subroutine sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
     integer(ip), intent(in) :: p, n_terms, n
-    real(dp), intent(in) :: turn(3), spread(2), g_inf, eta, g(n_terms), tau(n_terms)
+    real(dp), intent(in) :: turn(4), spread(2), g_inf, eta, g(n_terms), tau(n_terms)
     real(dp), intent(in) :: curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
@@ -188,7 +188,7 @@ contains
   !> The same by time: where the edge is on the nodes is found by Newton's steps.
   pure subroutine find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve, layer, n, first, node, level, trace)
     integer(ip), intent(in) :: p, n_terms, n, first
-    real(dp), intent(in) :: turn(3), c(3), g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
+    real(dp), intent(in) :: turn(4), c(3), g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
@@ -230,14 +230,17 @@ contains
   !> Times since the turning point at which the edge is back where it was so long before it, nearly (see turn_round of the modules
   !> rst_sync_fading_*).
   pure function guess_times(turn, ago) result(passed)
-    real(dp), intent(in) :: turn(3), ago(lanes)
-    real(dp) :: passed(lanes), delay, part
+    real(dp), intent(in) :: turn(4), ago(lanes)
+    real(dp) :: passed(lanes), delay, square, x
     integer(ip) :: q
-    delay = turn(3)
-    part = (turn(2) + 2*delay)*turn(2)/turn(1)**2
-    !$omp simd
+    delay = turn(3)/turn(2)
+    !$omp simd private(square, x)
     do q = 1, lanes
-      passed(q) = part*ago(q)*(ago(q)/(sqrt(part*(ago(q)*ago(q)) + delay*delay) + delay))
+      square = (1 + 2*delay)*(ago(q)/turn(1))**2
+      x = square/(sqrt(square + delay*delay) + delay)
+      square = max(0.3_dp*square, square - (1 + 2*delay)*2*turn(4)*delay*x*x*(1 - x)/(x + 0.06_dp))
+      x = square/(sqrt(square + delay*delay) + delay)
+      passed(q) = turn(2)*x
     end do
   end function guess_times
 

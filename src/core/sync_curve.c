@@ -28,7 +28,7 @@ static const double least_rebound = 0.05;
 static const double part_unfinished = 0.004, coarsest = 4e-6, rounding = 1e-12;
 
 /* What sweeps leave unfinished, in units of when they stop. */
-static const double share_of_closeness = 4;
+static const double share_of_closeness = 6;
 
 /* The end of the restitution is known that much better than what is between the points. */
 static const double part_of_end = 0.05, part_of_end_if_memory_fades = 0.25;

@@ -18,7 +18,7 @@ struct normal {
     struct sync_level *level;   /* 2 levels + 1 */
     int64_t degree;             /* of polynomials; 0: levels */
     double *curve, *layer;      /* their series, and what memory has beside them */
-    double turn[3];             /* time of the turning point; see follow_curve in fortran/sync_curve.f90 */
+    double turn[4];             /* time of the turning point; see follow_curve in fortran/sync_curve.f90 */
     double spread[2];           /* of the nodes, see fortran/sync_sample.f90 */
     double velocity, error;     /* at its end, extrapolated, with its estimated error */
     double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
