@@ -102,8 +102,8 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
     const struct rst_solid *s = &problem->solid;
     int64_t failed = 0;
     if (normal->degree > 0)
-        rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g, s->tau,
-                         normal->curve, rung->levels, rung->level, rung->trace, rung->node);
+        rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
+                         normal->curve, normal->layer, rung->levels, rung->level, rung->trace, rung->node);
     else
         rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
                          normal->level, rung->level, rung->trace, rung->node, &failed);
