@@ -33,8 +33,8 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
 static const double most_alone = 160;
 
-/* The same where the motion is known as polynomials, and the least levels then. */
-static const double smooth_alone = 8, least_smooth = 14;
+/* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
+static const double least_levels = 16, least_smooth = 14;
 
 /* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound of `tiny`, from so
  * many levels on that slip is followed at all; at `tiny`: `least_alone`. */
@@ -181,11 +181,17 @@ static double least_levels_alone(double rebound)
     return rebound < small_rebound ? least_alone * pow(tiny / rebound, more_levels) : 0;
 }
 
-/* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, double rebound, double n, int smooth)
+/* How much more the error is of e_x, a part of psi, where psi is so small that few nodes slip. */
+static double thin_alone(const struct rst_problem *problem)
 {
-    const double thin = 1 + thin_behind_front / (least_slip + problem->psi), chi = fmax(1, problem->chi);
-    double error = (smooth ? smooth_alone : usual_alone) * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    return 1 + thin_behind_front / (least_slip + problem->psi);
+}
+
+/* The error of a run with slip behind one front, without another beside it. */
+static double error_alone(const struct rst_problem *problem, double rebound, double n)
+{
+    const double chi = fmax(1, problem->chi);
+    double error = usual_alone * thin_alone(problem) * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
     if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
     return error;
 }
@@ -214,7 +220,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
         outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
         outcome->error_ex = error_beside(problem, change_before, before, now);
     } else
-        outcome->error_ex = error_alone(problem, -normal->velocity, n, normal->degree > 0);
+        outcome->error_ex = error_alone(problem, -normal->velocity, n);
     outcome->error_ex +=
         rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
         fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
@@ -271,7 +277,7 @@ static double normal_levels_to_start(double wanted, double swings)
 
 double rst_sync_levels_to_start(double tolerance, double swings)
 {
-    return fmax(16, 2.35 * sqrt(swings) / cbrt(tolerance));
+    return fmax(least_levels, 2.35 * sqrt(swings) / cbrt(tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs,
@@ -326,16 +332,17 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
 /* The count with which the estimate of a run alone meets the tolerance. */
 static double levels_alone(double tolerance, double swings, int smooth)
 {
-    const double part = smooth ? smooth_alone / usual_alone : 1, least = smooth ? least_smooth : 16;
-    return fmax(least, fmax(2.6 * pow(swings, 3.0 / 7) * pow(part / tolerance, 2.0 / 7),
-                            1.32 * sqrt(swings) * cbrt(part / tolerance)));
+    return fmax(smooth ? least_smooth : least_levels,
+                fmax(2.6 * pow(swings, 3.0 / 7) * pow(tolerance, -2.0 / 7), 1.32 * sqrt(swings) / cbrt(tolerance)));
 }
 
 /* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
 static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
 {
     const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
-    const double alone = fmax(least, levels_alone(problem->tolerance, swings, normal->degree > 0));
+    const int smooth = normal->degree > 0; /* at will, so as many as do for that psi */
+    const double part = smooth ? acceptance / thin_alone(problem) : 1;
+    const double alone = fmax(least, levels_alone(part * problem->tolerance, swings, smooth));
     if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
         return alone;
     return rst_sync_levels_to_start(problem->tolerance, swings);
