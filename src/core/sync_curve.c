@@ -16,6 +16,10 @@ static const struct {
 } degrees[] = {{8, 1e-5}, {12, 1e-8}, {16, 0}};
 enum { degree_count = sizeof degrees / sizeof degrees[0], highest_degree = 16 };
 
+/* With short memory of several terms there are as many systems of equations, and only the lowest degree is cheaper than levels,
+ * where it is likely to do. */
+static const double error_of_many = 2e-4;
+
 /* Where friction is so strong that all but the edge sticks, forces and the sums over nodes are to agree better than polynomials
  * let them if a phase lasts longer than so many relaxation times. */
 static const double thinnest_slip = 0.02, gentle_memory = 3.5;
@@ -59,14 +63,20 @@ int rst_sync_is_thin(const struct rst_problem *problem)
     return problem->mode == RST_PARTIAL_SLIP && problem->psi < thinnest_slip;
 }
 
+/* Whether memory fades within an impact whose phases last so long. */
+static int is_short(const struct rst_solid *solid, double lasts)
+{
+    for (int64_t k = 0; k < solid->n_terms; k++)
+        if (solid->tau[k] * gentle_memory < lasts) return 1;
+    return 0;
+}
+
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
 {
     const struct rst_solid *s = &problem->solid;
     const double lasts = 1.4 * grid->radius * grid->radius;
     if (problem->elements > 0 || grid->start > 0) return 0;
-    for (int64_t k = 0; k < s->n_terms && rst_sync_is_thin(problem); k++)
-        if (s->tau[k] * gentle_memory < lasts) return 0;
-    return 1;
+    return !(rst_sync_is_thin(problem) && is_short(s, lasts));
 }
 
 void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal)
@@ -75,17 +85,17 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
     const size_t terms = (size_t)s->n_terms;
     const double swings = rst_sync_stepped_swings(problem);
     const double closeness = fmax(rounding, fmin(part_unfinished * problem->tolerance, coarsest) / swings);
-    const double allowed = left_in_levels * wanted / swings;
+    const double allowed = left_in_levels * wanted / swings, depth = normal->grid.radius * normal->grid.radius;
+    const int many = terms > 1 && is_short(s, 1.4 * depth), last = many ? 1 : degree_count;
     int64_t failed = 0;
     double left_out, *layer = room + (highest_degree + 1) * columns(terms);
-    for (int i = 0; i < degree_count && !failed; i++) {
+    for (int i = 0; i < last && !failed; i++) {
         const int64_t p = degrees[i].degree;
         const size_t rows = (size_t)p + 1;
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
-        if (allowed < degrees[i].error) continue;
-        rst_follow_curve(p, normal->grid.radius * normal->grid.radius, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
-                         closeness, normal->turn, normal->spread, going, coming, curve, layer, layer + 2 * terms,
-                         layer + 3 * terms, &left_out, &failed);
+        if (allowed < (many ? error_of_many : degrees[i].error)) continue;
+        rst_follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn, normal->spread,
+                         going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
         if (failed) return;
         normal->updates += 2 * p;
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
