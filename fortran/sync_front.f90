@@ -18,7 +18,8 @@ module rst_sync_front
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
   use rst_sync_elements, only: scene_type, shear_type, term_type, from_touch
-  use rst_sync_quadrature, only: choose_weights, cubic_weights, weighed_in_time, explicit_below, most_trials
+  use rst_sync_quadrature, only: friction_impulse, full_friction, choose_weights, cubic_weights, weighed_in_time, &
+                                 explicit_below, most_trials
   use rst_sync_edge, only: weight_of
   use rst_sync_point, only: point_type, span_type, measure_span, note_span
   use rst_sync_hinge, only: hinge, root_left_out
@@ -346,28 +347,6 @@ contains
     end if
     now%bend = -rule%push*span%half_rate*(now%force - p%force)
   end subroutine finish
-
-  !> int int f dX ds over the step that ends at the level l. The difference of D' would be exact, but not to the part of a small psi
-  !> that e_x wants.
-  pure function friction_impulse(l, level) result(passed)
-    integer(ip), intent(in) :: l
-    type(level_type), intent(in) :: level(0:*)
-    real(dp) :: passed
-    passed = (level(l)%weight(0)*level(l)%force + level(l)%weight(1)*level(l - 1)%force) &
-             + (level(l)%weight(2)*level(l - 2)%force + level(l)%weight(3)*level(l - 3)%force)
-  end function friction_impulse
-
-  !> The same from a level to the end.
-  pure function full_friction(n, l, level) result(passed)
-    integer(ip), intent(in) :: n, l
-    type(level_type), intent(in) :: level(0:2*n)
-    real(dp) :: passed
-    integer(ip) :: i
-    passed = 0
-    do i = l + 1, 2*n
-      passed = passed + friction_impulse(i, level)
-    end do
-  end function full_friction
 
   !> S at the end of the step, and the front. turns: all that slipped has left the contact, and the edge would slip the other way.
   subroutine answer(m, scene, edge, next, reach, end, fade, trace, node, alpha, beta, rule, span, p, term, now, turns)

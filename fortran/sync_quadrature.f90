@@ -9,6 +9,7 @@ module rst_sync_quadrature
   implicit none (type, external)
   private
   public :: spread_weights, choose_weights, cubic_weights, weighed_in_time, weigh_in_time
+  public :: friction_impulse, full_friction
   public :: explicit_below, shortest_start, most_trials
 
   integer(ip), parameter :: block = 32              !! levels at a time
@@ -199,4 +200,26 @@ contains
     real(dp) :: share(3)
     share = [1/h, -(1/h + 1/before), 1/before]/(h + before)
   end function bends
+
+  !> int int f dX ds over the step that ends at the level l. The difference of D' would be exact, but not to the part of a small psi
+  !> that e_x wants.
+  pure function friction_impulse(l, level) result(passed)
+    integer(ip), intent(in) :: l
+    type(level_type), intent(in) :: level(0:*)
+    real(dp) :: passed
+    passed = (level(l)%weight(0)*level(l)%force + level(l)%weight(1)*level(l - 1)%force) &
+             + (level(l)%weight(2)*level(l - 2)%force + level(l)%weight(3)*level(l - 3)%force)
+  end function friction_impulse
+
+  !> The same from a level to the end.
+  pure function full_friction(n, l, level) result(passed)
+    integer(ip), intent(in) :: n, l
+    type(level_type), intent(in) :: level(0:2*n)
+    real(dp) :: passed
+    integer(ip) :: i
+    passed = 0
+    do i = l + 1, 2*n
+      passed = passed + friction_impulse(i, level)
+    end do
+  end function full_friction
 end module rst_sync_quadrature
