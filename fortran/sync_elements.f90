@@ -19,7 +19,7 @@ module rst_sync_elements
     integer(ip) :: n_terms, n, capacity  !! capacity: of the element arrays, n + 1 rounded up to whole lanes
     integer(ip) :: no_slip
     integer(ip) :: smooth   !! whether the weights of levels are those of module rst_sync_ratio
-    integer(ip) :: stepped  !! with elements from the start
+    integer(ip) :: stepped  !! with elements: 1: from the start, 0: if slip does not stay behind one front, -1: never
   end type scene_type
 
   !> Where the contact point is at a level. Twin of `struct sync_shear` in C.

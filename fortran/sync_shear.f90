@@ -112,10 +112,12 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
     logical :: holds, slides, slid
-    if (scene%no_slip == 0 .and. scene%stepped == 0) then
+    if (scene%no_slip == 0 .and. scene%stepped <= 0) then
       call first_stick(scene, g, tau, level, trace, term, state)
       call follow_front(scene, g, tau, level, trace, node, term, body(:, column_alpha), beta, state, holds)
       if (holds) return
+      state%updates = 1 ! there would be some
+      if (scene%stepped < 0) return
     end if
     call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     slides = .false.

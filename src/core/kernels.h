@@ -67,7 +67,7 @@ struct sync_trace {
 struct sync_scene {
     double chi, psi, g_inf, eta;
     int64_t n_terms, n, capacity;
-    int64_t no_slip, smooth, stepped; /* stepped: with elements from the start */
+    int64_t no_slip, smooth, stepped; /* stepped: with elements from the start, 0: if one front does not do, -1: never */
 };
 struct sync_shear {
     double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;

@@ -59,6 +59,9 @@ static const double normal_part = 0.25;
  * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
 
+/* Part of the tolerance that an estimate from fewer runs than are usual is to keep. */
+static const double surely_enough = 0.5;
+
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
 
@@ -117,7 +120,7 @@ struct run {
     double velocity;
 };
 
-/* stepped: do not try without elements. */
+/* stepped: with elements, 1: from the start, 0: if slip does not stay behind one front, -1: never; then there is no velocity. */
 static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
                          const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
 {
@@ -382,15 +385,36 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
     return status;
 }
 
-/* The first run, and beside it one with half its levels, and a third where the rebound is small, unless it may stand
- * alone. If the updates allowed may not be enough, it is the half one alone, which tells what the other would take. */
+/* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where elements have to be
+ * stepped after all, the latter two may do: errors then are smaller than they are alone. */
+static void runs_beside(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                        const struct normal *normal, const struct store *store, int runs, int first_is_left,
+                        struct run *before, struct run *now, double *change_before, struct rst_outcome *outcome)
+{
+    const int stepped = !now->one_front;
+    struct run quarter;
+    if (runs > 2) follow_shear(problem, workspace, &store[2], stepped, &quarter, outcome);
+    follow_shear(problem, workspace, &store[1], stepped, before, outcome);
+    if (first_is_left && stepped && runs > 2) {
+        note_shear(problem, normal, 0, &quarter, before, outcome);
+        if (outcome->error_ex <= surely_enough * problem->tolerance) {
+            *now = *before;
+            *before = quarter;
+            return;
+        }
+    }
+    if (first_is_left && stepped) follow_shear(problem, workspace, &store[0], stepped, now, outcome);
+    if (runs > 2) *change_before = before->velocity - quarter.velocity;
+}
+
+/* The first run, and others beside it, unless it may stand alone. If the updates allowed may not be enough, it is the half one
+ * alone, which tells what the other would take. */
 static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                       const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
                       double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
     const int runs = -normal->velocity < small_rebound && resolution->levels % 8 == 0 ? 3 : 2;
     struct store store[rst_sync_first_runs];
-    struct run quarter;
     double force;
     const double least = least_levels_alone(-normal->velocity), n = (double)resolution->levels;
     const int alone = !half_alone && n >= least && n <= fmax(most_alone, 2 * least) && may_stand_alone(problem, normal);
@@ -403,16 +427,12 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
         follow_shear(problem, workspace, &store[1], 0, now, outcome);
         return RESTITUTE_OK;
     }
-    follow_shear(problem, workspace, &store[0], 0, now, outcome);
+    follow_shear(problem, workspace, &store[0], alone ? -1 : 0, now, outcome);
     if (alone && now->one_front && !now->turned) return RESTITUTE_OK;
     if (alone)
         status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, runs, store, &force, error);
     if (status) return status;
-    follow_shear(problem, workspace, &store[1], !now->one_front, before, outcome);
-    if (runs > 2) {
-        follow_shear(problem, workspace, &store[2], !now->one_front, &quarter, outcome);
-        *change_before = before->velocity - quarter.velocity;
-    }
+    runs_beside(problem, workspace, normal, store, runs, alone, before, now, change_before, outcome);
     return RESTITUTE_OK;
 }
 
