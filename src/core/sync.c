@@ -31,6 +31,7 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
  * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
  * is much faster than the impact. */
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
+static const double part_if_smooth = 0.5; /* of that where the normal problem is known as polynomials */
 static const double most_alone = 160;
 
 /* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
@@ -191,10 +192,11 @@ static double thin_alone(const struct rst_problem *problem)
 }
 
 /* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, double rebound, double n)
+static double error_alone(const struct rst_problem *problem, const struct normal *normal, double n)
 {
-    const double chi = fmax(1, problem->chi);
+    const double chi = fmax(1, problem->chi), rebound = -normal->velocity;
     double error = usual_alone * thin_alone(problem) * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    if (normal->degree > 0) error *= part_if_smooth;
     if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
     return error;
 }
@@ -223,7 +225,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
         outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
         outcome->error_ex = error_beside(problem, change_before, before, now);
     } else
-        outcome->error_ex = error_alone(problem, -normal->velocity, n);
+        outcome->error_ex = error_alone(problem, normal, n);
     outcome->error_ex +=
         rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
         fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);

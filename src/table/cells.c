@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 0.75;
+static const double part_for_rebound = 0.15, part_for_tangent = 0.8;
 
 /* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors, which are up
  * to several times its estimates in a few corners, must not be taken for that. */
