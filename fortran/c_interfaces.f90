@@ -19,6 +19,7 @@ module rst_c_interfaces
   use rst_sync_sample, only: sample_curve
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
   use rst_sync_quadrature, only: spread_weights
+  use rst_sync_ratio, only: spread_ratios
   use rst_sync_edge, only: balance_levels
   use rst_sync_shear, only: follow_shear
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
@@ -201,36 +202,40 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_follow_curve(p, depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, left_out, &
-                                   failed) &
+  pure subroutine rst_follow_curve(p, depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
+                                   x_kept, factors, left_out, failed) &
     bind(c, name="rst_follow_curve")
     integer(c_int64_t), intent(in), value :: p, n_terms
-    real(c_double), intent(in), value :: depth, g_inf, closeness
+    real(c_double), intent(in), value :: depth, g_inf, eta, closeness
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: turn, spread(2), left_out
+    real(c_double), intent(out) :: turn(4), spread(2), left_out
     real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
+    real(c_double), intent(out) :: layer(n_terms, 2), x_kept(n_terms), factors(0:p, 0:p, n_terms)
     integer(c_int64_t), intent(out) :: failed
     logical :: fails
     select case (p)
     case (8)
-      call follow_curve_8(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, left_out, fails)
+      call follow_curve_8(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+                          factors, left_out, fails)
     case (12)
-      call follow_curve_12(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, left_out, fails)
+      call follow_curve_12(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+                           factors, left_out, fails)
     case default
-      call follow_curve_16(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, left_out, fails)
+      call follow_curve_16(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+                           factors, left_out, fails)
     end select
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_follow_curve
 
-  pure subroutine rst_sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, n, level, trace, node) &
+  pure subroutine rst_sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node) &
     bind(c, name="rst_sample_curve")
     integer(c_int64_t), intent(in), value :: p, n_terms, n
-    real(c_double), intent(in), value :: turn, g_inf
-    real(c_double), intent(in) :: spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms)
+    real(c_double), intent(in), value :: g_inf, eta
+    real(c_double), intent(in) :: turn(4), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
-    call sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, n, level, trace, node)
+    call sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
   end subroutine rst_sample_curve
 
   pure subroutine rst_thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node) &
@@ -246,14 +251,18 @@ contains
   end subroutine rst_thin_levels
 
   !> What all runs on these levels share, made once.
-  pure subroutine rst_finish_levels(g_inf, n_terms, n, trace, node, level) bind(c, name="rst_finish_levels")
+  pure subroutine rst_finish_levels(g_inf, n_terms, n, smooth, trace, node, level) bind(c, name="rst_finish_levels")
     real(c_double), intent(in), value :: g_inf
-    integer(c_int64_t), intent(in), value :: n_terms, n
+    integer(c_int64_t), intent(in), value :: n_terms, n, smooth
     type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     call balance_levels(g_inf, n_terms, n, trace, node, level)
-    call spread_weights(n, level)
+    if (smooth /= 0) then
+      call spread_ratios(n, node, level)
+    else
+      call spread_weights(n, level)
+    end if
   end subroutine rst_finish_levels
 
   subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &

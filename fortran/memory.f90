@@ -7,7 +7,7 @@ module rst_memory
   implicit none (type, external)
   private
   public :: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through
-  public :: remembered, integrated, integrated_twice, shares, memory_shares, gentle_memory, series_below
+  public :: remembered, integrated, integrated_twice, shares, memory_shares, gentle_memory, series_below, growth_of
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -34,6 +34,24 @@ module rst_memory
   real(dp), parameter :: c(0:9) = [(1/gamma(i + 4.0_dp), i=0, 9)]  !! phi_3(z) = sum_i (-z)^i/(i+3)!
 
 contains
+
+  !> exp(z), without a call: by a series for z/64, good to rounding up to 16, and up to 64, beyond which it is cut off, to what 1/exp(z)
+  !> is beside 1.
+  elemental function growth_of(z) result(growth)
+    real(dp), intent(in) :: z
+    real(dp) :: growth, x
+    real(dp), parameter :: most = 64
+    real(dp), parameter :: e(2:11) = [(1/gamma(i + 1.0_dp), i=2, 11)]
+    x = min(z, most)*(1/64.0_dp)
+    growth = x*x*(e(2) + x*(e(3) + x*(e(4) + x*(e(5) + x*(e(6) + x*(e(7) + x*(e(8) + x*(e(9) + x*(e(10) + x*e(11))))))))))
+    growth = 1 + (x + growth)
+    growth = growth*growth
+    growth = growth*growth
+    growth = growth*growth
+    growth = growth*growth
+    growth = growth*growth
+    growth = growth*growth
+  end function growth_of
 
   elemental function memory_of(z) result(m)
     real(dp), intent(in) :: z

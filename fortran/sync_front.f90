@@ -17,8 +17,9 @@ module rst_sync_front
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, term_type
-  use rst_sync_quadrature, only: choose_weights, cubic_weights, explicit_below, most_trials
+  use rst_sync_elements, only: scene_type, shear_type, term_type, from_touch
+  use rst_sync_quadrature, only: friction_impulse, full_friction, choose_weights, cubic_weights, weighed_in_time, &
+                                 explicit_below, most_trials
   use rst_sync_edge, only: weight_of
   use rst_sync_point, only: point_type, span_type, measure_span, note_span
   use rst_sync_hinge, only: hinge, root_left_out
@@ -36,9 +37,11 @@ module rst_sync_front
   !> slip has turned round, which it does within a step.
   integer(ip), parameter :: fewest_steps = 4, fewest_after_turn = 8
 
-  !> How U' at the end of a step follows from S there: rest - push weight(0) S. timely: weights for the part 1 - reach of the force.
+  !> How U' at the end of a step follows from S there: rest - kick S, kick = push weight(0). timely: weights for the part 1 - reach
+  !> of the force.
   type :: rule_type
-    real(dp) :: push, rest, weight(0:3), timely(0:3), reach, feedback
+    real(dp) :: push, rest, kick, weight(0:3), timely(0:3), reach, feedback
+    logical :: smooth  !! usual weights of module rst_sync_ratio
   end type rule_type
 
   !> At the end of a step: velocity, its bend in the step, y at the centre, S.
@@ -94,7 +97,7 @@ contains
       call stick_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term)
     end do
     holds = .true.
-    guard = guard_type(0.0_dp, 0.0_dp, -1_ip)
+    guard = guard_type()
     do while (p%level < 2*scene%n .and. holds)
       if (p%front < 0) then
         if (slips_on(scene, level(2*scene%n)%velocity, p, guard)) exit
@@ -186,7 +189,8 @@ contains
     end if
   end subroutine stick_step
 
-  !> S at the end of the step: it is linear in the velocity there but for what the sum over nodes lacks (module rst_sync_edge).
+  !> S at the end of the step: it is linear in the velocity there, as is what the sum over nodes lacks (module rst_sync_edge) while
+  !> the edge does not slip.
   pure subroutine stick_force(m, scene, radius, end, p, term, span, force, velocity, bend)
     integer(ip), intent(in) :: m
     type(scene_type), intent(in) :: scene
@@ -197,23 +201,18 @@ contains
     type(span_type), intent(in) :: span
     real(dp), intent(out) :: force, velocity, bend
     type(rule_type) :: rule
-    real(dp) :: guess, ratio, share, known
-    integer(ip) :: trial
-    rule = rule_of(scene, radius, 1.0_dp, end, span, p)
-    known = p%alpha + sum(term%beta_sum)
-    guess = force_ahead(span%h, p)
-    do trial = 1, most_trials
-      velocity = rule%rest - rule%push*rule%weight(0)*guess
-      bend = -rule%push*span%half_rate*(guess - p%force)
-      share = answer_of(rule, span)*p%weight
-      ratio = max(-1.0_dp, min(1.0_dp, velocity/max(end%velocity, tiny(1.0_dp))))
-      if (abs(ratio) < 1) share = share + rule%push*rule%weight(0)*end%missing/end%velocity
-      force = (span%base + span%end_response*velocity + span%bend_response*bend)*p%weight - known + ratio*end%missing
-      force = guess + (force - guess)/(1 + share)
-      if (rule%feedback < explicit_below .or. abs(force - guess) <= close_enough) exit
-      guess = force
-    end do
-    velocity = rule%rest - rule%push*rule%weight(0)*force
+    real(dp) :: known, share, tilt
+    rule = rule_of(scene, .true., radius, 1.0_dp, end, span, p)
+    known = without_force(rule, span, p)*p%weight - (p%alpha + sum(term%beta_sum))
+    share = 1 + answer_of(rule, span)*p%weight
+    velocity = rule%rest - rule%kick*force_ahead(span%h, p)
+    if (abs(velocity) < end%velocity) then
+      tilt = end%missing/end%velocity
+      force = (known + rule%rest*tilt)*(1/(share + rule%kick*tilt))
+    else ! slips from now on
+      force = (known + sign(1.0_dp, velocity)*end%missing)/share
+    end if
+    velocity = rule%rest - rule%kick*force
     bend = -rule%push*span%half_rate*(force - p%force)
   end subroutine stick_force
 
@@ -222,8 +221,17 @@ contains
     type(rule_type), intent(in) :: rule
     type(span_type), intent(in) :: span
     real(dp) :: answer
-    answer = rule%push*(rule%weight(0)*span%end_response + span%bend_response*span%half_rate)
+    answer = rule%kick*span%end_response + rule%push*span%half_rate*span%bend_response
   end function answer_of
+
+  !> Q if there were none.
+  pure function without_force(rule, span, p) result(q)
+    type(rule_type), intent(in) :: rule
+    type(span_type), intent(in) :: span
+    type(point_type), intent(in) :: p
+    real(dp) :: q
+    q = span%base + (span%end_response*rule%rest + rule%push*span%half_rate*span%bend_response*p%force)
+  end function without_force
 
   !> S goes on as in the step before.
   pure function force_ahead(h, p) result(force)
@@ -236,8 +244,9 @@ contains
 
   !> Where little slips, S behaves like int f dX, and the weights are of the measure of time in which that is smooth; where much
   !> does, S is smooth in time. reach: share of the former.
-  pure function rule_of(scene, radius, reach, end, span, p) result(rule)
+  pure function rule_of(scene, in_time, radius, reach, end, span, p) result(rule)
     type(scene_type), intent(in) :: scene
+    logical, intent(in) :: in_time              !! the weights of the level are
     real(dp), intent(in) :: radius, reach  !! radius: of the contact
     type(level_type), intent(in) :: end
     type(span_type), intent(in) :: span
@@ -247,16 +256,19 @@ contains
     logical :: usually
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
-    rule%reach = reach
-    call choose_weights(rule%feedback, p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, &
-                        rule%weight, slope_weight, usually)
+    rule%reach = reach**8
+    call choose_weights(rule%feedback, merge(3_ip, p%known, from_touch(scene)), span%h, p%step_before, &
+                        merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, rule%weight, slope_weight, usually)
     rule%timely = rule%weight
-    if (usually .and. reach < 1) then
+    rule%smooth = usually .and. scene%smooth /= 0
+    if (.not. rule%smooth .and. usually .and. reach < 1 .and. .not. in_time) then
       rule%timely = cubic_weights(span%h, p%step_before)
-      rule%weight = reach*rule%weight + (1 - reach)*rule%timely
+      rule%weight = rule%reach*rule%weight + (1 - rule%reach)*rule%timely
     end if
-    rule%rest = p%velocity - rule%push*(slope_weight*p%slope + (rule%weight(1)*p%force + rule%weight(2)*p%force_before(1) &
-                                                                + rule%weight(3)*p%force_before(2)))
+    rule%kick = rule%push*rule%weight(0)
+    rule%rest = slope_weight*p%slope + (rule%weight(2)*p%force_before(1) + rule%weight(3)*p%force_before(2))
+    rule%rest = p%velocity - rule%push*rule%rest
+    rule%rest = rule%rest - (rule%push*rule%weight(1))*p%force ! last: what the step waits for
   end function rule_of
 
   !> A step with slip behind the front.
@@ -286,7 +298,7 @@ contains
     if (p%front >= edge) call pass_node(m, node, trace, alpha, beta, p, term)
     front_before = p%front
     if (p%front + 1 < edge) reach = (node(p%front + 1)%radius/node(edge)%radius)**2
-    rule = rule_of(scene, node(edge)%radius, reach**8, level(next), span, p)
+    rule = rule_of(scene, weighed_in_time(scene%n, next), node(edge)%radius, reach, level(next), span, p)
     call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
                 turns)
     if (turns) then
@@ -295,7 +307,8 @@ contains
       call answer(m, scene, edge, next, reach, level(next), trace(:, next), trace, node, alpha, beta, rule, span, p, term, now, &
                   turns)
     end if
-    call step_guard(m, scene, span, p%front < front_before, edge, now%slack, alpha, beta, p, term, guard, holds)
+    call step_guard(m, scene, span, p%front < front_before, edge, level(next)%velocity, now%slack, alpha, beta, p, term, guard, &
+                    holds)
     call finish(stuck, next, scene%n, level, rule, span, p, now)
     call note_span(m, scene, span, level(next), now%velocity, now%force, now%bend, p, term)
     if (next <= scene%n) then
@@ -319,40 +332,21 @@ contains
     type(span_type), intent(in) :: span
     type(point_type), intent(in) :: p
     type(end_type), intent(inout) :: now
-    real(dp) :: missing
+    real(dp) :: missing, share
     if (p%front < 0) now%force = -p%side*level(next)%force
     if (stuck) then
       missing = 0
-      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) &
-        missing = (1 - rule%reach)*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) then
+        share = 1 - rule%reach
+        if (rule%smooth) share = min(1.0_dp, abs(now%force)/level(next)%force) ! its law is that of thick rings
+        missing = share*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
+      end if
       now%velocity = rule%rest - rule%push*(rule%weight(0)*now%force + p%side*missing)
     else
       now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)
     end if
     now%bend = -rule%push*span%half_rate*(now%force - p%force)
   end subroutine finish
-
-  !> int int f dX ds over the step that ends at the level l. The difference of D' would be exact, but not to the part of a small psi
-  !> that e_x wants.
-  pure function friction_impulse(l, level) result(passed)
-    integer(ip), intent(in) :: l
-    type(level_type), intent(in) :: level(0:*)
-    real(dp) :: passed
-    passed = (level(l)%weight(0)*level(l)%force + level(l)%weight(1)*level(l - 1)%force) &
-             + (level(l)%weight(2)*level(l - 2)%force + level(l)%weight(3)*level(l - 3)%force)
-  end function friction_impulse
-
-  !> The same from a level to the end.
-  pure function full_friction(n, l, level) result(passed)
-    integer(ip), intent(in) :: n, l
-    type(level_type), intent(in) :: level(0:2*n)
-    real(dp) :: passed
-    integer(ip) :: i
-    passed = 0
-    do i = l + 1, 2*n
-      passed = passed + friction_impulse(i, level)
-    end do
-  end function full_friction
 
   !> S at the end of the step, and the front. turns: all that slipped has left the contact, and the edge would slip the other way.
   subroutine answer(m, scene, edge, next, reach, end, fade, trace, node, alpha, beta, rule, span, p, term, now, turns)
@@ -370,17 +364,21 @@ contains
     type(term_type), intent(inout) :: term(m)
     type(end_type), intent(out) :: now
     logical, intent(out) :: turns
-    real(dp) :: guess, y(-2:1), at_edge, unseen
+    real(dp) :: guess, y(-2:1), at_edge, unseen, open, fall
     integer(ip) :: trial
     turns = .false.
     at_edge = 0
-    unseen = unseen_force(m, next <= scene%n, edge, scene, end, fade, trace, node)
-    call try(force_ahead(span%h, p), end, rule, span, p, now)
+    unseen = unseen_force(m, next <= scene%n, edge, scene, end, fade, trace, node)*reach
+    fall = p%side*answer_of(rule, span)
+    open = end%fresh + p%side*without_force(rule, span, p)
+    guess = force_ahead(span%h, p)
+    now%slack = open - fall*guess
+    now%force = guess
     if (p%front < 0) return
-    if (rule%feedback > explicit_below) &
-      call try(implied(m, 0.0_dp, end, rule, span, term, p, now), end, rule, span, p, now)
+    if (rule%feedback > explicit_below) guess = implied(m, open, p%side*fall, 0.0_dp, end, term, p)
     do trial = 1, most_trials
-      if (next <= scene%n) at_edge = scene%eta*(p%side*now%velocity + end%velocity) ! touched now
+      now%slack = open - fall*guess
+      if (next <= scene%n) at_edge = scene%eta*(p%side*(rule%rest - rule%kick*guess) + end%velocity) ! touched now
       call slacks(m, next <= scene%n .and. p%front == edge - 1, at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
       turns = next > scene%n .and. p%front == edge - 1 .and. y(1) > 0
       if (turns) return
@@ -389,43 +387,27 @@ contains
         if (p%front < 0) return
         call slacks(m, .false., at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
       end do
-      guess = now%force
-      now%force = implied(m, hinge(p%front, node, y) + unseen*reach, end, rule, span, term, p, now)
+      now%force = implied(m, open, p%side*fall, hinge(p%front, node, y) + unseen, end, term, p)
       if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough) exit
-      call try(now%force, end, rule, span, p, now)
+      guess = now%force
     end do
   end subroutine answer
 
-  !> What a guess of S makes of the motion.
-  pure subroutine try(force, end, rule, span, p, now)
-    real(dp), intent(in) :: force
-    type(level_type), intent(in) :: end
-    type(rule_type), intent(in) :: rule
-    type(span_type), intent(in) :: span
-    type(point_type), intent(in) :: p
-    type(end_type), intent(out) :: now
-    now%force = force
-    now%velocity = rule%rest - rule%push*rule%weight(0)*force
-    now%bend = -rule%push*span%half_rate*(force - p%force)
-    now%slack = end%fresh + p%side*(span%base + span%end_response*now%velocity + span%bend_response*now%bend)
-  end subroutine try
-
-  !> S from the sums and what they lack of H; it answers itself through the nodes that stick.
-  pure function implied(m, lack, end, rule, span, term, p, now) result(force)
+  !> S from the sums and what they lack of H; it answers itself through the nodes that stick. open: the slack at the centre if S
+  !> were none; fall: by how much Q falls with it.
+  pure function implied(m, open, fall, lack, end, term, p) result(force)
     integer(ip), intent(in) :: m
-    real(dp), intent(in) :: lack
+    real(dp), intent(in) :: open, fall, lack
     type(level_type), intent(in) :: end
-    type(rule_type), intent(in) :: rule
-    type(span_type), intent(in) :: span
     type(term_type), intent(in) :: term(m)
     type(point_type), intent(in) :: p
-    type(end_type), intent(in) :: now
-    real(dp) :: force
+    real(dp) :: force, share
     integer(ip) :: k
-    force = now%slack*p%weight - p%alpha + (lack - end%force)
+    share = p%side/(1 + fall*p%weight)
+    force = open*p%weight - p%alpha - end%force
     do k = 1, m
       force = force - term(k)%beta_sum
     end do
-    force = now%force + (p%side*force - now%force)/(1 + answer_of(rule, span)*p%weight)
+    force = (force + lack)*share
   end function implied
 end module rst_sync_front

@@ -6,7 +6,7 @@ module rst_sync_grid
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: grid_type, level_type, node_type, likely_depth, choose_grid, spread_nodes, at_level, mass_factor
+  public :: grid_type, level_type, node_type, likely_depth, soften, choose_grid, spread_nodes, at_level, mass_factor
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
 
@@ -51,6 +51,23 @@ contains
     end do
   end function likely_depth
 
+  !> Stiffness and viscosity at the age of the impact, whose depth is known roughly.
+  pure subroutine soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
+    real(dp), intent(in) :: g_inf, eta, depth
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g(n_terms), tau(n_terms)
+    real(dp), intent(out) :: stiffness, viscosity
+    real(dp) :: age
+    integer(ip) :: k
+    stiffness = g_inf
+    viscosity = eta
+    do k = 1, n_terms
+      age = 0.8_dp*tau(k)/depth
+      stiffness = stiffness + g(k)*(age/(1 + age))**2
+      viscosity = viscosity + g(k)*tau(k)/(1 + age)**2
+    end do
+  end subroutine soften
+
   !> Grid for a solid, from what a Kelvin-Voigt solid of its stiffness E and viscosity would do, both at the age of the impact:
   !> after the turning point its contact shrinks to A ~ (E D/viscosity^2)^(1/3) before the sphere moves; before it, the
   !> sphere creeps at D' ~ E D/viscosity. Where the contact shrinks to a smaller part, both ends are divided by these. Below that
@@ -63,17 +80,10 @@ contains
     type(grid_type) :: grid
     real(dp), parameter :: even_above = 0.5_dp  !! contacts that stay larger than this part need no grading of the start
     real(dp), parameter :: creeping = 0.125_dp  !! D' of such creep
-    real(dp) :: depth, stiffness, viscosity, age, small_radius, creep
-    integer(ip) :: k
+    real(dp) :: depth, stiffness, viscosity, small_radius, creep
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
     grid = grid_type(sqrt(depth), 0.0_dp, 0.0_dp)
-    stiffness = g_inf
-    viscosity = eta
-    do k = 1, n_terms
-      age = 0.8_dp*tau(k)/depth
-      stiffness = stiffness + g(k)*(age/(1 + age))**2
-      viscosity = viscosity + g(k)*tau(k)/(1 + age)**2
-    end do
+    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
     viscosity = max(viscosity, tiny(1.0_dp)*1.0e200_dp)
     small_radius = depth*stiffness/viscosity**2
     creep = max(depth*stiffness/viscosity, 1.0e-9_dp)

@@ -6,32 +6,78 @@ module rst_sync_hinge
   use rst_sync_point, only: point_type
   implicit none (type, external)
   private
-  public :: hinge, beyond, root_left_out
+  public :: hinge, beyond_edge, root_left_out
+
+  real(dp), parameter :: sixth = 1.0_dp/6, third = 1.0_dp/3  !! compilers divide by constants as written
+  !> What `beyond` is where x is 1, by y at the nodes f-2 to f+1 times their widths: Gregory's rule.
+  real(dp), parameter :: whole_cell(-2:1) = [19, -87, 177, 251]/720.0_dp
+
+  real(dp), parameter :: nearly_a_line = 0.25_dp  !! bends up to that part of the slope
 
 contains
 
-  !> What the trapezoidal rule over the nodes 0 to f lacks of int_0^c y dX, where the cubic through y at the nodes f-2 to f+1
-  !> has its root c between f and f+1. y is even in X.
+  !> What the trapezoidal rule over the nodes 0 to f lacks of int_0^c y dX, where the cubic through y dX/dj at the nodes f-2 to f+1
+  !> has its root c between f and f+1, the part x of the way. Where it is all but a line there, x of the line is taken, and the
+  !> triangle from there to the root.
   pure function hinge(f, node, y) result(missing)
     integer(ip), intent(in) :: f
     type(node_type), intent(in) :: node(0:f + 1)
     real(dp), intent(in) :: y(-2:1)
-    real(dp) :: missing, slope, bend, twist, x, root, reciprocal
-    call expand(y, f, slope, bend, twist)
-    root = sqrt(max(0.0_dp, slope**2 - 4*bend*y(0))) ! less the slope at c
-    reciprocal = 1/(root*(root - slope))
-    x = 2*y(0)*root*reciprocal
-    x = x + twist*x*(x*x - 1)*(root - slope)*reciprocal
-    if (.not. x <= 1) x = 1
-    missing = beyond(f, node, y, max(0.0_dp, x))
+    real(dp) :: missing, v(-2:1), slope, bend, twist, along, x, left, turn
+    v = by_index(f, node, y)
+    call expand(f, v, slope, bend, twist)
+    along = 1/(v(0) - v(1))
+    x = min(1.0_dp, v(0)*along)
+    left = (bend + twist*(1 + x))*(x*(x - 1))
+    turn = along*(bend*(2*x - 1) + twist*(3*x*x - 1))
+    if (f > 1 .and. v(1) <= 0 .and. abs(bend) + abs(twist) < nearly_a_line*(v(0) - v(1))) then
+      missing = beyond(v, slope, bend, twist, x) + (0.5_dp*along)*(left*left)*(1 + turn*(1 + turn))
+    else
+      x = root_of(v, slope, bend, twist)
+      missing = beyond(v, slope, bend, twist, x)
+    end if
   end function hinge
 
-  !> The same if c is the part x of the way from f to f+1: Euler-Maclaurin's terms at f and the integral from there on.
-  pure function beyond(f, node, y, x) result(missing)
+  !> Where the cubic is zero; 1 if nowhere.
+  pure function root_of(v, slope, bend, twist) result(x)
+    real(dp), intent(in) :: v(-2:1), slope, bend, twist
+    real(dp) :: x, root
+    root = sqrt(max(0.0_dp, slope**2 - 4*bend*v(0))) ! less the slope there
+    x = 2*v(0)/(root - slope)
+    x = x + twist*x*(x*x - 1)/root
+    if (.not. (x <= 1 .and. root > 0)) x = 1
+    x = max(0.0_dp, x)
+  end function root_of
+
+  !> What the rule lacks if c is the part x of the way from f to f+1: Euler-Maclaurin's terms at f and the integral from there on.
+  pure function beyond(v, slope, bend, twist, x) result(missing)
+    real(dp), intent(in) :: v(-2:1), slope, bend, twist, x
+    real(dp) :: missing
+    missing = v(0)*(x - 0.5_dp) + slope*(0.5_dp*x*x - 1.0_dp/12) + bend*(third*x)*(x*x) &
+              + twist*(x*x*(0.25_dp*x*x - 0.5_dp) + (1.0_dp/12 + 1.0_dp/120))
+  end function beyond
+
+  !> The same where all of the last cell counts.
+  pure function beyond_edge(f, node, y) result(missing)
     integer(ip), intent(in) :: f
     type(node_type), intent(in) :: node(0:f + 1)
-    real(dp), intent(in) :: y(-2:1), x
-    real(dp) :: missing, slope, bend, twist, v(-2:1), width_before
+    real(dp), intent(in) :: y(-2:1)
+    real(dp) :: missing, v(-2:1), slope, bend, twist
+    v = by_index(f, node, y)
+    if (f > 0) then
+      missing = ((whole_cell(0)*v(0) + whole_cell(1)*v(1)) + (whole_cell(-1)*v(-1) + whole_cell(-2)*v(-2)))
+    else
+      call expand(f, v, slope, bend, twist)
+      missing = beyond(v, slope, bend, twist, 1.0_dp)
+    end if
+  end function beyond_edge
+
+  !> y dX/dj at the nodes f-2 to f+1; even in X.
+  pure function by_index(f, node, y) result(v)
+    integer(ip), intent(in) :: f
+    type(node_type), intent(in) :: node(0:f + 1)
+    real(dp), intent(in) :: y(-2:1)
+    real(dp) :: v(-2:1), width_before
     if (f > 1) then
       v = y*node(f - 2:f + 1)%width
     else
@@ -40,20 +86,17 @@ contains
       v(-1) = y(-1)*merge(node(0)%width, width_before, f > 0)
       v(-2) = y(-2)*width_before
     end if
-    call expand(v, f, slope, bend, twist)
-    missing = v(0)*(x - 0.5_dp) + slope*(x*x/2 - 1.0_dp/12) + bend*x**3/3 &
-              + twist*(x*x*(x*x/4 - 0.5_dp) + 1.0_dp/12 + 1.0_dp/120)
-  end function beyond
+  end function by_index
 
-  !> y(0) + slope x + bend x^2 + twist x (x^2 - 1) through the values at -2 to 1; without the twist next to the centre.
-  pure subroutine expand(y, f, slope, bend, twist)
-    real(dp), intent(in) :: y(-2:1)
+  !> v(0) + slope x + bend x^2 + twist x (x^2 - 1) through the values at -2 to 1; without the twist next to the centre.
+  pure subroutine expand(f, v, slope, bend, twist)
     integer(ip), intent(in) :: f
+    real(dp), intent(in) :: v(-2:1)
     real(dp), intent(out) :: slope, bend, twist
-    slope = (y(1) - y(-1))/2
-    bend = (y(1) + y(-1))/2 - y(0)
+    slope = 0.5_dp*(v(1) - v(-1))
+    bend = 0.5_dp*(v(1) + v(-1)) - v(0)
     twist = 0
-    if (f > 0) twist = (y(1) - 3*(y(0) - y(-1)) - y(-2))/6
+    if (f > 0) twist = ((v(1) - v(-2)) - 3*(v(0) - v(-1)))*sixth
   end subroutine expand
 
   !> What the usual rule lacks of int H ds over a step near the end of stick, where H = C y^(3/2) with smooth C and y, the slack at

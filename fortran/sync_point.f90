@@ -43,16 +43,18 @@ contains
     type(term_type), intent(inout) :: term(m)
     type(span_type), intent(out) :: span
     type(trace_type) :: t
+    real(dp) :: spring
     logical :: whole
     integer(ip) :: k
     whole = p%time <= level(0)%time
     span%h = level(1)%step
     if (.not. whole) span%h = level(1)%time - p%time
     span%half_rate = 0.5_dp/span%h
-    span%start_response = scene%g_inf*span%h/2
-    span%end_response = span%start_response + scene%eta
-    span%bend_response = -span%start_response*span%h**2/3
-    span%base = scene%g_inf*p%shift + span%start_response*p%velocity
+    spring = 0.5_dp*scene%g_inf*span%h
+    span%start_response = spring
+    span%end_response = spring + scene%eta
+    span%bend_response = -spring*span%h**2*(1.0_dp/3.0_dp)
+    span%base = spring*p%velocity + scene%g_inf*p%shift
     do k = 1, m
       t = trace(k)
       if (.not. whole) call fade_in_step(g(k), tau(k), span%h, t)
@@ -80,10 +82,12 @@ contains
     real(dp), intent(in) :: velocity, force, bend
     type(point_type), intent(inout) :: p
     type(term_type), intent(inout) :: term(m)
+    real(dp) :: half
     integer(ip) :: k
-    p%shift = p%shift + span%h*(p%velocity + velocity)/2 - bend*span%h**3/6
+    half = 0.5_dp*span%h
+    p%shift = ((p%shift + half*p%velocity) + half*velocity) - (span%h**3*(1.0_dp/6.0_dp))*bend
     do k = 1, m
-      term(k)%stress = term(k)%next_stress + term(k)%from_end*velocity + term(k)%from_bend*bend
+      term(k)%stress = (term(k)%next_stress + term(k)%from_end*velocity) + term(k)%from_bend*bend
     end do
     p%velocity = velocity
     p%time = end%time

@@ -5,7 +5,7 @@ module POINTS
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: p, place, integral, slope, series
+  public :: p, place, integral, slope, series, up, down, moment, from_rest, back, curl, fore
 
   integer(ip), parameter :: p = POINTS_DEGREE
   real(dp), parameter :: pi = acos(-1.0_dp)
@@ -29,4 +29,18 @@ module POINTS
                          reshape([((2.0_dp/p*halved(i)*halved(k)*chebyshev(i, k), k=0, p), i=0, p)], int([p + 1, p + 1]))
   real(dp), parameter :: integral(p, 0:p) = matmul(of_series, series)
   real(dp), parameter :: slope(0:p, 0:p) = matmul(chebyshev(:, 0:p), matmul(falling, series))
+
+  !> y of the points of the compression, with s = s_m y^2, and z of those of the restitution, with s = s_m + T (1 - z^2).
+  real(dp), parameter :: up(0:p) = 0.5_dp*(1 + place), down(0:p) = 0.5_dp*(1 - place)
+  !> int f 2y dy from first touch and int f (-2z) dz from the turning point on by values of f; nothing comes from y = 0 or z = 0.
+  real(dp), parameter :: moment(p, p) = reshape([((integral(i, k)*up(k), i=1, p), k=1, p)], int([p, p]))
+  real(dp), parameter :: back(p, 0:p - 1) = reshape([((integral(i, k)*down(k), i=1, p), k=0, p - 1)], int([p, p]))
+  !> The former with nothing at y = 0.
+  real(dp), parameter :: from_rest(0:p, 0:p) = &
+                         reshape([[(0.0_dp, i=0, p)], [([0.0_dp, moment(:, k)], k=1, p)]], int([p + 1, p + 1]))
+  !> T df/ds in the restitution by values of f; at z = 0 by the second derivative. fore: s_m df/ds in the compression.
+  real(dp), parameter :: bend(0:p, 0:p) = matmul(slope, slope), over(0:p) = [(1/(0.5_dp*(1 - place(i))), i=0, p - 1), 0.0_dp]
+  real(dp), parameter :: curl(0:p, 0:p) = &
+                         reshape([((merge(-2*bend(i, k), slope(i, k)*over(i), i == p), i=0, p), k=0, p)], int([p + 1, p + 1]))
+  real(dp), parameter :: fore(0:p, 0:p) = reshape([((-curl(p - i, p - k), i=0, p), k=0, p)], int([p + 1, p + 1]))
 end module POINTS

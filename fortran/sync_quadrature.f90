@@ -8,7 +8,8 @@ module rst_sync_quadrature
   use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, choose_weights, cubic_weights
+  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time, weigh_in_time
+  public :: friction_impulse, full_friction
   public :: explicit_below, shortest_start, most_trials
 
   integer(ip), parameter :: block = 32              !! levels at a time
@@ -42,14 +43,7 @@ contains
       end do
       call weigh(last - first, h, dsdy, level(first:))
     end do
-    dsdy = 1
-    do first = max(3_ip, last_of_start(n) + 1), 2*n - last_of_start(n) - 1, block
-      last = min(first + block - 1, 2*n - last_of_start(n) - 1)
-      do i = -2, last - first
-        h(i) = level(first + i)%step
-      end do
-      call weigh(last - first, h, dsdy, level(first:))
-    end do
+    call weigh_in_time(n, max(3_ip, last_of_start(n) + 1), 2*n - last_of_start(n) - 1, level)
     rest = 0
     last = 2*n
     do while (last >= 2*n - last_of_start(n))
@@ -71,12 +65,35 @@ contains
     end do
   end subroutine spread_weights
 
+  !> From one level to another, where y is time.
+  pure subroutine weigh_in_time(n, from, to, level)
+    integer(ip), intent(in) :: n, from, to
+    type(level_type), intent(inout) :: level(0:2*n)
+    integer(ip) :: first, last, i
+    real(dp) :: h(-2:block), dsdy(-3:block)
+    dsdy = 1
+    do first = from, to, block
+      last = min(first + block - 1, to)
+      do i = -2, last - first
+        h(i) = level(first + i)%step
+      end do
+      call weigh(last - first, h, dsdy, level(first:))
+    end do
+  end subroutine weigh_in_time
+
   !> The last level that is reached in the root of time; as many before the end it is the root of what is left.
   pure function last_of_start(n) result(last)
     integer(ip), intent(in) :: n
     integer(ip) :: last
     last = 2*n/3
   end function last_of_start
+
+  !> Whether y is time itself at the level.
+  pure function weighed_in_time(n, level) result(yes)
+    integer(ip), intent(in) :: n, level
+    logical :: yes
+    yes = min(level, 2*n - level) > last_of_start(n)
+  end function weighed_in_time
 
   !> Of the levels 0 to last, from the steps of y and ds/dy.
   pure subroutine weigh(last, h, dsdy, level)
@@ -98,7 +115,7 @@ contains
     do i = 0, last
       twist = -h(i)**3*(h(i) + 2*h(i - 1))/(12*(h(i) + h(i - 1) + h(i - 2)))
       if (max(h(i)*once(i - 1), h(i - 1)*once(i - 2)) > steepest) twist = 0
-      bend = (twist - h(i)**3/6)*twice(i)
+      bend = (twist - h(i)**3*(1.0_dp/6.0_dp))*twice(i)
       level(i)%weight(0) = dsdy(i)*(h(i)/2 + bend*once(i))
       level(i)%weight(1) = dsdy(i - 1)*(h(i)/2 - bend*(once(i) + once(i - 1)) - twist*twice(i - 1)*once(i - 1))
       level(i)%weight(2) = dsdy(i - 2)*(bend*once(i - 1) + twist*twice(i - 1)*(once(i - 1) + once(i - 2)))
@@ -161,7 +178,7 @@ contains
     twice = 1/(before(1) + before(2))
     twist = -h*h*h*(h + 2*before(1))/(12*(h + before(1) + before(2)))
     if (max(h*once(1), before(1)*once(2)) > steepest) twist = 0
-    bend = (twist - h*h*h/6)/(h + before(1))
+    bend = (twist - h*h*h*(1.0_dp/6.0_dp))/(h + before(1))
     twist = twist*twice
     weight = [h/2 + bend*once(0), h/2 - bend*(once(0) + once(1)) - twist*once(1), bend*once(1) + twist*(once(1) + once(2)), &
               -twist*once(2)]
@@ -183,4 +200,26 @@ contains
     real(dp) :: share(3)
     share = [1/h, -(1/h + 1/before), 1/before]/(h + before)
   end function bends
+
+  !> int int f dX ds over the step that ends at the level l. The difference of D' would be exact, but not to the part of a small psi
+  !> that e_x wants.
+  pure function friction_impulse(l, level) result(passed)
+    integer(ip), intent(in) :: l
+    type(level_type), intent(in) :: level(0:*)
+    real(dp) :: passed
+    passed = (level(l)%weight(0)*level(l)%force + level(l)%weight(1)*level(l - 1)%force) &
+             + (level(l)%weight(2)*level(l - 2)%force + level(l)%weight(3)*level(l - 3)%force)
+  end function friction_impulse
+
+  !> The same from a level to the end.
+  pure function full_friction(n, l, level) result(passed)
+    integer(ip), intent(in) :: n, l
+    type(level_type), intent(in) :: level(0:2*n)
+    real(dp) :: passed
+    integer(ip) :: i
+    passed = 0
+    do i = l + 1, 2*n
+      passed = passed + friction_impulse(i, level)
+    end do
+  end function full_friction
 end module rst_sync_quadrature

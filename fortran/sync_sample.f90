@@ -5,35 +5,50 @@
 !> rst_sync_grid). All levels of a phase are independent of each other, so they come in groups of lanes.
 module rst_sync_sample
   use rst_precision, only: dp, ip
-  use rst_memory, only: memory_type, memory_of, gentle_memory, series_below
-  use rst_sync_grid, only: level_type, node_type
+  use rst_memory, only: memory_type, memory_of, gentle_memory, series_below, growth_of
+  use rst_sync_grid, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
   implicit none (type, external)
   private
   public :: sample_curve
 
   integer(ip), parameter :: lanes = 8, highest = 16  !! degree of the polynomials, at most
+  integer(ip), parameter :: most_steps = 20
+  real(dp), parameter :: sharp(2:4) = [1.0e-3_dp, 3.0e-5_dp, 1.0e-6_dp] !! part of a time that Newton's last step may be, by degree
+  real(dp), parameter :: felt_until = 36        !! relaxation times
+  real(dp), parameter :: at_once = 300          !! of them in the restitution, where springs do as dashpots
 
 contains
 
-  !> n levels a phase. turn: time of the turning point; curve: see follow_curve.
-  pure subroutine sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, n, level, trace, node)
+  !> n levels a phase. turn, spread, curve, layer: see follow_curve.
+  pure subroutine sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
     integer(ip), intent(in) :: p, n_terms, n
-    real(dp), intent(in) :: turn, spread(2), g_inf, g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms)
+    real(dp), intent(in) :: turn(4), spread(2), g_inf, eta, g(n_terms), tau(n_terms)
+    real(dp), intent(in) :: curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     real(dp) :: c(3), rise(0:highest)
-    integer(ip) :: first
+    integer(ip) :: first, k
     call derive(p, curve(:, 1), rise)
     c(1) = max(1.3_dp, min(spread(1), 1.9_dp)) ! beyond, y would not rise everywhere
     c(3) = (max(0.15_dp, min(spread(2), 0.5_dp)) - 3 + 2*c(1))/2
     c(2) = 1 - c(1) - c(3)
-    do first = 0, n, lanes
-      call sample_compression(p, turn, c, g_inf, n_terms, curve, rise(:p), n, first, level, trace, node)
+    level(0) = level_type(0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
+    node(0) = node_type(0.0_dp, c(1)*sqrt(turn(1))*(1/real(n, dp)))
+    do k = 1, n_terms
+      trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     end do
     do first = 1, n, lanes
-      call sample_restitution(p, c, g_inf, n_terms, curve(:, 3 + 2*n_terms:), n, first, node, level, trace)
+      call sample_compression(p, turn(1), c, g_inf, eta, n_terms, tau, curve, layer(:, 1), rise(:p), n, first, level, trace, node)
+    end do
+    do first = 1, n, lanes
+      if (turn(2) > 0) then
+        call find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve(:, 4 + 2*n_terms:), layer(:, 2), n, first, node, &
+                              level, trace)
+      else
+        call sample_restitution(p, c, g_inf, n_terms, curve(:, 3 + 2*n_terms:), n, first, node, level, trace)
+      end if
     end do
     do first = 1, 2*n, lanes
       call fade_in_steps(n_terms, g, tau, min(lanes, 2*n + 1 - first), level(first - 1:), trace(:, first:))
@@ -100,9 +115,9 @@ contains
     end do
   end function summed
 
-  pure subroutine sample_compression(p, turn, c, g_inf, n_terms, curve, rise, n, first, level, trace, node)
+  pure subroutine sample_compression(p, turn, c, g_inf, eta, n_terms, tau, curve, layer, rise, n, first, level, trace, node)
     integer(ip), intent(in) :: p, n_terms, n, first
-    real(dp), intent(in) :: turn, c(3), g_inf, curve(0:p, 2 + 2*n_terms), rise(0:p)
+    real(dp), intent(in) :: turn, c(3), g_inf, eta, tau(n_terms), curve(0:p, 2 + 2*n_terms), layer(n_terms), rise(0:p)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
@@ -117,8 +132,8 @@ contains
     width = (radius + y*summed(p, rise, t))*slope
     radius = radius*y
     depth = radius*radius
-    force = (2.0_dp/3.0_dp)*g_inf*depth*radius
-    fresh = g_inf*depth
+    force = radius*((2.0_dp/3.0_dp)*g_inf*depth + eta*velocity)
+    fresh = g_inf*depth + eta*velocity
     do k = 1, n_terms
       held = summed(p, curve(:, 2 + k), t)
       force = force + held
@@ -126,6 +141,7 @@ contains
         trace(k, first + q - 1)%loading = held(q)
       end do
       held = summed(p, curve(:, 2 + n_terms + k), t)
+      if (abs(layer(k)) > 0) held = held + layer(k)/growth_of(y*y*(turn/tau(k)))
       fresh = fresh + held
       do q = 1, last
         trace(k, first + q - 1)%memory = held(q)
@@ -137,14 +153,9 @@ contains
       level(l) = level_type(turn*y(q)*y(q), turn*slope(q), depth(q), velocity(q), force(q), fresh(q), 0.0_dp, 0.0_dp)
       node(l) = node_type(radius(q), width(q))
     end do
-    if (first == 0) then
-      level(0) = level_type(0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
-      do k = 1, n_terms
-        trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
-      end do
-    end if
   end subroutine sample_compression
 
+  !> The restitution by edges.
   pure subroutine sample_restitution(p, c, g_inf, n_terms, curve, n, first, node, level, trace)
     integer(ip), intent(in) :: p, n_terms, n, first
     real(dp), intent(in) :: c(3), g_inf, curve(0:p, 3 + n_terms)
@@ -173,6 +184,116 @@ contains
                             0.0_dp, 0.0_dp)
     end do
   end subroutine sample_restitution
+
+  !> The same by time: where the edge is on the nodes is found by Newton's steps.
+  pure subroutine find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve, layer, n, first, node, level, trace)
+    integer(ip), intent(in) :: p, n_terms, n, first
+    real(dp), intent(in) :: turn(4), c(3), g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
+    type(node_type), intent(in) :: node(0:n)
+    type(level_type), intent(inout) :: level(0:2*n)
+    type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
+    real(dp), dimension(lanes) :: y, slope, ago, passed, radius, depth, velocity, force, excess, rate, dx
+    real(dp) :: sharpness
+    integer(ip) :: q, k, l, last, step
+    last = min(lanes, n + 1 - first)
+    call place_lanes(c, n, n - first, .true., y, slope)
+    do q = 1, lanes
+      radius(q) = node(max(n - first - q + 1, 0_ip))%radius
+    end do
+    ago = turn(1)*(1 - y*y)
+    passed = guess_times(turn, ago)
+    sharpness = sharp(min(p/4, 4_ip))
+    do step = 1, most_steps
+      call weigh_edges(p, turn(2), g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, depth, &
+                       velocity, force, excess, rate)
+      !$omp simd
+      do q = 1, lanes
+        dx(q) = max(-0.5_dp*passed(q), min(passed(q), -excess(q)/min(rate(q), -tiny(1.0_dp))))
+      end do
+      if (maxval(abs(dx) - sharpness*passed) < 0) exit
+      passed = passed + dx
+    end do
+    do q = 1, last
+      l = n + first + q - 1
+      do k = 1, n_terms
+        if (turn(2) < at_once*tau(k)) then
+          trace(k, l)%memory = trace(k, l)%memory + dx(q)*(g(k)*velocity(q) - trace(k, l)%memory*(1/tau(k)))
+        else
+          trace(k, l)%memory = trace(k, l)%memory + dx(q)*(g(k)*tau(k))*force(q)
+        end if
+      end do
+      level(l) = level_type(turn(1) + (passed(q) + dx(q)), 0.0_dp, depth(q) + dx(q)*velocity(q), velocity(q) + dx(q)*force(q), &
+                            (2.0_dp/3.0_dp)*g_inf*radius(q)**3, g_inf*radius(q)**2, 0.0_dp, 0.0_dp)
+    end do
+  end subroutine find_restitution
+
+  !> Times since the turning point at which the edge is back where it was so long before it, nearly (see turn_round of the modules
+  !> rst_sync_fading_*).
+  pure function guess_times(turn, ago) result(passed)
+    real(dp), intent(in) :: turn(4), ago(lanes)
+    real(dp) :: passed(lanes), delay, square, x
+    integer(ip) :: q
+    delay = turn(3)/turn(2)
+    !$omp simd private(square, x)
+    do q = 1, lanes
+      square = (1 + 2*delay)*(ago(q)/turn(1))**2
+      x = square/(sqrt(square + delay*delay) + delay)
+      square = max(0.3_dp*square, square - (1 + 2*delay)*2*turn(4)*delay*x*x*(1 - x)/(x + 0.06_dp))
+      x = square/(sqrt(square + delay*delay) + delay)
+      passed(q) = turn(2)*x
+    end do
+  end function guess_times
+
+  !> What the edges lack of being free at those times, and its slope in time; the motion then. force: D''.
+  pure subroutine weigh_edges(p, lasts, g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, &
+                              depth, velocity, force, excess, rate)
+    integer(ip), intent(in) :: p, n_terms, n, first, last
+    real(dp), intent(in) :: lasts, g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
+    real(dp), dimension(lanes), intent(in) :: radius, ago, passed
+    type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
+    real(dp), dimension(lanes), intent(out) :: depth, velocity, force, excess, rate
+    real(dp), dimension(lanes) :: memory, fading, loading, kept
+    real(dp) :: t(lanes, 0:highest), drag
+    integer(ip) :: k, q, l
+    call polynomials(p, 1 - 2*sqrt(max(0.0_dp, 1 - passed*(1/lasts))), t)
+    depth = summed(p, curve(:, 1), t)
+    velocity = summed(p, curve(:, 2), t)
+    force = (2.0_dp/3.0_dp)*g_inf*radius*radius*radius
+    excess = g_inf*(depth - radius*radius) + eta*velocity
+    rate = g_inf*velocity
+    drag = eta
+    do k = 1, n_terms
+      memory = summed(p, curve(:, 2 + k), t)
+      excess = excess + memory
+      if (lasts < at_once*tau(k)) then
+        rate = rate + (g(k)*velocity - memory*(1/tau(k)))
+      else
+        drag = drag + g(k)*tau(k)
+      end if
+      if (abs(layer(k)) > 0 .and. passed(1) < felt_until*tau(k)) then
+        fading = layer(k)/growth_of(passed*(1/tau(k)))
+        memory = memory + fading
+        excess = excess + fading
+        rate = rate - fading*(1/tau(k))
+      end if
+      if (passed(1) + ago(1) < felt_until*tau(k)) then
+        do q = 1, lanes
+          l = max(n - first - q + 1, 0_ip)
+          loading(q) = trace(k, l)%loading
+          kept(q) = trace(k, l)%memory
+        end do
+        fading = 1/growth_of((passed + ago)*(1/tau(k)))
+        force = force + fading*loading
+        excess = excess - fading*kept
+        rate = rate + fading*kept*(1/tau(k))
+      end if
+      do q = 1, last
+        trace(k, n + first + q - 1)%memory = memory(q)
+      end do
+    end do
+    force = -mass_factor*force
+    rate = rate + drag*force
+  end subroutine weigh_edges
 
   !> The steps that end at `count` levels behind the first one given.
   pure subroutine fade_in_steps(n_terms, g, tau, count, level, trace)

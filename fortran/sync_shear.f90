@@ -19,9 +19,9 @@ module rst_sync_shear
   use rst_memory, only: memory_type, memory_of
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type, fade_in_step
-  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, column_x2, &
-                               column_weight, column_alpha, column_kappa
-  use rst_sync_quadrature, only: choose_weights, explicit_below, shortest_start, most_trials
+  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, from_touch, &
+                               column_x2, column_weight, column_alpha, column_kappa
+  use rst_sync_quadrature, only: full_friction, choose_weights, explicit_below, shortest_start, most_trials
   use rst_sync_edge, only: weight_of, shear_force, find_front
   use rst_sync_front, only: follow_front
   use rst_cubic, only: cubic_type, cubic_between, cubic_slope, cubic_bend, cubic_integral, cubic_root
@@ -111,17 +111,50 @@ contains
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
-    logical :: holds
-    if (scene%no_slip == 0) then
+    logical :: holds, slides, slid
+    if (scene%no_slip == 0 .and. scene%stepped <= 0) then
       call first_stick(scene, g, tau, level, trace, term, state)
       call follow_front(scene, g, tau, level, trace, node, term, body(:, column_alpha), beta, state, holds)
       if (holds) return
+      state%updates = 1 ! there would be some
+      if (scene%stepped < 0) return
     end if
     call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
+    slides = .false.
     do while (state%level < 2*scene%n)
       call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+      slid = slides
+      slides = slides_on(scene, level, body(:, column_kappa), state)
+      if (slid .and. slides) exit
     end do
+    if (state%level < 2*scene%n) state%velocity = state%velocity - 2*mass_factor*scene%chi*sign(1.0_dp, body(0, column_kappa)) &
+                                                  *full_friction(scene%n, state%level, level)
   end subroutine follow_shear
+
+  !> Whether all slips, one way and to the end, even if lags of slip velocities, which grow by a tenth or so, doubled. Slip velocities
+  !> of elements that began to slip within a step are off by turns, up to half of what slip loses in a step, so two levels have to say
+  !> it.
+  pure function slides_on(scene, level, kappa, state) result(yes)
+    type(scene_type), intent(in) :: scene
+    type(level_type), intent(in) :: level(0:2*scene%n)
+    real(dp), intent(in) :: kappa(0:scene%capacity - 1)
+    type(shear_type), intent(in) :: state
+    logical :: yes
+    real(dp) :: now, last, doubt, lag, direction
+    integer(ip) :: edge
+    yes = .false.
+    if (state%front >= 0 .or. state%first > 0 .or. scene%no_slip /= 0) return
+    associate (here => level(state%level)%velocity, before => level(state%level - 1)%velocity)
+      direction = sign(1.0_dp, kappa(0))
+      now = here - direction*state%velocity ! slip velocity, against the direction, of what slipped before
+      last = now + (1 - 2*scene%chi)*(level(2*scene%n)%velocity - here)
+      doubt = abs((1 - 2*scene%chi)*(here - before))/2
+    end associate
+    if (max(now, last) + doubt > 0) return
+    edge = min(state%level, 2*scene%n - state%level - 1)
+    lag = maxval(-direction*kappa(0:edge)) - now
+    yes = max(now, last) + 2*max(0.0_dp, lag) + doubt <= 0
+  end function slides_on
 
   pure subroutine place_nodes(scene, node, body, beta, faded)
     type(scene_type), intent(in) :: scene
@@ -329,8 +362,8 @@ contains
     real(dp), intent(out) :: weight(0:3), start
     real(dp) :: slope_weight
     logical :: usually
-    call choose_weights(feedback, state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), &
-                        normal%weight, weight, slope_weight, usually)
+    call choose_weights(feedback, merge(3_ip, state%known, from_touch(scene)), step%h, state%step_before, &
+                        merge(step%drop, 0.0_dp, scene%psi > 1), normal%weight, weight, slope_weight, usually)
     start = slope_weight*state%slope
   end subroutine weigh_forces
 

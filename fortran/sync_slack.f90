@@ -7,7 +7,7 @@ module rst_sync_slack
   use rst_sync_elements, only: scene_type, term_type
   use rst_sync_edge, only: weight_of
   use rst_sync_point, only: point_type, slack_at
-  use rst_sync_hinge, only: beyond
+  use rst_sync_hinge, only: beyond_edge
   implicit none (type, external)
   private
   public :: add_up, speak_of_slack, unseen_force, slacks, pass_node, turn_round
@@ -74,22 +74,34 @@ contains
     type(node_type), intent(in) :: node(0:edge)
     real(dp) :: unseen, f(-2:1), age
     integer(ip) :: j, k, inmost
-    inmost = max(-2_ip, 1 - edge)
-    f = end%fresh
-    do j = 0, inmost, -1
-      f(j) = end%fresh - scene%g_inf*node(edge - 1 + j)%radius**2
-    end do
-    do k = 1, m
-      age = fade(k)%fade
-      do j = 0, inmost, -1
-        age = age*trace(k, edge + j)%decay
-        f(j) = f(j) - age*trace(k, edge - 1 + j)%memory
+    if (edge > 2) then ! most levels, without branches
+      f(-2:0) = end%fresh - scene%g_inf*node(edge - 3:edge - 1)%radius**2
+      do k = 1, m
+        age = fade(k)%fade*trace(k, edge)%decay
+        f(0) = f(0) - age*trace(k, edge - 1)%memory
+        age = age*trace(k, edge - 1)%decay
+        f(-1) = f(-1) - age*trace(k, edge - 2)%memory
+        age = age*trace(k, edge - 2)%decay
+        f(-2) = f(-2) - age*trace(k, edge - 3)%memory
       end do
-    end do
+    else
+      inmost = 1 - edge
+      f = end%fresh
+      do j = 0, inmost, -1
+        f(j) = end%fresh - scene%g_inf*node(edge - 1 + j)%radius**2
+      end do
+      do k = 1, m
+        age = fade(k)%fade
+        do j = 0, inmost, -1
+          age = age*trace(k, edge + j)%decay
+          f(j) = f(j) - age*trace(k, edge - 1 + j)%memory
+        end do
+      end do
+      if (edge == 2) f(-2) = f(0)
+    end if
     f(1) = merge(scene%eta*end%velocity, 0.0_dp, compression)
-    if (edge == 2) f(-2) = f(0)
     if (edge == 1) f(-1) = f(1)
-    unseen = end%missing - beyond(edge - 1, node, f, 1.0_dp)
+    unseen = end%missing - beyond_edge(edge - 1, node, f)
   end function unseen_force
 
   !> y of the nodes front - 2 to front + 1; the latter may just be touched. `slack`: y at the centre, about which y is even.
@@ -105,17 +117,18 @@ contains
     integer(ip) :: j, k, f
     f = p%front
     if (f >= 2 .and. .not. touched) then ! most nodes, without branches
-      y = slack - alpha(f - 2:f + 1)
+      y = alpha(f - 2:f + 1)
       do k = 1, m
         age = term(k)%age
-        y(1) = y(1) - age*beta(k, f + 1)
+        y(1) = y(1) + age*beta(k, f + 1)
         age = age*trace(k, f + 1)%decay
-        y(0) = y(0) - age*beta(k, f)
+        y(0) = y(0) + age*beta(k, f)
         age = age*trace(k, f)%decay
-        y(-1) = y(-1) - age*beta(k, f - 1)
+        y(-1) = y(-1) + age*beta(k, f - 1)
         age = age*trace(k, f - 1)%decay
-        y(-2) = y(-2) - age*beta(k, f - 2)
+        y(-2) = y(-2) + age*beta(k, f - 2)
       end do
+      y = slack - y ! last: what the step waits for
       return
     end if
     y = slack

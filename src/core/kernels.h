@@ -67,7 +67,7 @@ struct sync_trace {
 struct sync_scene {
     double chi, psi, g_inf, eta;
     int64_t n_terms, n, capacity;
-    int64_t no_slip;
+    int64_t no_slip, smooth, stepped; /* stepped: with elements from the start, 0: if one front does not do, -1: never */
 };
 struct sync_shear {
     double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;
@@ -134,16 +134,17 @@ void rst_double_levels(int64_t n, struct sync_level *level);
 void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
                       const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
                       struct sync_level *level, struct sync_trace *trace, struct sync_node *node, int64_t *failed);
-void rst_follow_curve(int64_t p, double depth, double g_inf, int64_t n_terms, const double *g, const double *tau,
-                      double closeness, double *turn, double spread[2], double *going, double *coming, double *curve,
-                      double *left_out, int64_t *failed);
-void rst_sample_curve(int64_t p, double turn, const double spread[2], double g_inf, int64_t n_terms, const double *g,
-                      const double *tau, const double *curve, int64_t n, struct sync_level *level,
-                      struct sync_trace *trace, struct sync_node *node);
+void rst_follow_curve(int64_t p, double depth, double g_inf, double eta, int64_t n_terms, const double *g,
+                      const double *tau, double closeness, double turn[4], double spread[2], double *going,
+                      double *coming, double *curve, double *layer, double *x_kept, double *factors, double *left_out,
+                      int64_t *failed);
+void rst_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf, double eta,
+                      int64_t n_terms, const double *g, const double *tau, const double *curve, const double *layer,
+                      int64_t n, struct sync_level *level, struct sync_trace *trace, struct sync_node *node);
 void rst_thin_levels(int64_t n_terms, int64_t n, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, struct sync_level *thin_level, struct sync_trace *thin_trace,
                      struct sync_node *thin_node);
-void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
+void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, int64_t smooth, const struct sync_trace *trace,
                        const struct sync_node *node, struct sync_level *level);
 void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
                       const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,

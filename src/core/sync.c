@@ -31,7 +31,11 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
  * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
  * is much faster than the impact. */
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
+static const double part_if_smooth = 0.5; /* of that where the normal problem is known as polynomials */
 static const double most_alone = 160;
+
+/* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
+static const double least_levels = 16, least_smooth = 14;
 
 /* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound of `tiny`, from so
  * many levels on that slip is followed at all; at `tiny`: `least_alone`. */
@@ -55,6 +59,9 @@ static const double normal_part = 0.25;
 /* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
  * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
+
+/* Part of the tolerance that an estimate from fewer runs than are usual is to keep. */
+static const double surely_enough = 0.5;
 
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
@@ -83,7 +90,8 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct
                                .n_terms = problem->solid.n_terms,
                                .n = store->levels,
                                .capacity = store->capacity,
-                               .no_slip = problem->mode == RST_NO_SLIP};
+                               .no_slip = problem->mode == RST_NO_SLIP,
+                               .smooth = store->smooth};
 }
 
 struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome)
@@ -113,12 +121,14 @@ struct run {
     double velocity;
 };
 
+/* stepped: with elements, 1: from the start, 0: if slip does not stay behind one front, -1: never; then there is no velocity. */
 static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                         const struct store *store, struct run *run, struct rst_outcome *outcome)
+                         const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
 {
     const struct rst_solid *s = &problem->solid;
-    const struct sync_scene scene = rst_sync_scene(problem, store);
+    struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
+    scene.stepped = stepped;
     rst_follow_shear(&scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node, store->body,
                      store->beta, store->faded, store->term, &shear);
     *run = (struct run){.levels = store->levels,
@@ -175,11 +185,18 @@ static double least_levels_alone(double rebound)
     return rebound < small_rebound ? least_alone * pow(tiny / rebound, more_levels) : 0;
 }
 
-/* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, double rebound, double n)
+/* How much more the error is of e_x, a part of psi, where psi is so small that few nodes slip. */
+static double thin_alone(const struct rst_problem *problem)
 {
-    const double thin = 1 + thin_behind_front / (least_slip + problem->psi), chi = fmax(1, problem->chi);
-    double error = usual_alone * thin * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    return 1 + thin_behind_front / (least_slip + problem->psi);
+}
+
+/* The error of a run with slip behind one front, without another beside it. */
+static double error_alone(const struct rst_problem *problem, const struct normal *normal, double n)
+{
+    const double chi = fmax(1, problem->chi), rebound = -normal->velocity;
+    double error = usual_alone * thin_alone(problem) * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
+    if (normal->degree > 0) error *= part_if_smooth;
     if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
     return error;
 }
@@ -208,7 +225,7 @@ static void note_shear(const struct rst_problem *problem, const struct normal *n
         outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
         outcome->error_ex = error_beside(problem, change_before, before, now);
     } else
-        outcome->error_ex = error_alone(problem, -normal->velocity, n);
+        outcome->error_ex = error_alone(problem, normal, n);
     outcome->error_ex +=
         rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
         fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
@@ -265,7 +282,7 @@ static double normal_levels_to_start(double wanted, double swings)
 
 double rst_sync_levels_to_start(double tolerance, double swings)
 {
-    return fmax(16, 2.35 * sqrt(swings) / cbrt(tolerance));
+    return fmax(least_levels, 2.35 * sqrt(swings) / cbrt(tolerance));
 }
 
 /* Updates of the tangential problem with that many levels, at most: n^2 and a quarter of it for the first two runs,
@@ -317,13 +334,31 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
+/* The count with which the estimate of a run alone meets the tolerance. */
+static double levels_alone(double tolerance, double swings, int smooth)
+{
+    return fmax(smooth ? least_smooth : least_levels,
+                fmax(2.6 * pow(swings, 3.0 / 7) * pow(tolerance, -2.0 / 7), 1.32 * sqrt(swings) / cbrt(tolerance)));
+}
+
+/* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
+static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
+{
+    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
+    const int smooth = normal->degree > 0; /* at will, so as many as do for that psi */
+    const double part = smooth ? acceptance / thin_alone(problem) : 1;
+    const double alone = fmax(least, levels_alone(part * problem->tolerance, swings, smooth));
+    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
+        return alone;
+    return rst_sync_levels_to_start(problem->tolerance, swings);
+}
+
 /* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with
  * half and maybe a quarter of them, but about `least` if that is less. */
-static int64_t levels_at_will(const struct rst_problem *problem, int64_t least, double rebound)
+static int64_t levels_at_will(const struct rst_problem *problem, const struct normal *normal, int64_t least)
 {
-    const double needed = rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
-    const double ratio = fmax(1, floor(needed / (double)least));
-    const int64_t whole = rebound < small_rebound ? 8 : 4;
+    const double needed = levels_needed(problem, normal), ratio = fmax(1, floor(needed / (double)least));
+    const int64_t whole = -normal->velocity < small_rebound ? 8 : may_stand_alone(problem, normal) ? 2 : 4;
     int64_t unit = 2;
     while (unit * (int64_t)ratio % whole)
         unit *= 2;
@@ -348,19 +383,40 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
             fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
     const int status = rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
-    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, levels, -normal->velocity) : levels;
+    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, normal, levels) : levels;
     return status;
 }
 
-/* The first run, and beside it one with half its levels, and a third where the rebound is small, unless it may stand
- * alone. If the updates allowed may not be enough, it is the half one alone, which tells what the other would take. */
+/* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where elements have to be
+ * stepped after all, the latter two may do: errors then are smaller than they are alone. */
+static void runs_beside(const struct rst_problem *problem, const struct rst_workspace *workspace,
+                        const struct normal *normal, const struct store *store, int runs, int first_is_left,
+                        struct run *before, struct run *now, double *change_before, struct rst_outcome *outcome)
+{
+    const int stepped = !now->one_front;
+    struct run quarter;
+    if (runs > 2) follow_shear(problem, workspace, &store[2], stepped, &quarter, outcome);
+    follow_shear(problem, workspace, &store[1], stepped, before, outcome);
+    if (first_is_left && stepped && runs > 2) {
+        note_shear(problem, normal, 0, &quarter, before, outcome);
+        if (outcome->error_ex <= surely_enough * problem->tolerance) {
+            *now = *before;
+            *before = quarter;
+            return;
+        }
+    }
+    if (first_is_left && stepped) follow_shear(problem, workspace, &store[0], stepped, now, outcome);
+    if (runs > 2) *change_before = before->velocity - quarter.velocity;
+}
+
+/* The first run, and others beside it, unless it may stand alone. If the updates allowed may not be enough, it is the half one
+ * alone, which tells what the other would take. */
 static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                       const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
                       double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
     const int runs = -normal->velocity < small_rebound && resolution->levels % 8 == 0 ? 3 : 2;
     struct store store[rst_sync_first_runs];
-    struct run quarter;
     double force;
     const double least = least_levels_alone(-normal->velocity), n = (double)resolution->levels;
     const int alone = !half_alone && n >= least && n <= fmax(most_alone, 2 * least) && may_stand_alone(problem, normal);
@@ -370,19 +426,15 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = 0;
     if (half_alone) {
-        follow_shear(problem, workspace, &store[1], now, outcome);
+        follow_shear(problem, workspace, &store[1], 0, now, outcome);
         return RESTITUTE_OK;
     }
-    follow_shear(problem, workspace, &store[0], now, outcome);
+    follow_shear(problem, workspace, &store[0], alone ? -1 : 0, now, outcome);
     if (alone && now->one_front && !now->turned) return RESTITUTE_OK;
     if (alone)
         status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, runs, store, &force, error);
     if (status) return status;
-    follow_shear(problem, workspace, &store[1], before, outcome);
-    if (runs > 2) {
-        follow_shear(problem, workspace, &store[2], &quarter, outcome);
-        *change_before = before->velocity - quarter.velocity;
-    }
+    runs_beside(problem, workspace, normal, store, runs, alone, before, now, change_before, outcome);
     return RESTITUTE_OK;
 }
 
@@ -398,7 +450,7 @@ static int next_run(const struct rst_problem *problem, struct rst_workspace *wor
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
     *before = *now;
-    follow_shear(problem, workspace, &store, now, outcome);
+    follow_shear(problem, workspace, &store, 0, now, outcome);
     return RESTITUTE_OK;
 }
 
@@ -421,22 +473,6 @@ static int double_levels(const struct rst_problem *problem, struct rst_workspace
     }
     resolution->levels *= 2;
     return status;
-}
-
-/* The count with which the estimate of a run alone meets the tolerance. */
-static double levels_alone(double tolerance, double swings)
-{
-    return fmax(16, fmax(2.6 * pow(swings, 3.0 / 7) * pow(tolerance, -2.0 / 7), 1.32 * sqrt(swings) / cbrt(tolerance)));
-}
-
-/* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
-static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
-{
-    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
-    const double alone = fmax(least, levels_alone(problem->tolerance, swings));
-    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
-        return alone;
-    return rst_sync_levels_to_start(problem->tolerance, swings);
 }
 
 static int too_many(const struct rst_problem *problem, int64_t levels)

@@ -16,18 +16,26 @@ static const struct {
 } degrees[] = {{8, 1e-5}, {12, 1e-8}, {16, 0}};
 enum { degree_count = sizeof degrees / sizeof degrees[0], highest_degree = 16 };
 
-/* A phase is to last no more relaxation times, and to lose no more of the velocity; then there are sharp bends. */
-static const double longest_memory = 4, least_rebound = 0.05;
+/* With short memory of several terms there are as many systems of equations, and only the lowest degree is cheaper than levels,
+ * where it is likely to do. */
+static const double error_of_many = 2e-4;
+
+/* Where friction is so strong that all but the edge sticks, forces and the sums over nodes are to agree better than polynomials
+ * let them if a phase lasts longer than so many relaxation times. */
+static const double thinnest_slip = 0.02, gentle_memory = 3.5;
+
+/* Where more of the velocity is lost there are sharp bends. */
+static const double least_rebound = 0.05;
 
 /* Sweeps stop when velocities change by less than this part of the tolerance, but not before they fall regularly, or by
  * what rounding leaves. */
 static const double part_unfinished = 0.004, coarsest = 4e-6, rounding = 1e-12;
 
 /* What sweeps leave unfinished, in units of when they stop. */
-static const double share_of_closeness = 4;
+static const double share_of_closeness = 6;
 
 /* The end of the restitution is known that much better than what is between the points. */
-static const double part_of_end = 0.05;
+static const double part_of_end = 0.05, part_of_end_if_memory_fades = 0.25;
 
 /* Levels for the largest force where no others are made. */
 enum { few_levels = 16 };
@@ -46,17 +54,29 @@ static size_t few_room(size_t terms)
 
 size_t rst_sync_curve_room(int64_t n_terms)
 {
-    return (highest_degree + 1) * columns((size_t)n_terms) + few_room((size_t)n_terms);
+    const size_t terms = (size_t)n_terms, rows = highest_degree + 1, factors = terms * (1 + rows * rows);
+    return rows * columns(terms) + 2 * terms + (factors > few_room(terms) ? factors : few_room(terms));
+}
+
+int rst_sync_is_thin(const struct rst_problem *problem)
+{
+    return problem->mode == RST_PARTIAL_SLIP && problem->psi < thinnest_slip;
+}
+
+/* Whether memory fades within an impact whose phases last so long. */
+static int is_short(const struct rst_solid *solid, double lasts)
+{
+    for (int64_t k = 0; k < solid->n_terms; k++)
+        if (solid->tau[k] * gentle_memory < lasts) return 1;
+    return 0;
 }
 
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
 {
     const struct rst_solid *s = &problem->solid;
-    const double depth = grid->radius * grid->radius;
-    if (problem->elements > 0 || s->eta > 0 || grid->start > 0) return 0;
-    for (int64_t k = 0; k < s->n_terms; k++)
-        if (s->tau[k] * longest_memory < 1.4 * depth) return 0;
-    return 1;
+    const double lasts = 1.4 * grid->radius * grid->radius;
+    if (problem->elements > 0 || grid->start > 0) return 0;
+    return !(rst_sync_is_thin(problem) && is_short(s, lasts));
 }
 
 void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal)
@@ -65,24 +85,27 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
     const size_t terms = (size_t)s->n_terms;
     const double swings = rst_sync_stepped_swings(problem);
     const double closeness = fmax(rounding, fmin(part_unfinished * problem->tolerance, coarsest) / swings);
-    const double allowed = left_in_levels * wanted / swings;
+    const double allowed = left_in_levels * wanted / swings, depth = normal->grid.radius * normal->grid.radius;
+    const int many = terms > 1 && is_short(s, 1.4 * depth), last = many ? 1 : degree_count;
     int64_t failed = 0;
-    double left_out;
-    for (int i = 0; i < degree_count && !failed; i++) {
+    double left_out, *layer = room + (highest_degree + 1) * columns(terms);
+    for (int i = 0; i < last && !failed; i++) {
         const int64_t p = degrees[i].degree;
         const size_t rows = (size_t)p + 1;
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
-        if (allowed < degrees[i].error) continue;
-        rst_follow_curve(p, normal->grid.radius * normal->grid.radius, s->g_inf, s->n_terms, s->g, s->tau, closeness,
-                         &normal->turn, normal->spread, going, coming, curve, &left_out, &failed);
+        if (allowed < (many ? error_of_many : degrees[i].error)) continue;
+        rst_follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn, normal->spread,
+                         going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
         if (failed) return;
         normal->updates += 2 * p;
-        normal->contact_time = coming[p];
-        normal->velocity = coming[(size_t)p + 2 * rows];
+        normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
+        normal->velocity = fmax(-1, coming[(size_t)p + 2 * rows]);
         normal->depth = going[p];
-        normal->error = part_of_end * left_out + share_of_closeness * closeness;
+        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * left_out +
+                        share_of_closeness * closeness;
         normal->taken_off = left_out;
         normal->curve = curve;
+        normal->layer = layer;
         if (-normal->velocity < least_rebound || !isfinite(normal->velocity)) return;
         if (normal->error <= wanted && left_out <= allowed) {
             normal->degree = p;
@@ -96,11 +119,10 @@ double rst_sync_curve_force(const struct rst_problem *problem, const struct norm
 {
     const struct rst_solid *s = &problem->solid;
     const size_t terms = (size_t)s->n_terms, n = few_levels;
-    double *room = normal->curve + (highest_degree + 1) * columns(terms);
-    struct sync_level *level = (struct sync_level *)room;
+    struct sync_level *level = (struct sync_level *)(normal->layer + 2 * terms);
     struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
     struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
-    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g, s->tau, normal->curve,
-                     few_levels, level, trace, node);
+    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
+                     normal->curve, normal->layer, few_levels, level, trace, node);
     return rst_sync_largest_force(level, few_levels);
 }

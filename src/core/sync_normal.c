@@ -63,14 +63,14 @@ static size_t doubles(size_t size, size_t count)
 }
 
 /* What the solution on a shelf belongs to: impacts that differ in their tangential side alone, as in a table, share it.
- * swings: what it takes of chi. Solids of more terms are not remembered. */
+ * swings, thin: what it takes of chi and psi. Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
 struct solid_known {
     double g_inf, eta, n_terms, g[most_terms_known], tau[most_terms_known];
 };
 struct question {
     struct solid_known solid;
-    double closeness, first, last, wanted, swings, allowed;
+    double closeness, first, last, wanted, swings, thin, allowed;
 };
 
 /* The head of the levels on a shelf. */
@@ -105,6 +105,7 @@ static struct question question_of(const struct rst_problem *problem, int64_t fi
                          .last = (double)last,
                          .wanted = wanted,
                          .swings = rst_sync_stepped_swings(problem),
+                         .thin = rst_sync_is_thin(problem),
                          .allowed = (double)problem->max_updates};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
         q.solid.g[k] = s->g[k];

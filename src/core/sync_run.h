@@ -17,7 +17,8 @@ struct normal {
     int64_t levels;             /* of one phase; with polynomials: for those who want levels */
     struct sync_level *level;   /* 2 levels + 1 */
     int64_t degree;             /* of polynomials; 0: levels */
-    double *curve, turn;        /* their series, and the time of the turning point */
+    double *curve, *layer;      /* their series, and what memory has beside them */
+    double turn[4];             /* time of the turning point; see follow_curve in fortran/sync_curve.f90 */
     double spread[2];           /* of the nodes, see fortran/sync_sample.f90 */
     double velocity, error;     /* at its end, extrapolated, with its estimated error */
     double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
@@ -35,8 +36,9 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
-/* Whether polynomials are worth a trial; if so, try: normal->degree is 0 if they are not good enough. `room`: of
+/* Whether polynomials are worth a trial, which depends on whether little slips; if so, try: normal->degree is 0 if they are not good enough. `room`: of
  * rst_sync_curve_room doubles. */
+int rst_sync_is_thin(const struct rst_problem *problem);
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid);
 void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal);
 size_t rst_sync_curve_room(int64_t n_terms);
@@ -65,6 +67,7 @@ double rst_sync_closeness(const struct rst_problem *problem);
 /* What a run works on. */
 struct store {
     int64_t levels;           /* n */
+    int64_t smooth;           /* made from polynomials: fortran/sync_ratio.f90 */
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
     struct sync_trace *trace; /* n_terms times 2n + 1 */

@@ -43,7 +43,7 @@ struct rst_point {
     double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
     int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
     int64_t slot;   /* cells.h: which node or check; u and s are the numbers themselves */
-    int later; /* solved in the second part of a stage: it slips and needs an ez, or, with cells, is solved more closely */
+    int later; /* solved in the second part of a stage: it slips and needs an ez */
     int known; /* solved in an earlier round */
 };
 

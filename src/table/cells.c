@@ -6,13 +6,11 @@
 #include <stdlib.h>
 
 /* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together: ez shifts psi_c. */
-static const double part_for_rebound = 0.15, part_for_tangent = 0.7;
+static const double part_for_rebound = 0.15, part_for_tangent = 0.8;
 
 /* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors, which are up
- * to several times its estimates in a few corners, must not be taken for that; a little more closely where the sphere has just begun to
- * rebound. */
-static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.3, part_for_close_nodes = 0.2;
-static const double begins_to_rebound = 0.3, hardly_rebounds = 0.04; /* w, ez */
+ * to several times its estimates in a few corners, must not be taken for that. */
+static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.3;
 
 /* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few cells, and that of ex rests on it. */
 enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 8 };
@@ -168,8 +166,7 @@ static int add_node(struct restitute_table_builder *b, struct rst_growth *g, int
     const struct rst_point point = {.u = {p.delta1, p.gamma, p.chi},
                                     .s = g == &b->cells->rebound ? full_slip_psi : p.psi,
                                     .column = -1,
-                                    .slot = number,
-                                    .later = g == &b->cells->tangent && p.w > begins_to_rebound && p.ez < hardly_rebounds};
+                                    .slot = number};
     return rst_plan_add(b, point);
 }
 
@@ -228,8 +225,7 @@ static int begin_filling(struct restitute_table_builder *b, restitute_error *err
 
 static int begin_tangent(struct restitute_table_builder *b, restitute_error *error)
 {
-    b->filling_tolerance = part_for_nodes * b->options.tolerance;
-    b->later_tolerance = part_for_close_nodes * b->options.tolerance;
+    b->filling_tolerance = b->later_tolerance = part_for_nodes * b->options.tolerance;
     if (rst_growth_begin(&b->cells->tangent, b->cells, b)) return out_of_memory(error);
     return begin_filling(b, error);
 }

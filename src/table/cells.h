@@ -30,7 +30,7 @@ struct rst_pull {
     int64_t cell;
 };
 
-enum { rst_most_pulls = 3, rst_most_in_vain = 5 };
+enum { rst_most_pulls = 3, rst_most_in_vain = 8 };
 
 struct rst_cell {
     struct rst_leaf at;
@@ -104,8 +104,8 @@ void rst_cell_local(const struct rst_growth *g, const struct rst_leaf *cell, con
 /* Its polynomial as its own impacts tell it, before its nodes are put on neighbours'. */
 void rst_cell_polynomial(const struct rst_growth *g, const struct rst_leaf *at, double coefficient[rst_most_functions]);
 
-/* A leaf is to be halved, unless that has been in vain. */
-void rst_cell_fails(struct rst_cell *cell);
+/* A leaf is to be halved, unless that has been in vain: 0. */
+int rst_cell_fails(struct rst_cell *cell);
 /* Whether any is; `pardon`: and now none is. */
 int rst_growth_fails(struct rst_growth *g, int pardon);
 

@@ -4,8 +4,8 @@
 
 #include "cells.h"
 
-/* At least so many in all, and in a cell; and places drawn until one is in the range. */
-enum { least_checks = 10000, least_a_cell = 2, most_tries = 200 };
+/* At least so many in all, and two in a cell as long as that is not many; and places drawn until one is in the range. */
+enum { least_checks = 10000, many_cells = 30000, most_tries = 200 };
 
 static int add_check(struct restitute_table_builder *b, struct rst_check check)
 {
@@ -87,7 +87,7 @@ static int64_t checks_for(const struct rst_growth *g)
     for (int64_t k = 0; k < g->count; k++)
         leaves += g->cell[k].state == RST_SETTLED;
     const int64_t wanted = least_checks / (leaves > 0 ? leaves : 1) + 1;
-    return wanted < least_a_cell ? least_a_cell : wanted;
+    return wanted < 2 && leaves < many_cells ? 2 : wanted;
 }
 
 int rst_checks_plan(struct restitute_table_builder *b)
@@ -130,10 +130,11 @@ static double missed_by_own(const struct restitute_table_builder *b, const struc
 /* A check has failed: its cell fails, or where its own impacts would do, the neighbours on whose polynomials its nodes were put. */
 static void blame(struct restitute_table_builder *b, struct rst_cell *cell, const struct rst_check *check)
 {
-    const double own = missed_by_own(b, cell, check);
-    if (own > part_of_own * b->options.tolerance || cell->pull[0].by == 0) rst_cell_fails(cell);
+    int blamed = 0;
+    if (missed_by_own(b, cell, check) > part_of_own * b->options.tolerance) blamed = rst_cell_fails(cell);
     for (int i = 0; i < rst_most_pulls && cell->pull[i].by > 0; i++)
-        rst_cell_fails(&b->cells->tangent.cell[cell->pull[i].cell]);
+        blamed |= rst_cell_fails(&b->cells->tangent.cell[cell->pull[i].cell]);
+    if (!blamed) rst_cell_fails(cell);
 }
 
 /* Largest differences to all impacts of the checks; cells where they are too large fail. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "cells.h"
+#include "parallel.h"
 
 /* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
 static const double share_for_gamma = 0.3;
@@ -129,9 +130,10 @@ void rst_growth_free(struct rst_growth *g)
 
 /* ---- which are halved */
 
-void rst_cell_fails(struct rst_cell *cell)
+int rst_cell_fails(struct rst_cell *cell)
 {
     if (cell->state == RST_SETTLED && cell->in_vain < rst_most_in_vain) cell->state = RST_FAILING;
+    return cell->state == RST_FAILING;
 }
 
 int rst_growth_fails(struct rst_growth *g, int pardon)
@@ -238,12 +240,22 @@ static int halve_with_chain(struct rst_growth *g, const struct restitute_table_b
     return 0;
 }
 
+struct judging {
+    struct rst_growth *growth;
+    const struct restitute_table_builder *builder;
+};
+
+static void judge(void *of, int64_t k)
+{
+    const struct judging *j = of;
+    if (j->growth->cell[k].state == RST_TO_JUDGE) rst_cell_judge(j->growth, j->builder, k);
+}
+
 int rst_growth_judge(struct rst_growth *g, const struct restitute_table_builder *b, int *more)
 {
     int waiting = 0;
     *more = 0;
-    for (int64_t k = 0; k < g->count; k++)
-        if (g->cell[k].state == RST_TO_JUDGE) rst_cell_judge(g, b, k);
+    rst_table_loop(b->options.threads, g->count, judge, &(struct judging){g, b});
     if (decide_on_gamma(g) || halve_along_gamma(g, b, more) || halve_with_chain(g, b, more)) return 1;
     for (int64_t k = 0; k < g->count; k++)
         waiting |= g->cell[k].state == RST_TO_HALVE;

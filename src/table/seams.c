@@ -4,10 +4,12 @@
 #include <stdlib.h>
 
 #include "cells.h"
+#include "parallel.h"
 
-/* Parts of what a cell may miss where it is compared that it may miss at the nodes of its smaller neighbours: what these have between them
- * follows. Beyond the first it fails; beyond the second if that is why a check of the neighbour fails. */
-static const double part_at_seams = 1.2, part_to_blame = 0.3;
+/* What a cell may miss at the nodes of its smaller neighbours: beyond that part of the tolerance it fails, if its own impacts tell no better
+ * polynomial than what is left of it; beyond the second part of what it may miss where it is compared, if that is why a check of the
+ * neighbour fails. */
+static const double part_at_seams = 1, part_to_blame = 0.3;
 
 /* A tree with the values at the nodes of its leaves, then their coefficients. */
 struct harvest {
@@ -16,6 +18,8 @@ struct harvest {
     struct rst_tree *tree;
     int64_t *cell; /* which one a leaf is */
     double *value;
+    char *fails;           /* leaves that miss too much at the nodes of their neighbours */
+    const int64_t *sorted; /* leaves by depth, those of one depth from here on */
 };
 
 /* ---- leaves, and what was solved at their nodes */
@@ -172,18 +176,34 @@ static void note_pull(struct rst_cell *cell, struct rst_pull pull)
     }
 }
 
+/* Whether a leaf misses so much at a place by its own impacts, before its nodes were put on its neighbours'. */
+static int misses(const struct harvest *h, int64_t leaf, const struct rst_spot_on_lattice *spot, double most)
+{
+    const struct rst_growth *g = h->growth;
+    double u[rst_cell_axes], coefficient[rst_most_functions];
+    rst_cell_polynomial(g, &h->tree->leaf[leaf], coefficient);
+    rst_cell_local(g, &h->tree->leaf[leaf], (double[]){spot->at[0], spot->at[1], spot->at[2], spot->at[3]}, u);
+    const double off = rst_serendipity_sum(&g->of_cell, coefficient, u) - rst_nodes_value(&g->nodes, *spot);
+    return fabs(off) > most * psi_at(h, spot);
+}
+
 /* The node of a leaf goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
 static void put_on(struct harvest *h, int64_t leaf, int64_t other, const struct rst_spot_on_lattice *spot,
                    double *value)
 {
-    const double there = polynomial(h, other, spot), tolerance = h->growth->part * h->builder->options.tolerance;
-    struct rst_cell *cell = &h->growth->cell[h->cell[leaf]];
+    const double there = polynomial(h, other, spot), tolerance = h->builder->options.tolerance;
+    const double most = part_at_seams * tolerance, noted = part_to_blame * h->growth->part * tolerance;
     double off = fabs(there - *value);
     *value = there;
-    if (off <= part_to_blame * tolerance) return;
+    if (off <= noted) return;
     off /= psi_at(h, spot);
-    if (off > part_at_seams * tolerance) rst_cell_fails(&h->growth->cell[h->cell[other]]);
-    if (off > part_to_blame * tolerance) note_pull(cell, (struct rst_pull){off, h->cell[other]});
+    if (off > most && misses(h, other, spot, most)) {
+#ifdef _OPENMP
+#pragma omp atomic write
+#endif
+        h->fails[other] = 1;
+    }
+    if (off > noted) note_pull(&h->growth->cell[h->cell[leaf]], (struct rst_pull){off, h->cell[other]});
 }
 
 static void put_on_neighbours(struct harvest *h, int64_t leaf)
@@ -207,20 +227,50 @@ static void put_on_neighbours(struct harvest *h, int64_t leaf)
     }
 }
 
+enum { ranks = (rst_deepest + 1) * (rst_finest_part + 1) };
+
 static int64_t rank_of(const struct rst_leaf *leaf)
 {
     return leaf->depth * (rst_finest_part + 1) + leaf->level;
 }
 
-static void close_seams(struct harvest *h)
+/* The leaves from the shallowest rank on; those of a rank begin at start[rank]. */
+static void sort_by_rank(const struct rst_tree *tree, int64_t *sorted, int64_t start[ranks + 1])
 {
-    const int64_t ranks = (rst_deepest + 1) * (rst_finest_part + 1);
-    for (int64_t rank = 0; rank < ranks; rank++)
+    int64_t next[ranks];
+    memset(start, 0, (ranks + 1) * sizeof *start);
+    for (int64_t leaf = 0; leaf < tree->leaves; leaf++)
+        start[rank_of(&tree->leaf[leaf]) + 1]++;
+    for (int rank = 0; rank < ranks; rank++)
+        next[rank] = start[rank + 1] += start[rank];
+    for (int64_t leaf = tree->leaves - 1; leaf >= 0; leaf--)
+        sorted[--next[rank_of(&tree->leaf[leaf])]] = leaf;
+}
+
+/* Those of one rank need none of each other. */
+static void finish_leaf(void *of, int64_t i)
+{
+    struct harvest *h = of;
+    const int64_t leaf = h->sorted[i];
+    put_on_neighbours(h, leaf);
+    rst_serendipity_rise(&h->growth->of_cell, h->value + leaf * h->growth->of_cell.count);
+}
+
+static int close_seams(struct harvest *h)
+{
+    int64_t start[ranks + 1], *sorted = malloc((size_t)(h->tree->leaves + 1) * sizeof *sorted);
+    h->fails = calloc((size_t)(h->tree->leaves + 1), 1);
+    if (sorted && h->fails) {
+        sort_by_rank(h->tree, sorted, start);
+        for (int rank = 0; rank < ranks; rank++) {
+            h->sorted = sorted + start[rank];
+            rst_table_loop(h->builder->options.threads, start[rank + 1] - start[rank], finish_leaf, h);
+        }
         for (int64_t leaf = 0; leaf < h->tree->leaves; leaf++)
-            if (rank_of(&h->tree->leaf[leaf]) == rank) {
-                put_on_neighbours(h, leaf);
-                rst_serendipity_rise(&h->growth->of_cell, h->value + leaf * h->growth->of_cell.count);
-            }
+            if (h->fails[leaf]) rst_cell_fails(&h->growth->cell[h->cell[leaf]]);
+    }
+    free(sorted);
+    return !sorted || !h->fails;
 }
 
 /* A tree with its coefficients, whose seams are closed. Nonzero: out of memory. */
@@ -234,14 +284,14 @@ static int reap(const struct restitute_table_builder *b, struct rst_growth *g, c
     if (!h->value) return 1;
     for (int64_t leaf = 0; leaf < tree->leaves; leaf++)
         rst_cell_values(g, &tree->leaf[leaf], h->value + leaf * nodes);
-    close_seams(h);
-    return 0;
+    return close_seams(h);
 }
 
 static void harvest_free(struct harvest *h)
 {
     free(h->cell);
     free(h->value);
+    free(h->fails);
 }
 
 /* ---- tables */

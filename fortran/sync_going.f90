@@ -1,0 +1,179 @@
+!> The compression of the normal problem as one polynomial (module rst_sync_curve_*).
+!>
+!> It is smooth in the root of time: s = s_m y^2, with y from 0 at first touch to 1 at the turning point, and with P_k and M_k as in
+!> THEORY 4.4 and 4.5
+!>   D' = 1 - J(y)/J(1),  J = int_0^y D'' 2y dy,  s_m = -1/J(1),   D = s_m int_0^y D' 2y dy.
+!> Memory of few relaxation times is taken with exp(s/tau) in the integrand. Where it is shorter, P_k at the points are the solution
+!> of linear equations, and so are M_k but for a part that fades at once, `layer` exp(-s/tau).
+module GOING
+  use rst_precision, only: dp, ip
+  use rst_sync_grid, only: mass_factor, soften
+  use rst_memory, only: growth_of
+  use ELIMINATION, only: solve_again, accelerate
+  use POINTS, only: p, up, moment, from_rest, fore
+  implicit none (type, external)
+  private
+  public :: compress, longest, most_sweeps, best_rate
+
+  integer(ip), parameter :: most_sweeps = 30
+  real(dp), parameter :: longest = 4.0_dp    !! a phase, in relaxation times, with exp(s/tau) in the integrand
+  real(dp), parameter :: kept_within = 0.25_dp !! see solve_again
+  real(dp), parameter :: best_rate = 0.05_dp !! of sweeps, that is believed
+  real(dp), parameter :: square(p) = up(1:)**2
+  !> D of an elastic impact over its largest, nearly, and s_m over the same; viscous ones turn later, at less than `depth`.
+  real(dp), parameter :: elastic_time = 1.472_dp, elastic(p) = elastic_time*square*(1 - 0.148_dp*(elastic_time*square)**2)
+
+contains
+
+  pure function moments(f) result(sums)
+    real(dp), intent(in) :: f(p)
+    real(dp) :: sums(p)
+    integer(ip) :: l, n
+    sums = 0
+    do n = 1, p
+      !$omp simd
+      do l = 1, p
+        sums(l) = sums(l) + moment(l, n)*f(n)
+      end do
+    end do
+  end function moments
+
+  !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
+  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, factors: see solve_again.
+  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, factors, failed)
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
+    real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms)
+    logical, intent(out) :: failed
+    real(dp), dimension(p) :: a, d, v, next
+    real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of s_m and forces
+    real(dp) :: change, previous, rate, rate_before, excess, part, moved, stiffness, viscosity
+    integer(ip) :: sweep, k, l
+    failed = .true.
+    x_kept = 0
+    going(0, :) = 0
+    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
+    part = viscosity/(stiffness*depth)
+    turn = depth*(elastic_time + 0.26_dp*part/(1 + 0.13_dp*part))
+    d = depth*(1 - 0.085_dp*part/(0.25_dp + part))*elastic
+    a = sqrt(d)
+    v = 1 - square
+    do k = 1, n_terms
+      if (turn < longest*tau(k)) then
+        going(1:, 2 + k) = g(k)*(2.0_dp/3.0_dp)*d*a/(1 + square*(0.6_dp*turn/tau(k)))
+      else
+        going(1:, 2 + k) = (g(k)*tau(k))*a*v
+        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
+      end if
+    end do
+    guess(0) = turn
+    call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), guess(1:))
+    guess_before = 0
+    step_before = 0
+    previous = huge(1.0_dp)
+    rate_before = best_rate
+    do sweep = 1, most_sweeps
+      next = moments(guess(1:))
+      part = 1/next(p)
+      excess = part/(mass_factor*guess(0)) - 1
+      turn = guess(0)*((1 + 0.7_dp*excess)/(1 + 0.3_dp*excess))
+      !$omp simd
+      do l = 1, p
+        v(l) = 1 - next(l)*part
+      end do
+      next = moments(v)
+      change = 0
+      !$omp simd reduction(max: change)
+      do l = 1, p
+        next(l) = turn*next(l)
+        change = max(change, abs(next(l) - d(l)))
+        d(l) = next(l)
+        a(l) = sqrt(d(l))
+      end do
+      change = max(change, abs(turn - guess(0)))*(1/turn)
+      if (.not. (minval(d) > 0 .and. turn < 2*guess(0))) return
+      do k = 1, n_terms
+        next = going(1:, 2 + k)
+        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
+        moved = 0
+        !$omp simd reduction(max: moved)
+        do l = 1, p
+          moved = max(moved, abs(next(l) - going(l, 2 + k)))
+        end do
+        change = max(change, moved*turn)
+      end do
+      rate = max(change/previous, best_rate)
+      if (sweep > 1 .and. change*min(max(rate, rate_before), 1.0_dp) < closeness) exit
+      rate_before = rate
+      previous = change
+      step(0) = turn
+      call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), step(1:))
+      step = step - guess
+      call accelerate(sweep == 1, step, step_before, guess_before, guess)
+    end do
+    if (sweep > most_sweeps) return
+    failed = .false.
+    going(0, 2) = 1
+    going(1:, 1) = d
+    going(1:, 2) = v
+    do k = 1, n_terms
+      call remember(turn, g(k), tau(k), going(:, 2), x_kept(k), factors(:, :, k), &
+                    going(:, 2 + n_terms + k), layer(k))
+    end do
+  end subroutine compress
+
+  !> Forces at the points.
+  pure subroutine press(g_inf, eta, n_terms, d, a, v, held, force)
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g_inf, eta, d(p), a(p), v(p), held(0:p, n_terms)
+    real(dp), intent(out) :: force(p)
+    integer(ip) :: k, l
+    !$omp simd
+    do l = 1, p
+      force(l) = a(l)*((2.0_dp/3.0_dp)*g_inf*d(l) + eta*v(l))
+    end do
+    do k = 1, n_terms
+      !$omp simd
+      do l = 1, p
+        force(l) = force(l) + held(l, k)
+      end do
+    end do
+  end subroutine press
+
+  !> g int_0^s exp(-(s-r)/tau) f dr at the points.
+  pure subroutine load(turn, g, tau, f, x_kept, factors, held)
+    real(dp), intent(in) :: turn, g, tau, f(p)
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), held(0:p)
+    real(dp) :: growth(p), lasts, right(0:p)
+    integer(ip) :: l
+    lasts = turn/tau
+    if (lasts < longest) then
+      !$omp simd
+      do l = 1, p
+        growth(l) = growth_of(square(l)*lasts)
+      end do
+      held(1:) = (g*turn)*moments(f*growth)/growth
+    else
+      right(0) = 0
+      right(1:) = (g*tau)*moments(f)
+      call solve_again(from_rest, tau/turn, right, kept_within, x_kept, factors, held)
+    end if
+  end subroutine load
+
+  !> The same of the speed v, without the layer where there is one.
+  pure subroutine remember(turn, g, tau, v, x_kept, factors, memory, layer)
+    real(dp), intent(in) :: turn, g, tau, v(0:p)
+    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p)
+    real(dp), intent(out) :: memory(0:p), layer
+    layer = 0
+    memory = 0
+    if (turn < longest*tau) then
+      call load(turn, g, tau, v(1:), x_kept, factors, memory)
+    else
+      x_kept = 0
+      call solve_again(fore, turn/tau, (g*turn)*v, kept_within, x_kept, factors, memory)
+      layer = -memory(0)
+    end if
+  end subroutine remember
+end module GOING
