@@ -7,10 +7,12 @@ module rst_sync_sentinel
   private
   public :: guard_type, step_guard, slips_on
 
+  real(dp), parameter :: unknown = 1.0e100_dp !! lag, of what has just begun to slip
+
   !> The sentinel: its alpha, its slip velocity and by how much that lagged behind the others' a step before; how far its slip
   !> velocity may be off since it began within a step; node -1: none.
   type :: guard_type
-    real(dp) :: alpha = 0, kappa = 0, lag = huge(1.0_dp), doubt = 0
+    real(dp) :: alpha = 0, kappa = 0, lag = unknown, doubt = 0
     integer(ip) :: node = -1
   end type guard_type
 
