@@ -388,7 +388,8 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
 }
 
 /* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where elements have to be
- * stepped after all, the latter two may do: errors then are smaller than they are alone. */
+ * stepped after all, the latter two may do, if their estimate leaves room for changes that are small by chance: of 6000 impacts each where
+ * the sphere hardly rebounds, at 3e-5, 9e-5 and 3e-4, at most 39 estimates were too low. */
 static void runs_beside(const struct rst_problem *problem, const struct rst_workspace *workspace,
                         const struct normal *normal, const struct store *store, int runs, int first_is_left,
                         struct run *before, struct run *now, double *change_before, struct rst_outcome *outcome)

@@ -155,14 +155,14 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
     size_t taken = 0;
     lay_out_elements(NULL, resolution->levels, n_terms, &taken, store);
     if (rst_workspace_elements(workspace, taken)) return out_of_memory(all, error);
-    if (kept->ratio != resolution->ratio || kept->levels != resolution->levels) {
+    if (kept->ratio != resolution->ratio || kept->levels != resolution->levels || kept->all != all) {
         kept->ratio = 0;
         if (rst_shelf_dense(shelf, lay_out_rungs(NULL, all, count, n_terms, rung))) return out_of_memory(all, error);
         lay_out_rungs(shelf->dense, all, count, n_terms, rung);
         mark_smooth(normal, count, rung);
         const int status = make_rungs(problem, normal, resolution->ratio, first, first + needed, rung, error);
         if (status) return status;
-        *kept = (struct kept){resolution->ratio, resolution->levels, needed, rst_sync_largest_force(rung->level, all)};
+        *kept = (struct kept){resolution->ratio, resolution->levels, all, needed, rst_sync_largest_force(rung->level, all)};
     }
     lay_out_rungs(shelf->dense, all, count, n_terms, rung);
     mark_smooth(normal, count, rung);

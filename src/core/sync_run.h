@@ -95,7 +95,7 @@ struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_w
 
 /* Which dense levels of a shelf are made from the solution there. */
 struct kept {
-    int64_t ratio, levels; /* of the resolution; ratio 0: nothing */
+    int64_t ratio, levels, all; /* of the resolution, ratio 0: nothing; levels that the others are taken from */
     int64_t runs;          /* for so many runs */
     double largest_force;
 };
