@@ -10,18 +10,8 @@ module rst_c_interfaces
   use rst_compression, only: scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
   use rst_sync_grid, only: grid_type, level_type, node_type, likely_depth, choose_grid
-  use rst_sync_guess, only: double_levels
-  use rst_sync_levels, only: normal_levels
-  use rst_sync_dense, only: trace_type, dense_levels, thin_levels
-  use rst_sync_curve_8, only: follow_curve_8 => follow_curve
-  use rst_sync_curve_12, only: follow_curve_12 => follow_curve
-  use rst_sync_curve_16, only: follow_curve_16 => follow_curve
-  use rst_sync_sample, only: sample_curve
+  use rst_sync_dense, only: trace_type, thin_levels
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
-  use rst_sync_quadrature, only: spread_weights
-  use rst_sync_ratio, only: spread_ratios
-  use rst_sync_edge, only: balance_levels
-  use rst_sync_shear, only: follow_shear
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
   use rst_sync_ledger, only: keep_ledger
   use rst_ledger, only: ledger_type
@@ -165,79 +155,6 @@ contains
     grid = choose_grid(g_inf, eta, n_terms, g, tau)
   end subroutine rst_choose_grid
 
-  pure subroutine rst_normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, guessed, level, memory, loading, node, &
-                                    failed) bind(c, name="rst_normal_levels")
-    type(grid_type), intent(in) :: grid
-    real(c_double), intent(in), value :: g_inf, eta, closeness
-    integer(c_int64_t), intent(in), value :: n_terms, n, guessed
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(inout) :: level(0:2*n)
-    real(c_double), intent(out) :: memory(n_terms, 0:2*n), loading(n_terms, 0:2*n)
-    type(node_type), intent(out) :: node(0:n)
-    integer(c_int64_t), intent(out) :: failed
-    logical :: fails
-    call normal_levels(grid, g_inf, eta, n_terms, g, tau, n, closeness, guessed /= 0, level, memory, loading, node, fails)
-    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
-  end subroutine rst_normal_levels
-
-  pure subroutine rst_double_levels(n, level) bind(c, name="rst_double_levels")
-    integer(c_int64_t), intent(in), value :: n
-    type(level_type), intent(inout) :: level(0:4*n)
-    call double_levels(n, level)
-  end subroutine rst_double_levels
-
-  pure subroutine rst_dense_levels(grid, g_inf, eta, n_terms, g, tau, n, r, coarse, level, trace, node, failed) &
-    bind(c, name="rst_dense_levels")
-    type(grid_type), intent(in) :: grid
-    real(c_double), intent(in), value :: g_inf, eta
-    integer(c_int64_t), intent(in), value :: n_terms, n, r
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(level_type), intent(in) :: coarse(0:2*n)
-    type(level_type), intent(out) :: level(0:2*n*r)
-    type(trace_type), intent(out) :: trace(n_terms, 0:2*n*r)
-    type(node_type), intent(out) :: node(0:n*r)
-    integer(c_int64_t), intent(out) :: failed
-    logical :: fails
-    call dense_levels(grid, g_inf, eta, n_terms, g, tau, n, r, coarse, level, trace, node, fails)
-    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
-  end subroutine rst_dense_levels
-
-  pure subroutine rst_follow_curve(p, depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
-                                   x_kept, factors, left_out, failed) &
-    bind(c, name="rst_follow_curve")
-    integer(c_int64_t), intent(in), value :: p, n_terms
-    real(c_double), intent(in), value :: depth, g_inf, eta, closeness
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: turn(4), spread(2), left_out
-    real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
-    real(c_double), intent(out) :: layer(n_terms, 2), x_kept(n_terms), factors(0:p, 0:p, n_terms)
-    integer(c_int64_t), intent(out) :: failed
-    logical :: fails
-    select case (p)
-    case (8)
-      call follow_curve_8(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                          factors, left_out, fails)
-    case (12)
-      call follow_curve_12(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           factors, left_out, fails)
-    case default
-      call follow_curve_16(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           factors, left_out, fails)
-    end select
-    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
-  end subroutine rst_follow_curve
-
-  pure subroutine rst_sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node) &
-    bind(c, name="rst_sample_curve")
-    integer(c_int64_t), intent(in), value :: p, n_terms, n
-    real(c_double), intent(in), value :: g_inf, eta
-    real(c_double), intent(in) :: turn(4), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
-    type(level_type), intent(out) :: level(0:2*n)
-    type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
-    type(node_type), intent(out) :: node(0:n)
-    call sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
-  end subroutine rst_sample_curve
-
   pure subroutine rst_thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node) &
     bind(c, name="rst_thin_levels")
     integer(c_int64_t), intent(in), value :: n_terms, n
@@ -249,38 +166,6 @@ contains
     type(node_type), intent(out) :: thin_node(0:n)
     call thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node)
   end subroutine rst_thin_levels
-
-  !> What all runs on these levels share, made once.
-  pure subroutine rst_finish_levels(g_inf, n_terms, n, smooth, trace, node, level) bind(c, name="rst_finish_levels")
-    real(c_double), intent(in), value :: g_inf
-    integer(c_int64_t), intent(in), value :: n_terms, n, smooth
-    type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
-    type(node_type), intent(in) :: node(0:n)
-    type(level_type), intent(inout) :: level(0:2*n)
-    call balance_levels(g_inf, n_terms, n, trace, node, level)
-    if (smooth /= 0) then
-      call spread_ratios(n, node, level)
-    else
-      call spread_weights(n, level)
-    end if
-  end subroutine rst_finish_levels
-
-  subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &
-    bind(c, name="rst_follow_shear")
-    type(sync_scene_type), intent(in) :: scene
-    type(c_funptr), intent(in), value :: elements
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    type(node_type), intent(in) :: node(0:scene%n)
-    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
-    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
-    type(term_type), intent(inout) :: term(scene%n_terms)
-    type(shear_type), intent(out) :: state
-    procedure(element_loop), pointer :: loop
-    call c_f_procpointer(elements, loop)
-    call follow_shear(scene, loop, g, tau, level, trace, node, body, beta, faded, term, state)
-  end subroutine rst_follow_shear
 
   subroutine rst_trace_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot) &
     bind(c, name="rst_trace_shear")

@@ -1,5 +1,11 @@
 ! The method sync as one unit: compilers inline across the modules of one file, and its small functions are called so often
 ! that calls would cost more than what they compute.
+!
+! It is compiled for several vector widths, which all give the same bits: nothing is contracted or summed in another order.
+! CMakeLists.txt gives the modules of each width names of their own; RST_WIDTH ends the names that C knows.
+#ifndef RST_WIDTH
+#define RST_WIDTH ""
+#endif
 #include "memory.f90"
 #include "cubic.f90"
 #include "sync_grid.f90"
@@ -74,3 +80,4 @@
 #include "sync_sentinel.f90"
 #include "sync_front.f90"
 #include "sync_shear.f90"
+#include "sync_interfaces.f90"

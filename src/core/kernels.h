@@ -94,7 +94,6 @@ struct sync_step;
 struct sync_sums;
 typedef void sync_loop(const struct sync_step *step, int64_t trial, const struct sync_term *term, double *body,
                        double *beta, double *faded, struct sync_sums *sums);
-sync_loop rst_sync_lanes_any;
 enum { rst_sync_lanes = 8, rst_sync_columns = 4 };
 
 double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
@@ -127,28 +126,9 @@ void rst_advance_impact(const struct euler_scene *scene, const double *g, const 
 double rst_likely_depth(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau);
 void rst_choose_grid(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                      struct sync_grid *grid);
-void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
-                       const double *tau, int64_t n, double closeness, int64_t guessed, struct sync_level *level,
-                       double *memory, double *loading, struct sync_node *node, int64_t *failed);
-void rst_double_levels(int64_t n, struct sync_level *level);
-void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
-                      const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
-                      struct sync_level *level, struct sync_trace *trace, struct sync_node *node, int64_t *failed);
-void rst_follow_curve(int64_t p, double depth, double g_inf, double eta, int64_t n_terms, const double *g,
-                      const double *tau, double closeness, double turn[4], double spread[2], double *going,
-                      double *coming, double *curve, double *layer, double *x_kept, double *factors, double *left_out,
-                      int64_t *failed);
-void rst_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf, double eta,
-                      int64_t n_terms, const double *g, const double *tau, const double *curve, const double *layer,
-                      int64_t n, struct sync_level *level, struct sync_trace *trace, struct sync_node *node);
 void rst_thin_levels(int64_t n_terms, int64_t n, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, struct sync_level *thin_level, struct sync_trace *thin_trace,
                      struct sync_node *thin_node);
-void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, int64_t smooth, const struct sync_trace *trace,
-                       const struct sync_node *node, struct sync_level *level);
-void rst_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
-                      const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
-                      double *body, double *beta, double *faded, struct sync_term *term, struct sync_shear *state);
 
 struct rst_sample;
 void rst_trace_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,

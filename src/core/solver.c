@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "euler.h"
-#include "lanes.h"
 #include "material.h"
 #include "method.h"
 #include "output.h"
@@ -97,7 +96,7 @@ int restitute_solver_create(const restitute_options *options, restitute_solver *
     restitute_solver *s = calloc(1, sizeof *s);
     if (!s) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a solver");
     s->options = chosen;
-    s->workspace.loop = rst_widest_lanes();
+    s->workspace.kernel = rst_widest_sync_kernel();
     if (chosen.method->reserve && chosen.method->reserve(chosen.tolerance, &s->workspace)) {
         restitute_solver_destroy(s);
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the workspace of a solver");

@@ -129,7 +129,7 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
     struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
     scene.stepped = stepped;
-    rst_follow_shear(&scene, workspace->loop, s->g, s->tau, store->level, store->trace, store->node, store->body,
+    workspace->kernel->follow_shear(&scene, workspace->kernel->elements, s->g, s->tau, store->level, store->trace, store->node, store->body,
                      store->beta, store->faded, store->term, &shear);
     *run = (struct run){.levels = store->levels,
                         .updates = 2 * store->levels + shear.updates * (1 + s->n_terms),

@@ -95,7 +95,7 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         const size_t rows = (size_t)p + 1;
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
         if (allowed < (many ? error_of_many : degrees[i].error)) continue;
-        rst_follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn, normal->spread,
+        normal->kernel->follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn, normal->spread,
                          going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
         if (failed) return;
         normal->updates += 2 * p;
@@ -123,7 +123,7 @@ double rst_sync_curve_force(const struct rst_problem *problem, const struct norm
     struct sync_level *level = (struct sync_level *)(normal->layer + 2 * terms);
     struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
     struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
-    rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
+    normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
                      normal->curve, normal->layer, few_levels, level, trace, node);
     return rst_sync_largest_force(level, few_levels);
 }

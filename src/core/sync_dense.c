@@ -83,15 +83,16 @@ size_t rst_sync_first_room(int64_t levels, int64_t n_terms)
 }
 
 /* Every other level of the rung before each of the rungs `made` to count - 1; runs are made on those from `first` on. */
-static void thin_rungs(const struct rst_problem *problem, int made, int first, int count, const struct store *rung)
+static void thin_rungs(const struct rst_problem *problem, const struct normal *normal, int made, int first, int count,
+                       const struct store *rung)
 {
     const struct rst_solid *s = &problem->solid;
     for (int k = made > 1 ? made : 1; k < count; k++)
         rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
                         rung[k].level, rung[k].trace, rung[k].node);
     for (int k = made > first ? made : first; k < count; k++)
-        rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].smooth, rung[k].trace, rung[k].node,
-                          rung[k].level);
+        normal->kernel->finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].smooth, rung[k].trace, rung[k].node,
+                                      rung[k].level);
 }
 
 /* `ratio` times the levels of the normal problem, then every other one of them, and so on, for runs from rung `first`
@@ -102,16 +103,17 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
     const struct rst_solid *s = &problem->solid;
     int64_t failed = 0;
     if (normal->degree > 0)
-        rst_sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
-                         normal->curve, normal->layer, rung->levels, rung->level, rung->trace, rung->node);
+        normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g,
+                                     s->tau, normal->curve, normal->layer, rung->levels, rung->level, rung->trace,
+                                     rung->node);
     else
-        rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
-                         normal->level, rung->level, rung->trace, rung->node, &failed);
+        normal->kernel->dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
+                                     normal->level, rung->level, rung->trace, rung->node, &failed);
     if (failed)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "iterations do not settle between %lld levels; take the method euler for this solid",
                           (long long)normal->levels);
-    thin_rungs(problem, 0, first, count, rung);
+    thin_rungs(problem, normal, 0, first, count, rung);
     return RESTITUTE_OK;
 }
 
@@ -167,7 +169,7 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
     lay_out_rungs(shelf->dense, all, count, n_terms, rung);
     mark_smooth(normal, count, rung);
     if (kept->runs < needed) {
-        thin_rungs(problem, first + (int)kept->runs, first, first + needed, rung);
+        thin_rungs(problem, normal, first + (int)kept->runs, first, first + needed, rung);
         kept->runs = needed;
     }
     for (int k = 0; k < runs; k++) {

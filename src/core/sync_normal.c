@@ -161,9 +161,9 @@ static int run(const struct rst_problem *problem, const struct rst_shelf *shelf,
     int64_t failed;
     memo->known = 0;
     memo->kept = (struct kept){0};
-    if (guessed) rst_double_levels(levels / 2, level);
-    rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels,
-                      slack * rst_sync_closeness(problem), guessed, level, memory, loading, node, &failed);
+    if (guessed) normal->kernel->double_levels(levels / 2, level);
+    normal->kernel->normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels,
+                                  slack * rst_sync_closeness(problem), guessed, level, memory, loading, node, &failed);
     normal->level = level;
     normal->levels = levels;
     normal->updates += 2 * levels;
@@ -178,10 +178,11 @@ int rst_sync_is_graded(const struct rst_problem *problem)
     return grid.start > 0;
 }
 
-static int choose_grid(const struct rst_problem *problem, struct normal *normal, restitute_error *error)
+static int choose_grid(const struct rst_problem *problem, const struct rst_workspace *workspace, struct normal *normal,
+                       restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
-    *normal = (struct normal){0};
+    *normal = (struct normal){.kernel = workspace->kernel};
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &normal->grid);
     if (normal->grid.turn > strongest_damping)
         return rst_report(
@@ -202,7 +203,7 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
                           struct normal *normal, restitute_error *error)
 {
     struct rst_shelf *shelf = &workspace->spare;
-    int status = choose_grid(problem, normal, error);
+    int status = choose_grid(problem, workspace, normal, error);
     if (!status) status = make_room(problem, shelf, levels, error);
     if (!status && run(problem, shelf, levels, 0, 1, normal)) normal->levels = 0;
     return status;
@@ -261,7 +262,7 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
         return RESTITUTE_OK;
     }
     forget_other_solids(workspace, &question);
-    int status = choose_grid(problem, normal, error);
+    int status = choose_grid(problem, workspace, normal, error);
     if (status) return status;
     if (rst_sync_may_be_smooth(problem, &normal->grid)) {
         status = follow_curve(problem, shelf, wanted, normal, error);

@@ -13,6 +13,7 @@ enum { rst_sync_most_levels = 1 << 15 };
 
 /* The solution of the normal problem, as levels or as polynomials, on its shelf. */
 struct normal {
+    const struct sync_kernel *kernel; /* what computes it, and what is made from it */
     struct sync_grid grid;
     int64_t levels;             /* of one phase; with polynomials: for those who want levels */
     struct sync_level *level;   /* 2 levels + 1 */
