@@ -26,25 +26,25 @@ contains
   !> turn_round in rst_sync_fading_*, otherwise 0. spread: slopes of y
   !> over u = tan(phi/2) at both ends, for rst_sync_sample. left_out: by series.
   pure subroutine follow_curve(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                               factors, left_out, failed)
+                               inverse, left_out, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn(4), spread(2), left_out
     real(dp), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
-    real(dp), intent(out) :: layer(n_terms, 2), x_kept(n_terms), factors(0:p, 0:p, n_terms)
+    real(dp), intent(out) :: layer(n_terms, 2), x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     logical, intent(out) :: failed
     real(dp) :: radius, force
     integer(ip) :: k
     turn(2:) = 0
     layer = 0
-    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, factors, failed)
+    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, inverse, failed)
     if (failed) return
     if (eta > 0 .or. any(turn(1) > mirrored*tau)) then
       call fit_going(n_terms, turn(1), going, curve)
       do k = 1, n_terms
         going(p, 2 + n_terms + k) = going(p, 2 + n_terms + k) + layer(k, 1)/growth_of(turn(1)/tau(k))
       end do
-      call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, factors, turn(3), &
+      call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, inverse, turn(3), &
                    turn(4), turn(2), coming, layer(:, 2), failed)
     else
       call come_back(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, coming, failed)

@@ -10,53 +10,52 @@ module ELIMINATION
 
 contains
 
-  !> Equations (A + x) f = r, for an x that changes little from sweep to sweep: the factors of A + x are kept and made again only after
-  !> x has changed by more than the part kept_within; what it changed since is taken from the solution before. x_kept: that of the factors, 0 if there are none. f:
-  !> before, and after.
-  pure subroutine solve_again(a, x, r, kept_within, x_kept, factors, f)
+  !> Equations (A + x) f = r, for an x that changes little from sweep to sweep: the inverse of A + x is kept and made again only
+  !> after x has changed by more than the part kept_within; what it changed since is taken from the solution before. x_kept: that of
+  !> the inverse, 0 if there is none. f: before, and after.
+  pure subroutine solve_again(a, x, r, kept_within, x_kept, inverse, f)
     real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p), kept_within
-    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), f(0:p)
+    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), f(0:p)
     real(dp) :: rest(0:p)
     integer(ip) :: j, l
     if (.not. abs(x - x_kept) < kept_within*x) then
       x_kept = x
-      call factorise(a, x, factors)
+      call invert(a, x, inverse)
     end if
     rest = r - (x - x_kept)*f
+    f = 0
     do j = 0, p
-      do l = j + 1, p
-        rest(l) = rest(l) - factors(l, j)*rest(j)
-      end do
-    end do
-    do j = p, 0, -1
-      f(j) = rest(j)*factors(j, j)
-      do l = 0, j - 1
-        rest(l) = rest(l) - factors(l, j)*f(j)
+      !$omp simd
+      do l = 0, p
+        f(l) = f(l) + inverse(l, j)*rest(j)
       end do
     end do
   end subroutine solve_again
 
-  !> The triangular factors of A + x, rows in the order in which they come; of the diagonal the inverse.
-  pure subroutine factorise(a, x, factors)
+  !> The inverse of A + x by the elimination of Gauss and Jordan, rows in the order in which they come: whole columns at a time, which
+  !> suit vectors better than triangular factors.
+  pure subroutine invert(a, x, inverse)
     real(dp), intent(in) :: a(0:p, 0:p), x
-    real(dp), intent(out) :: factors(0:p, 0:p)
+    real(dp), intent(out) :: inverse(0:p, 0:p)
+    real(dp) :: column(0:p), pivot, part
     integer(ip) :: i, j, l
-    factors = a
+    inverse = a
     do j = 0, p
-      factors(j, j) = factors(j, j) + x
-    end do
-    do j = 0, p
-      factors(j, j) = 1/factors(j, j)
-      do l = j + 1, p
-        factors(l, j) = factors(l, j)*factors(j, j)
-      end do
-      do i = j + 1, p
-        do l = j + 1, p
-          factors(l, i) = factors(l, i) - factors(l, j)*factors(j, i)
+      pivot = 1/(inverse(j, j) + x)
+      column = inverse(:, j)
+      column(j) = 0
+      inverse(:, j) = 0
+      inverse(j, j) = 1
+      do i = 0, p
+        part = inverse(j, i)*pivot
+        !$omp simd
+        do l = 0, p
+          inverse(l, i) = inverse(l, i) - column(l)*part
         end do
+        inverse(j, i) = part
       end do
     end do
-  end subroutine factorise
+  end subroutine invert
 
   !> The next guess x of a sequence, of which the step `step` was found at x: as if steps fell by one factor, which the step before,
   !> from x_before, tells (Anderson's mixing of depth one).

@@ -36,13 +36,13 @@ module FADING
 contains
 
   !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
-  !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, factors: see solve_again.
-  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, factors, delay, lead, &
+  !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, inverse: see solve_again.
+  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, inverse, delay, lead, &
                           lasts, coming, left, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
     real(dp), intent(in) :: loading(0:p, 2 + 2*n_terms), layer(n_terms)
-    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms), delay, lead, lasts
+    real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms), delay, lead, lasts
     real(dp), intent(out) :: coming(0:p, 3 + n_terms), left(n_terms)
     logical, intent(out) :: failed
     type(edges_type) :: edges
@@ -66,7 +66,7 @@ contains
       least = max(least, lasts*passed(1) + turn*edges%ago(1))
       if (sweep == 1 .or. least < felt_until*longest_tau) call find_edges(loading, edges)
       call weigh(g_inf, n_terms, g, tau, least, turn, lasts, loading, layer, edges, force(1:), excess, stiffness, rate)
-      call move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, factors, coming, left, excess, rate)
+      call move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
       if (.not. rate(p) < 0) return
       later = max(-0.3_dp*lasts, min(0.3_dp*lasts, -excess(p)/rate(p)))
       step(0) = later
@@ -206,11 +206,11 @@ contains
   end subroutine weigh
 
   !> The motion by the forces, and the rest of what the edges lack; force: then D''.
-  pure subroutine move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, factors, coming, left, excess, rate)
+  pure subroutine move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), lasts, going(0:p, 2 + 2*n_terms)
     real(dp), intent(inout) :: force(0:p), coming(0:p, 3 + n_terms), left(n_terms), excess(p), rate(p)
-    real(dp), intent(inout) :: x_kept(n_terms), factors(0:p, 0:p, n_terms)
+    real(dp), intent(inout) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     real(dp) :: held(p)
     integer(ip) :: k, l
     force(1:) = -mass_factor*force(1:)
@@ -222,7 +222,7 @@ contains
       rate(l) = rate(l) + (g_inf*coming(l, 3) + eta*force(l))
     end do
     do k = 1, n_terms
-      call remember(lasts, g(k), tau(k), coming(:, 3), going(p, 2 + n_terms + k), x_kept(k), factors(:, :, k), &
+      call remember(lasts, g(k), tau(k), coming(:, 3), going(p, 2 + n_terms + k), x_kept(k), inverse(:, :, k), &
                     coming(:, 3 + k), left(k))
       held = coming(1:, 3 + k)
       if (lasts > longest*tau(k) .and. lasts*passed(1) < felt_until*tau(k)) then
@@ -254,9 +254,9 @@ contains
   end function returned
 
   !> g M at the points from `start` at the turning point on, without the layer where there is one.
-  pure subroutine remember(lasts, g, tau, v, start, x_kept, factors, memory, layer)
+  pure subroutine remember(lasts, g, tau, v, start, x_kept, inverse, memory, layer)
     real(dp), intent(in) :: lasts, g, tau, v(0:p), start
-    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), memory(0:p)
+    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), memory(0:p)
     real(dp), intent(out) :: layer
     real(dp) :: growth(p)
     integer(ip) :: l
@@ -269,7 +269,7 @@ contains
       memory(0) = start
       memory(1:) = (start + (g*lasts)*returned([v(0), v(1:p - 1)*growth(:p - 1)]))/growth
     else
-      call solve_again(curl, lasts/tau, (g*lasts)*v, kept_within, x_kept, factors, memory)
+      call solve_again(curl, lasts/tau, (g*lasts)*v, kept_within, x_kept, inverse, memory)
       layer = start - memory(0)
     end if
   end subroutine remember

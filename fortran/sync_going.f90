@@ -39,12 +39,12 @@ contains
   end function moments
 
   !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
-  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, factors: see solve_again.
-  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, factors, failed)
+  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, inverse: see solve_again.
+  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, inverse, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms)
-    real(dp), intent(out) :: x_kept(n_terms), factors(0:p, 0:p, n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     logical, intent(out) :: failed
     real(dp), dimension(p) :: a, d, v, next
     real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of s_m and forces
@@ -64,7 +64,7 @@ contains
         going(1:, 2 + k) = g(k)*(2.0_dp/3.0_dp)*d*a/(1 + square*(0.6_dp*turn/tau(k)))
       else
         going(1:, 2 + k) = (g(k)*tau(k))*a*v
-        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
+        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(:, 2 + k))
       end if
     end do
     guess(0) = turn
@@ -95,7 +95,7 @@ contains
       if (.not. (minval(d) > 0 .and. turn < 2*guess(0))) return
       do k = 1, n_terms
         next = going(1:, 2 + k)
-        call load(turn, g(k), tau(k), a*v, x_kept(k), factors(:, :, k), going(:, 2 + k))
+        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(:, 2 + k))
         moved = 0
         !$omp simd reduction(max: moved)
         do l = 1, p
@@ -118,7 +118,7 @@ contains
     going(1:, 1) = d
     going(1:, 2) = v
     do k = 1, n_terms
-      call remember(turn, g(k), tau(k), going(:, 2), x_kept(k), factors(:, :, k), &
+      call remember(turn, g(k), tau(k), going(:, 2), x_kept(k), inverse(:, :, k), &
                     going(:, 2 + n_terms + k), layer(k))
     end do
   end subroutine compress
@@ -142,9 +142,9 @@ contains
   end subroutine press
 
   !> g int_0^s exp(-(s-r)/tau) f dr at the points.
-  pure subroutine load(turn, g, tau, f, x_kept, factors, held)
+  pure subroutine load(turn, g, tau, f, x_kept, inverse, held)
     real(dp), intent(in) :: turn, g, tau, f(p)
-    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p), held(0:p)
+    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), held(0:p)
     real(dp) :: growth(p), lasts, right(0:p)
     integer(ip) :: l
     lasts = turn/tau
@@ -157,22 +157,22 @@ contains
     else
       right(0) = 0
       right(1:) = (g*tau)*moments(f)
-      call solve_again(from_rest, tau/turn, right, kept_within, x_kept, factors, held)
+      call solve_again(from_rest, tau/turn, right, kept_within, x_kept, inverse, held)
     end if
   end subroutine load
 
   !> The same of the speed v, without the layer where there is one.
-  pure subroutine remember(turn, g, tau, v, x_kept, factors, memory, layer)
+  pure subroutine remember(turn, g, tau, v, x_kept, inverse, memory, layer)
     real(dp), intent(in) :: turn, g, tau, v(0:p)
-    real(dp), intent(inout) :: x_kept, factors(0:p, 0:p)
+    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p)
     real(dp), intent(out) :: memory(0:p), layer
     layer = 0
     memory = 0
     if (turn < longest*tau) then
-      call load(turn, g, tau, v(1:), x_kept, factors, memory)
+      call load(turn, g, tau, v(1:), x_kept, inverse, memory)
     else
       x_kept = 0
-      call solve_again(fore, turn/tau, (g*turn)*v, kept_within, x_kept, factors, memory)
+      call solve_again(fore, turn/tau, (g*turn)*v, kept_within, x_kept, inverse, memory)
       layer = -memory(0)
     end if
   end subroutine remember
