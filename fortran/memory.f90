@@ -35,15 +35,17 @@ module rst_memory
 
 contains
 
-  !> exp(z), without a call: by a series for z/64, good to rounding up to 16, and up to 64, beyond which it is cut off, to what 1/exp(z)
-  !> is beside 1.
+  !> exp(z), without a call: by a series for z/64, good to rounding up to 16, and up to 64, beyond which it is cut off, to what
+  !> 1/exp(z) is beside 1. In pairs of pairs, which wait for each other less than one power after the other.
   elemental function growth_of(z) result(growth)
     real(dp), intent(in) :: z
-    real(dp) :: growth, x
+    real(dp) :: growth, x, x2, x4
     real(dp), parameter :: most = 64
     real(dp), parameter :: e(2:11) = [(1/gamma(i + 1.0_dp), i=2, 11)]
     x = min(z, most)*(1/64.0_dp)
-    growth = x*x*(e(2) + x*(e(3) + x*(e(4) + x*(e(5) + x*(e(6) + x*(e(7) + x*(e(8) + x*(e(9) + x*(e(10) + x*e(11))))))))))
+    x2 = x*x
+    x4 = x2*x2
+    growth = x2*(((e(2) + x*e(3)) + x2*(e(4) + x*e(5))) + x4*(((e(6) + x*e(7)) + x2*(e(8) + x*e(9))) + x4*(e(10) + x*e(11))))
     growth = 1 + (x + growth)
     growth = growth*growth
     growth = growth*growth

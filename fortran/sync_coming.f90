@@ -20,15 +20,18 @@ contains
 
   pure function integrated(start, f) result(sums)
     real(dp), intent(in) :: start, f(0:p)
-    real(dp) :: sums(p)
+    real(dp) :: sums(p), others(p)
     integer(ip) :: l, n
-    sums = start
-    do n = 0, p
+    sums = start + integral(:, 0)*f(0)
+    others = 0 ! see moments of the modules rst_sync_going_*
+    do n = 1, p, 2
       !$omp simd
       do l = 1, p
         sums(l) = sums(l) + integral(l, n)*f(n)
+        others(l) = others(l) + integral(l, n + 1)*f(n + 1)
       end do
     end do
+    sums = sums + others
   end function integrated
 
   !> Columns of `left`, by terms: what the compression left of g P and g M of each edge at the turning point; exp(time since

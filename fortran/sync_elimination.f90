@@ -16,20 +16,23 @@ contains
   pure subroutine solve_again(a, x, r, kept_within, x_kept, inverse, f)
     real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p), kept_within
     real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), f(0:p)
-    real(dp) :: rest(0:p)
+    real(dp) :: rest(0:p), others(0:p)
     integer(ip) :: j, l
     if (.not. abs(x - x_kept) < kept_within*x) then
       x_kept = x
       call invert(a, x, inverse)
     end if
     rest = r - (x - x_kept)*f
-    f = 0
-    do j = 0, p
+    f = inverse(:, 0)*rest(0)
+    others = 0 ! see moments of the modules rst_sync_going_*
+    do j = 1, p, 2
       !$omp simd
       do l = 0, p
         f(l) = f(l) + inverse(l, j)*rest(j)
+        others(l) = others(l) + inverse(l, j + 1)*rest(j + 1)
       end do
     end do
+    f = f + others
   end subroutine solve_again
 
   !> The inverse of A + x by the elimination of Gauss and Jordan, rows in the order in which they come: whole columns at a time, which

@@ -48,7 +48,7 @@ contains
     type(edges_type) :: edges
     real(dp) :: force(0:p), excess(p), stiffness(p), rate(p), later, change, previous, part, part_before, least, longest_tau
     real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of T and B
-    integer(ip) :: sweep
+    integer(ip) :: sweep, l
     call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lead, lasts, edges)
     coming(0, 2) = going(p, 1)
     coming(:, 3:) = 0
@@ -72,7 +72,12 @@ contains
       step(0) = later
       step(1:p - 1) = (excess(:p - 1) + rate(:p - 1)*passed(:p - 1)*later)/stiffness(:p - 1)
       step(p) = 0
-      change = maxval(abs(step))*(1/turn)
+      change = abs(step(0))
+      !$omp simd reduction(max: change)
+      do l = 1, p
+        change = max(change, abs(step(l)))
+      end do
+      change = change*(1/turn)
       if (.not. change < 1) return
       part = max(change/previous, best_rate)
       if (sweep > soon .and. change > still) return
@@ -141,15 +146,18 @@ contains
 
   pure function summed(c, t) result(f)
     real(dp), intent(in) :: c(0:p), t(p, 0:p)
-    real(dp) :: f(p)
+    real(dp) :: f(p), others(p)
     integer(ip) :: l, k
     f = c(0)
-    do k = 1, p
+    others = 0
+    do k = 1, p, 2
       !$omp simd
       do l = 1, p
         f(l) = f(l) + c(k)*t(l, k)
+        others(l) = others(l) + c(k + 1)*t(l, k + 1)
       end do
     end do
+    f = f + others
   end function summed
 
   pure subroutine find_edges(loading, edges)
@@ -242,15 +250,18 @@ contains
   !> Integrals in the restitution over T by values from the turning point on; nothing comes from the last point.
   pure function returned(f) result(sums)
     real(dp), intent(in) :: f(0:p - 1)
-    real(dp) :: sums(p)
+    real(dp) :: sums(p), others(p)
     integer(ip) :: l, n
     sums = 0
-    do n = 0, p - 1
+    others = 0 ! see moments
+    do n = 0, p - 1, 2
       !$omp simd
       do l = 1, p
         sums(l) = sums(l) + back(l, n)*f(n)
+        others(l) = others(l) + back(l, n + 1)*f(n + 1)
       end do
     end do
+    sums = sums + others
   end function returned
 
   !> g M at the points from `start` at the turning point on, without the layer where there is one.

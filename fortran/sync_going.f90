@@ -27,15 +27,18 @@ contains
 
   pure function moments(f) result(sums)
     real(dp), intent(in) :: f(p)
-    real(dp) :: sums(p)
+    real(dp) :: sums(p), others(p)
     integer(ip) :: l, n
     sums = 0
-    do n = 1, p
+    others = 0 ! additions of one sum wait for each other
+    do n = 1, p, 2
       !$omp simd
       do l = 1, p
         sums(l) = sums(l) + moment(l, n)*f(n)
+        others(l) = others(l) + moment(l, n + 1)*f(n + 1)
       end do
     end do
+    sums = sums + others
   end function moments
 
   !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
@@ -48,7 +51,7 @@ contains
     logical, intent(out) :: failed
     real(dp), dimension(p) :: a, d, v, next
     real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of s_m and forces
-    real(dp) :: change, previous, rate, rate_before, excess, part, moved, stiffness, viscosity
+    real(dp) :: change, previous, rate, rate_before, excess, part, moved, least, stiffness, viscosity
     integer(ip) :: sweep, k, l
     failed = .true.
     x_kept = 0
@@ -84,15 +87,17 @@ contains
       end do
       next = moments(v)
       change = 0
-      !$omp simd reduction(max: change)
+      least = huge(1.0_dp)
+      !$omp simd reduction(max: change) reduction(min: least)
       do l = 1, p
         next(l) = turn*next(l)
+        least = min(least, next(l))
         change = max(change, abs(next(l) - d(l)))
         d(l) = next(l)
         a(l) = sqrt(d(l))
       end do
       change = max(change, abs(turn - guess(0)))*(1/turn)
-      if (.not. (minval(d) > 0 .and. turn < 2*guess(0))) return
+      if (.not. (least > 0 .and. turn < 2*guess(0))) return
       do k = 1, n_terms
         next = going(1:, 2 + k)
         call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(:, 2 + k))

@@ -104,15 +104,18 @@ contains
   pure function summed(p, c, t) result(y)
     integer(ip), intent(in) :: p
     real(dp), intent(in) :: c(0:p), t(lanes, 0:highest)
-    real(dp) :: y(lanes)
+    real(dp) :: y(lanes), others(lanes)
     integer(ip) :: k, q
     y = c(0)
-    do k = 1, p
+    others = 0 ! see moments of the modules rst_sync_going_*
+    do k = 1, p, 2
       !$omp simd
       do q = 1, lanes
         y(q) = y(q) + c(k)*t(q, k)
+        others(q) = others(q) + c(k + 1)*t(q, k + 1)
       end do
     end do
+    y = y + others
   end function summed
 
   pure subroutine sample_compression(p, turn, c, g_inf, eta, n_terms, tau, curve, layer, rise, n, first, level, trace, node)
@@ -193,7 +196,7 @@ contains
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     real(dp), dimension(lanes) :: y, slope, ago, passed, radius, depth, velocity, force, excess, rate, dx
-    real(dp) :: sharpness
+    real(dp) :: sharpness, beyond
     integer(ip) :: q, k, l, last, step
     last = min(lanes, n + 1 - first)
     call place_lanes(c, n, n - first, .true., y, slope)
@@ -206,11 +209,13 @@ contains
     do step = 1, most_steps
       call weigh_edges(p, turn(2), g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, depth, &
                        velocity, force, excess, rate)
-      !$omp simd
+      beyond = -huge(1.0_dp)
+      !$omp simd reduction(max: beyond)
       do q = 1, lanes
         dx(q) = max(-0.5_dp*passed(q), min(passed(q), -excess(q)/min(rate(q), -tiny(1.0_dp))))
+        beyond = max(beyond, abs(dx(q)) - sharpness*passed(q))
       end do
-      if (maxval(abs(dx) - sharpness*passed) < 0) exit
+      if (beyond < 0) exit
       passed = passed + dx
     end do
     do q = 1, last
