@@ -7,7 +7,7 @@ module rst_memory
   implicit none (type, external)
   private
   public :: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through
-  public :: remembered, integrated, integrated_twice, shares, memory_shares, gentle_memory, series_below, growth_of
+  public :: remembered, integrated, integrated_twice, shares, memory_shares, memory_of_lanes, growth_of
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -112,6 +112,34 @@ contains
       decay(q) = 1 - z(q)*phi1(q)
     end do
   end subroutine gentle_memory
+
+  !> The same for any z, without a call.
+  pure subroutine memory_of_lanes(n, z, decay, phi1, phi2, phi3)
+    integer(ip), intent(in) :: n
+    real(dp), intent(in) :: z(n)
+    real(dp), dimension(n), intent(out) :: decay, phi1, phi2, phi3
+    real(dp) :: gentle(n), largest, inverse, fading, first, second
+    integer(ip) :: q
+    largest = 0
+    !$omp simd reduction(max: largest)
+    do q = 1, n
+      largest = max(largest, z(q))
+      gentle(q) = min(z(q), series_below)
+    end do
+    call gentle_memory(n, gentle, decay, phi1, phi2, phi3)
+    if (largest < series_below) return
+    !$omp simd private(inverse, fading, first, second)
+    do q = 1, n
+      inverse = 1/max(z(q), series_below)
+      fading = 1/growth_of(z(q))
+      first = (1 - fading)*inverse
+      second = (1 - first)*inverse
+      decay(q) = merge(decay(q), fading, z(q) < series_below)
+      phi1(q) = merge(phi1(q), first, z(q) < series_below)
+      phi2(q) = merge(phi2(q), second, z(q) < series_below)
+      phi3(q) = merge(phi3(q), (0.5_dp - second)*inverse, z(q) < series_below)
+    end do
+  end subroutine memory_of_lanes
 
   pure function spacing_of(x) result(s)
     real(dp), intent(in) :: x(2)

@@ -5,7 +5,7 @@
 !> rst_sync_grid). All levels of a phase are independent of each other, so they come in groups of lanes.
 module rst_sync_sample
   use rst_precision, only: dp, ip
-  use rst_memory, only: memory_type, memory_of, gentle_memory, series_below, growth_of
+  use rst_memory, only: memory_of_lanes, growth_of
   use rst_sync_grid, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
   implicit none (type, external)
@@ -307,7 +307,6 @@ contains
     type(level_type), intent(inout) :: level(0:count)
     type(trace_type), intent(inout) :: trace(n_terms, count)
     real(dp), dimension(lanes) :: h, z, gh, decay, phi1, phi2, phi3
-    type(memory_type) :: m
     integer(ip) :: q, k
     h = 0
     do q = 1, count
@@ -316,17 +315,7 @@ contains
     end do
     do k = 1, n_terms
       z = h*(1/tau(k))
-      if (maxval(z) < series_below) then
-        call gentle_memory(lanes, z, decay, phi1, phi2, phi3)
-      else
-        do q = 1, count
-          m = memory_of(z(q))
-          decay(q) = m%decay
-          phi1(q) = m%phi1
-          phi2(q) = m%phi2
-          phi3(q) = m%phi3
-        end do
-      end if
+      call memory_of_lanes(lanes, z, decay, phi1, phi2, phi3)
       gh = g(k)*h
       phi3 = gh*h*h*(2*phi3 - phi2)
       phi1 = gh*(phi1 - phi2)
