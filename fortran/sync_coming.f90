@@ -36,10 +36,10 @@ contains
 
   !> Columns of `left`, by terms: what the compression left of g P and g M of each edge at the turning point; exp(time since
   !> then/tau).
-  pure subroutine come_back(g_inf, n_terms, g, tau, closeness, turn, going, left, coming, failed)
+  pure subroutine come_back(g_inf, n_terms, g, tau, closeness, turn, going, left, coming, unfinished, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
-    real(dp), intent(out) :: left(0:p, 5 + 3*n_terms), coming(0:p, 3 + n_terms)
+    real(dp), intent(out) :: left(0:p, 5 + 3*n_terms), coming(0:p, 3 + n_terms), unfinished
     logical, intent(out) :: failed
     real(dp) :: moved(p), force(0:p), change, previous, rate
     integer(ip) :: sweep, k
@@ -56,7 +56,8 @@ contains
       change = maxval(abs(moved))*(1/turn)
       if (sweep > 1) rate = max(change/previous, best_rate)
       coming(1:, 1) = coming(1:, 1) + moved
-      if (change*min(rate, 1.0_dp) < closeness) exit
+      unfinished = change*min(rate, 1.0_dp)
+      if (unfinished < closeness) exit
       failed = .true.
       if (.not. change < 1) return
       previous = change

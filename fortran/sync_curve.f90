@@ -24,20 +24,21 @@ contains
 
   !> depth: the largest, roughly. closeness: see normal_levels. turn: s_m and, unless memory lasts long, T, and delay and lead, see
   !> turn_round in rst_sync_fading_*, otherwise 0. spread: slopes of y
-  !> over u = tan(phi/2) at both ends, for rst_sync_sample. left_out: by series.
+  !> over u = tan(phi/2) at both ends, for rst_sync_sample. lacks: what series leave out, and sweeps unfinished.
   pure subroutine follow_curve(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                               inverse, left_out, failed)
+                               inverse, lacks, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
-    real(dp), intent(out) :: turn(4), spread(2), left_out
+    real(dp), intent(out) :: turn(4), spread(2), lacks(2)
     real(dp), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
     real(dp), intent(out) :: layer(n_terms, 2), x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     logical, intent(out) :: failed
-    real(dp) :: radius, force
+    real(dp) :: radius, force, unfinished(2)
     integer(ip) :: k
     turn(2:) = 0
     layer = 0
-    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, inverse, failed)
+    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, inverse, &
+                  unfinished(1), failed)
     if (failed) return
     if (eta > 0 .or. any(turn(1) > mirrored*tau)) then
       call fit_going(n_terms, turn(1), going, curve)
@@ -45,16 +46,16 @@ contains
         going(p, 2 + n_terms + k) = going(p, 2 + n_terms + k) + layer(k, 1)/growth_of(turn(1)/tau(k))
       end do
       call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, inverse, turn(3), &
-                   turn(4), turn(2), coming, layer(:, 2), failed)
+                   turn(4), turn(2), coming, layer(:, 2), unfinished(2), failed)
     else
-      call come_back(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, coming, failed)
+      call come_back(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, coming, unfinished(2), failed)
       call fit_going(n_terms, turn(1), going, curve)
     end if
     if (failed) return
     do k = 1, 3 + n_terms
       curve(:, 2 + 2*n_terms + k) = series_of(coming(:, k))
     end do
-    left_out = lack(n_terms, tau, turn, curve)
+    lacks = [lack(n_terms, tau, turn, curve), sum(unfinished)]
     radius = sqrt(going(p, 1))
     force = (2.0_dp/3.0_dp)*g_inf*radius*going(p, 1)
     do k = 1, n_terms

@@ -4,9 +4,16 @@ module ELIMINATION
   use POINTS, only: p
   implicit none (type, external)
   private
-  public :: solve_again, accelerate
+  public :: solve_again, steps_type, accelerate
 
   real(dp), parameter :: boldest = 2, least_bold = 0.5_dp
+  real(dp), parameter :: alike = 1.0e-4_dp !! of two steps, the square of the sine between them
+
+  !> The last steps of a sequence and where they led, the latest first.
+  type :: steps_type
+    integer(ip) :: count = 0
+    real(dp) :: step(0:p, 2) = 0, led_to(0:p, 2) = 0
+  end type steps_type
 
 contains
 
@@ -60,27 +67,51 @@ contains
     end do
   end subroutine invert
 
-  !> The next guess x of a sequence, of which the step `step` was found at x: as if steps fell by one factor, which the step before,
-  !> from x_before, tells (Anderson's mixing of depth one).
-  pure subroutine accelerate(first, step, step_before, x_before, x)
-    logical, intent(in) :: first
+  !> The next guess x of a sequence, of which the step `step` was found at x: where, as if it were linear, the steps before would have
+  !> led to the least step (Anderson's mixing of depth two, or one where these are alike).
+  pure subroutine accelerate(step, before, x)
     real(dp), intent(in) :: step(0:p)
-    real(dp), intent(inout) :: step_before(0:p), x_before(0:p), x(0:p)
-    real(dp) :: next(0:p), part, square
-    integer(ip) :: l
+    type(steps_type), intent(inout) :: before
+    real(dp), intent(inout) :: x(0:p)
+    real(dp) :: first(0:p), second(0:p), next(0:p), part(2)
     next = x + step
-    if (.not. first) then
-      part = 0
-      square = tiny(1.0_dp)
-      do l = 0, p
-        part = part + step(l)*(step(l) - step_before(l))
-        square = square + (step(l) - step_before(l))**2
-      end do
-      part = max(-boldest, min(part/square, least_bold))
-      next = next - part*(next - (x_before + step_before))
+    if (before%count > 0) then
+      first = step - before%step(:, 1)
+      second = 0
+      if (before%count > 1) second = before%step(:, 1) - before%step(:, 2)
+      part = parts_of(step, first, second)
+      if (before%count > 1) next = next - part(2)*(before%led_to(:, 1) - before%led_to(:, 2))
+      next = next - part(1)*(x + step - before%led_to(:, 1))
     end if
-    x_before = x
-    step_before = step
+    before%count = before%count + 1
+    before%step(:, 2) = before%step(:, 1)
+    before%led_to(:, 2) = before%led_to(:, 1)
+    before%step(:, 1) = step
+    before%led_to(:, 1) = x + step
     x = next
   end subroutine accelerate
+
+  !> The sum of `first` and `second` that is nearest to `step`.
+  pure function parts_of(step, first, second) result(part)
+    real(dp), intent(in) :: step(0:p), first(0:p), second(0:p)
+    real(dp) :: part(2), a11, a12, a22, b1, b2, determinant
+    integer(ip) :: l
+    a11 = tiny(1.0_dp)
+    a12 = 0
+    a22 = 0
+    b1 = 0
+    b2 = 0
+    do l = 0, p
+      a11 = a11 + first(l)*first(l)
+      a12 = a12 + first(l)*second(l)
+      a22 = a22 + second(l)*second(l)
+      b1 = b1 + first(l)*step(l)
+      b2 = b2 + second(l)*step(l)
+    end do
+    part = [max(-boldest, min(b1/a11, least_bold)), 0.0_dp]
+    determinant = a11*a22 - a12*a12
+    if (.not. determinant > alike*a11*a22) return
+    if (max(abs(b1*a22 - b2*a12), abs(a11*b2 - a12*b1)) > boldest*determinant) return
+    part = [b1*a22 - b2*a12, a11*b2 - a12*b1]*(1/determinant)
+  end function parts_of
 end module ELIMINATION

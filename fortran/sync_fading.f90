@@ -12,7 +12,7 @@ module FADING
   use rst_precision, only: dp, ip
   use rst_sync_grid, only: mass_factor, soften
   use rst_memory, only: growth_of
-  use ELIMINATION, only: solve_again, accelerate
+  use ELIMINATION, only: solve_again, steps_type, accelerate
   use POINTS, only: p, down, back, curl
   use GOING, only: longest, most_sweeps, best_rate
   implicit none (type, external)
@@ -38,16 +38,17 @@ contains
   !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
   !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, inverse: see solve_again.
   pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, inverse, delay, lead, &
-                          lasts, coming, left, failed)
+                          lasts, coming, left, unfinished, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
     real(dp), intent(in) :: loading(0:p, 2 + 2*n_terms), layer(n_terms)
     real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms), delay, lead, lasts
-    real(dp), intent(out) :: coming(0:p, 3 + n_terms), left(n_terms)
+    real(dp), intent(out) :: coming(0:p, 3 + n_terms), left(n_terms), unfinished
     logical, intent(out) :: failed
     type(edges_type) :: edges
     real(dp) :: force(0:p), excess(p), stiffness(p), rate(p), later, change, previous, part, part_before, least, longest_tau
-    real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of T and B
+    real(dp), dimension(0:p) :: guess, step !! of T and B
+    type(steps_type) :: before
     integer(ip) :: sweep, l
     call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lead, lasts, edges)
     coming(0, 2) = going(p, 1)
@@ -55,8 +56,6 @@ contains
     x_kept = 0
     force(0) = -mass_factor*((2.0_dp/3.0_dp)*g_inf*going(p, 1)*sqrt(going(p, 1)) + sum(going(p, 3:2 + n_terms)))
     failed = .true.
-    guess_before = 0
-    step_before = 0
     previous = huge(1.0_dp)
     part_before = best_rate
     least = 0
@@ -81,12 +80,13 @@ contains
       if (.not. change < 1) return
       part = max(change/previous, best_rate)
       if (sweep > soon .and. change > still) return
-      if (sweep > 1 .and. change*min(max(part, part_before), 1.0_dp) < closeness) exit
+      unfinished = change*min(max(part, part_before), 1.0_dp)
+      if (sweep > 1 .and. unfinished < closeness) exit
       part_before = part
       previous = change
       guess(0) = lasts
       guess(1:) = edges%square
-      call accelerate(sweep == 1, step, step_before, guess_before, guess)
+      call accelerate(step, before, guess)
       lasts = guess(0)
       call shift_edges(least < felt_until*longest_tau, turn, guess(1:), edges)
     end do

@@ -9,7 +9,7 @@ module GOING
   use rst_precision, only: dp, ip
   use rst_sync_grid, only: mass_factor, soften
   use rst_memory, only: growth_of
-  use ELIMINATION, only: solve_again, accelerate
+  use ELIMINATION, only: solve_again, steps_type, accelerate
   use POINTS, only: p, up, moment, from_rest, fore
   implicit none (type, external)
   private
@@ -18,10 +18,17 @@ module GOING
   integer(ip), parameter :: most_sweeps = 30
   real(dp), parameter :: longest = 4.0_dp    !! a phase, in relaxation times, with exp(s/tau) in the integrand
   real(dp), parameter :: kept_within = 0.25_dp !! see solve_again
-  real(dp), parameter :: best_rate = 0.05_dp !! of sweeps, that is believed
+  real(dp), parameter :: best_rate = 0.15_dp !! of sweeps, that is believed
   real(dp), parameter :: square(p) = up(1:)**2
-  !> D of an elastic impact over its largest, nearly, and s_m over the same; viscous ones turn later, at less than `depth`.
-  real(dp), parameter :: elastic_time = 1.472_dp, elastic(p) = elastic_time*square*(1 - 0.148_dp*(elastic_time*square)**2)
+
+  !> D of an elastic impact over its largest, s_m over the same, and D', by the series in q = s^(5/2) and one term that lets it turn
+  !> round where it does: right to 1e-4. Dashpots let it turn later than that: what the delay adds to D is `bulge`, of slope
+  !> `swelling` over y^2, as viscous forces begin with sqrt(s).
+  real(dp), parameter :: elastic_time = 0.4_dp*gamma(0.4_dp)*gamma(0.5_dp)/gamma(0.9_dp), time(p) = elastic_time*square
+  real(dp), parameter :: q(p) = sqrt(time**5), last = ((1/elastic_time - 1)/q(p) + 1/7.0_dp)/q(p)**2 - 1/(112.0_dp*q(p))
+  real(dp), parameter :: elastic(p) = time*(1 - q*(1/7.0_dp - q*(1/112.0_dp + q*last)))
+  real(dp), parameter :: slowing(p) = 1 - q*(0.5_dp - q*(6/112.0_dp + q*(8.5_dp*last)))
+  real(dp), parameter :: bulge(p) = square*(1 - up(1:)**3)**2, swelling(p) = (1 - up(1:)**3)*(1 - 4*up(1:)**3)
 
 contains
 
@@ -42,26 +49,24 @@ contains
   end function moments
 
   !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
-  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, inverse: see solve_again.
-  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, inverse, failed)
+  !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, inverse: see solve_again. unfinished: what
+  !> the last sweep left to be changed, about.
+  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, inverse, unfinished, failed)
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms)
-    real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms)
+    real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms), unfinished
     logical, intent(out) :: failed
     real(dp), dimension(p) :: a, d, v, next
-    real(dp), dimension(0:p) :: guess, guess_before, step, step_before !! of s_m and forces
-    real(dp) :: change, previous, rate, rate_before, excess, part, moved, least, stiffness, viscosity
+    real(dp), dimension(0:p) :: guess, step !! of s_m and forces
+    type(steps_type) :: before
+    real(dp) :: change, previous, rate, rate_before, excess, part, moved, least
     integer(ip) :: sweep, k, l
     failed = .true.
     x_kept = 0
     going(0, :) = 0
-    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
-    part = viscosity/(stiffness*depth)
-    turn = depth*(elastic_time + 0.26_dp*part/(1 + 0.13_dp*part))
-    d = depth*(1 - 0.085_dp*part/(0.25_dp + part))*elastic
+    call start(depth, g_inf, eta, n_terms, g, tau, turn, d, v)
     a = sqrt(d)
-    v = 1 - square
     do k = 1, n_terms
       if (turn < longest*tau(k)) then
         going(1:, 2 + k) = g(k)*(2.0_dp/3.0_dp)*d*a/(1 + square*(0.6_dp*turn/tau(k)))
@@ -72,8 +77,6 @@ contains
     end do
     guess(0) = turn
     call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), guess(1:))
-    guess_before = 0
-    step_before = 0
     previous = huge(1.0_dp)
     rate_before = best_rate
     do sweep = 1, most_sweeps
@@ -109,13 +112,14 @@ contains
         change = max(change, moved*turn)
       end do
       rate = max(change/previous, best_rate)
-      if (sweep > 1 .and. change*min(max(rate, rate_before), 1.0_dp) < closeness) exit
+      unfinished = change*min(max(rate, rate_before), 1.0_dp)
+      if (sweep > 1 .and. unfinished < closeness) exit
       rate_before = rate
       previous = change
       step(0) = turn
       call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), step(1:))
       step = step - guess
-      call accelerate(sweep == 1, step, step_before, guess_before, guess)
+      call accelerate(step, before, guess)
     end do
     if (sweep > most_sweeps) return
     failed = .false.
@@ -127,6 +131,28 @@ contains
                     going(:, 2 + n_terms + k), layer(k))
     end do
   end subroutine compress
+
+  !> s_m, D and D', nearly: what an elastic impact would do, and what dashpots change, by their share of the force.
+  pure subroutine start(depth, g_inf, eta, n_terms, g, tau, turn, d, v)
+    real(dp), intent(in) :: depth, g_inf, eta
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g(n_terms), tau(n_terms)
+    real(dp), intent(out) :: turn, d(p), v(p)
+    real(dp) :: stiffness, viscosity, part, lag, largest, delay
+    integer(ip) :: k
+    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
+    part = viscosity/(stiffness*depth)
+    lag = 0
+    do k = 1, n_terms
+      lag = lag + g(k)*(tau(k)/(1 + 0.8_dp*tau(k)/depth))**2
+    end do
+    lag = lag/(depth*max(viscosity, tiny(1.0_dp)*1.0e200_dp)) ! relaxation time of what is viscous
+    turn = depth*(elastic_time + part*(0.29_dp - 0.42_dp*lag/(lag + 0.17_dp))/(1 + 0.13_dp*part))
+    largest = depth*(1 - 0.085_dp*part/(0.25_dp + part))
+    delay = turn/largest - elastic_time
+    d = largest*(elastic + delay*bulge)
+    v = (largest/turn)*(elastic_time*slowing + delay*swelling)
+  end subroutine start
 
   !> Forces at the points.
   pure subroutine press(g_inf, eta, n_terms, d, a, v, held, force)

@@ -60,12 +60,12 @@ contains
   end subroutine rst_dense_levels
 
   pure subroutine rst_follow_curve(p, depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
-                                   x_kept, inverse, left_out, failed) &
+                                   x_kept, inverse, lacks, failed) &
     bind(c, name="rst_follow_curve"//RST_WIDTH)
     integer(c_int64_t), intent(in), value :: p, n_terms
     real(c_double), intent(in), value :: depth, g_inf, eta, closeness
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: turn(4), spread(2), left_out
+    real(c_double), intent(out) :: turn(4), spread(2), lacks(2)
     real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
     real(c_double), intent(out) :: layer(n_terms, 2), x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     integer(c_int64_t), intent(out) :: failed
@@ -73,13 +73,13 @@ contains
     select case (p)
     case (8)
       call follow_curve_8(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                          inverse, left_out, fails)
+                          inverse, lacks, fails)
     case (12)
       call follow_curve_12(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           inverse, left_out, fails)
+                           inverse, lacks, fails)
     case default
       call follow_curve_16(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           inverse, left_out, fails)
+                           inverse, lacks, fails)
     end select
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_follow_curve

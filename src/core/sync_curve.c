@@ -31,8 +31,9 @@ static const double least_rebound = 0.05;
  * what rounding leaves. */
 static const double part_unfinished = 0.004, coarsest = 4e-6, rounding = 1e-12;
 
-/* What sweeps leave unfinished, in units of when they stop. */
-static const double share_of_closeness = 6;
+/* The error that unfinished sweeps leave, over what they say is left: 19 in 20 of 19 000 standard solids, and all but a few in a
+ * thousand twice that. */
+static const double share_of_unfinished = 4;
 
 /* The end of the restitution is known that much better than what is between the points. */
 static const double part_of_end = 0.05, part_of_end_if_memory_fades = 0.25;
@@ -89,26 +90,27 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
     const double allowed = left_in_levels * wanted / swings, depth = normal->grid.radius * normal->grid.radius;
     const int many = terms > 1 && is_short(s, 1.4 * depth), last = many ? 1 : degree_count;
     int64_t failed = 0;
-    double left_out, *layer = room + (highest_degree + 1) * columns(terms);
+    double lacks[2], *layer = room + (highest_degree + 1) * columns(terms);
     for (int i = 0; i < last && !failed; i++) {
         const int64_t p = degrees[i].degree;
         const size_t rows = (size_t)p + 1;
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
         if (allowed < (many ? error_of_many : degrees[i].error)) continue;
-        normal->kernel->follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn, normal->spread,
-                         going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms, &left_out, &failed);
+        normal->kernel->follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn,
+                                     normal->spread, going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms,
+                                     lacks, &failed);
         if (failed) return;
         normal->updates += 2 * p;
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
         normal->velocity = fmax(-1, coming[(size_t)p + 2 * rows]);
         normal->depth = going[p];
-        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * left_out +
-                        share_of_closeness * closeness;
-        normal->taken_off = left_out;
+        normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * lacks[0] +
+                        share_of_unfinished * lacks[1];
+        normal->taken_off = lacks[0];
         normal->curve = curve;
         normal->layer = layer;
         if (-normal->velocity < least_rebound || !isfinite(normal->velocity)) return;
-        if (normal->error <= wanted && left_out <= allowed) {
+        if (normal->error <= wanted && lacks[0] <= allowed) {
             normal->degree = p;
             normal->reached = 1;
             return;

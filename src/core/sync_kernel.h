@@ -14,7 +14,7 @@ typedef void sync_dense_levels(const struct sync_grid *grid, double g_inf, doubl
                       struct sync_level *level, struct sync_trace *trace, struct sync_node *node, int64_t *failed);
 typedef void sync_follow_curve(int64_t p, double depth, double g_inf, double eta, int64_t n_terms, const double *g,
                       const double *tau, double closeness, double turn[4], double spread[2], double *going,
-                      double *coming, double *curve, double *layer, double *x_kept, double *inverse, double *left_out,
+                      double *coming, double *curve, double *layer, double *x_kept, double *inverse, double lacks[2],
                       int64_t *failed);
 typedef void sync_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf, double eta,
                       int64_t n_terms, const double *g, const double *tau, const double *curve, const double *layer,
