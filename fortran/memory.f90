@@ -7,7 +7,7 @@ module rst_memory
   implicit none (type, external)
   private
   public :: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through
-  public :: remembered, integrated, integrated_twice, shares, memory_shares, memory_of_lanes, growth_of
+  public :: remembered, integrated, integrated_twice, shares, memory_shares, memory_of_lanes, growth_of, lanes
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -29,6 +29,7 @@ module rst_memory
     real(dp) :: x1, first, between, last
   end type spacing_type
 
+  integer(ip), parameter :: lanes = 8           !! steps that are taken at once, as wide as vectors may be
   real(dp), parameter :: series_below = 0.5_dp  !! beyond, the closed form loses less than two digits
   integer :: i
   real(dp), parameter :: c(0:9) = [(1/gamma(i + 4.0_dp), i=0, 9)]  !! phi_3(z) = sum_i (-z)^i/(i+3)!
@@ -113,23 +114,22 @@ contains
     end do
   end subroutine gentle_memory
 
-  !> The same for any z, without a call.
-  pure subroutine memory_of_lanes(n, z, decay, phi1, phi2, phi3)
-    integer(ip), intent(in) :: n
-    real(dp), intent(in) :: z(n)
-    real(dp), dimension(n), intent(out) :: decay, phi1, phi2, phi3
-    real(dp) :: gentle(n), largest, inverse, fading, first, second
+  !> The same for any z, for as many at once as there are lanes, without a call.
+  pure subroutine memory_of_lanes(z, decay, phi1, phi2, phi3)
+    real(dp), intent(in) :: z(lanes)
+    real(dp), dimension(lanes), intent(out) :: decay, phi1, phi2, phi3
+    real(dp) :: gentle(lanes), largest, inverse, fading, first, second
     integer(ip) :: q
     largest = 0
     !$omp simd reduction(max: largest)
-    do q = 1, n
+    do q = 1, lanes
       largest = max(largest, z(q))
       gentle(q) = min(z(q), series_below)
     end do
-    call gentle_memory(n, gentle, decay, phi1, phi2, phi3)
+    call gentle_memory(lanes, gentle, decay, phi1, phi2, phi3)
     if (largest < series_below) return
     !$omp simd private(inverse, fading, first, second)
-    do q = 1, n
+    do q = 1, lanes
       inverse = 1/max(z(q), series_below)
       fading = 1/growth_of(z(q))
       first = (1 - fading)*inverse

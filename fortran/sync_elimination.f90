@@ -6,6 +6,7 @@ module ELIMINATION
   private
   public :: solve_again, steps_type, accelerate
 
+  integer(ip), parameter :: most = p + 1 !! equations
   real(dp), parameter :: boldest = 2, least_bold = 0.5_dp
   real(dp), parameter :: alike = 1.0e-4_dp !! of two steps, the square of the sine between them
 
@@ -20,46 +21,49 @@ contains
   !> Equations (A + x) f = r, for an x that changes little from sweep to sweep: the inverse of A + x is kept and made again only
   !> after x has changed by more than the part kept_within; what it changed since is taken from the solution before. x_kept: that of
   !> the inverse, 0 if there is none. f: before, and after.
-  pure subroutine solve_again(a, x, r, kept_within, x_kept, inverse, f)
-    real(dp), intent(in) :: a(0:p, 0:p), x, r(0:p), kept_within
-    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), f(0:p)
-    real(dp) :: rest(0:p), others(0:p)
+  pure subroutine solve_again(n, a, x, r, kept_within, x_kept, inverse, f)
+    integer(ip), intent(in) :: n
+    real(dp), intent(in) :: a(n, n), x, r(n), kept_within
+    real(dp), intent(inout) :: x_kept, inverse(n, n), f(n)
+    real(dp) :: rest(most), others(most)
     integer(ip) :: j, l
     if (.not. abs(x - x_kept) < kept_within*x) then
       x_kept = x
-      call invert(a, x, inverse)
+      call invert(n, a, x, inverse)
     end if
-    rest = r - (x - x_kept)*f
-    f = inverse(:, 0)*rest(0)
+    rest(:n) = r - (x - x_kept)*f
+    f = 0
     others = 0 ! see moments of the modules rst_sync_going_*
-    do j = 1, p, 2
+    do j = 1, n - 1, 2
       !$omp simd
-      do l = 0, p
+      do l = 1, n
         f(l) = f(l) + inverse(l, j)*rest(j)
         others(l) = others(l) + inverse(l, j + 1)*rest(j + 1)
       end do
     end do
-    f = f + others
+    if (modulo(n, 2_ip) == 1) f = f + inverse(:, n)*rest(n)
+    f = f + others(:n)
   end subroutine solve_again
 
   !> The inverse of A + x by the elimination of Gauss and Jordan, rows in the order in which they come: whole columns at a time, which
   !> suit vectors better than triangular factors.
-  pure subroutine invert(a, x, inverse)
-    real(dp), intent(in) :: a(0:p, 0:p), x
-    real(dp), intent(out) :: inverse(0:p, 0:p)
-    real(dp) :: column(0:p), pivot, part
+  pure subroutine invert(n, a, x, inverse)
+    integer(ip), intent(in) :: n
+    real(dp), intent(in) :: a(n, n), x
+    real(dp), intent(out) :: inverse(n, n)
+    real(dp) :: column(most), pivot, part
     integer(ip) :: i, j, l
     inverse = a
-    do j = 0, p
+    do j = 1, n
       pivot = 1/(inverse(j, j) + x)
-      column = inverse(:, j)
+      column(:n) = inverse(:, j)
       column(j) = 0
       inverse(:, j) = 0
       inverse(j, j) = 1
-      do i = 0, p
+      do i = 1, n
         part = inverse(j, i)*pivot
         !$omp simd
-        do l = 0, p
+        do l = 1, n
           inverse(l, i) = inverse(l, i) - column(l)*part
         end do
         inverse(j, i) = part

@@ -280,7 +280,7 @@ contains
       memory(0) = start
       memory(1:) = (start + (g*lasts)*returned([v(0), v(1:p - 1)*growth(:p - 1)]))/growth
     else
-      call solve_again(curl, lasts/tau, (g*lasts)*v, kept_within, x_kept, inverse, memory)
+      call solve_again(p + 1, curl, lasts/tau, (g*lasts)*v, kept_within, x_kept, inverse, memory)
       layer = start - memory(0)
     end if
   end subroutine remember

@@ -7,10 +7,10 @@
 !> of linear equations, and so are M_k but for a part that fades at once, `layer` exp(-s/tau).
 module GOING
   use rst_precision, only: dp, ip
-  use rst_sync_grid, only: mass_factor, soften
+  use rst_sync_grid, only: mass_factor, soften, lag_of
   use rst_memory, only: growth_of
   use ELIMINATION, only: solve_again, steps_type, accelerate
-  use POINTS, only: p, up, moment, from_rest, fore
+  use POINTS, only: p, up, moment, fore
   implicit none (type, external)
   private
   public :: compress, longest, most_sweeps, best_rate
@@ -72,7 +72,7 @@ contains
         going(1:, 2 + k) = g(k)*(2.0_dp/3.0_dp)*d*a/(1 + square*(0.6_dp*turn/tau(k)))
       else
         going(1:, 2 + k) = (g(k)*tau(k))*a*v
-        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(:, 2 + k))
+        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(1:, 2 + k))
       end if
     end do
     guess(0) = turn
@@ -103,7 +103,7 @@ contains
       if (.not. (least > 0 .and. turn < 2*guess(0))) return
       do k = 1, n_terms
         next = going(1:, 2 + k)
-        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(:, 2 + k))
+        call load(turn, g(k), tau(k), a*v, x_kept(k), inverse(:, :, k), going(1:, 2 + k))
         moved = 0
         !$omp simd reduction(max: moved)
         do l = 1, p
@@ -139,14 +139,9 @@ contains
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: turn, d(p), v(p)
     real(dp) :: stiffness, viscosity, part, lag, largest, delay
-    integer(ip) :: k
     call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
     part = viscosity/(stiffness*depth)
-    lag = 0
-    do k = 1, n_terms
-      lag = lag + g(k)*(tau(k)/(1 + 0.8_dp*tau(k)/depth))**2
-    end do
-    lag = lag/(depth*max(viscosity, tiny(1.0_dp)*1.0e200_dp)) ! relaxation time of what is viscous
+    lag = lag_of(eta, n_terms, g, tau, depth)/depth
     turn = depth*(elastic_time + part*(0.29_dp - 0.42_dp*lag/(lag + 0.17_dp))/(1 + 0.13_dp*part))
     largest = depth*(1 - 0.085_dp*part/(0.25_dp + part))
     delay = turn/largest - elastic_time
@@ -175,8 +170,8 @@ contains
   !> g int_0^s exp(-(s-r)/tau) f dr at the points.
   pure subroutine load(turn, g, tau, f, x_kept, inverse, held)
     real(dp), intent(in) :: turn, g, tau, f(p)
-    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), held(0:p)
-    real(dp) :: growth(p), lasts, right(0:p)
+    real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p), held(p)
+    real(dp) :: growth(p), lasts
     integer(ip) :: l
     lasts = turn/tau
     if (lasts < longest) then
@@ -184,11 +179,9 @@ contains
       do l = 1, p
         growth(l) = growth_of(square(l)*lasts)
       end do
-      held(1:) = (g*turn)*moments(f*growth)/growth
+      held = (g*turn)*moments(f*growth)/growth
     else
-      right(0) = 0
-      right(1:) = (g*tau)*moments(f)
-      call solve_again(from_rest, tau/turn, right, kept_within, x_kept, inverse, held)
+      call solve_again(p, moment, tau/turn, (g*tau)*moments(f), kept_within, x_kept, inverse, held)
     end if
   end subroutine load
 
@@ -200,10 +193,10 @@ contains
     layer = 0
     memory = 0
     if (turn < longest*tau) then
-      call load(turn, g, tau, v(1:), x_kept, inverse, memory)
+      call load(turn, g, tau, v(1:), x_kept, inverse, memory(1:))
     else
       x_kept = 0
-      call solve_again(fore, turn/tau, (g*turn)*v, kept_within, x_kept, inverse, memory)
+      call solve_again(p + 1, fore, turn/tau, (g*turn)*v, kept_within, x_kept, inverse, memory)
       layer = -memory(0)
     end if
   end subroutine remember

@@ -5,15 +5,16 @@
 !> rst_sync_grid). All levels of a phase are independent of each other, so they come in groups of lanes.
 module rst_sync_sample
   use rst_precision, only: dp, ip
-  use rst_memory, only: memory_of_lanes, growth_of
-  use rst_sync_grid, only: level_type, node_type, mass_factor
+  use rst_memory, only: memory_of_lanes, growth_of, lanes
+  use rst_sync_grid, only: level_type, node_type, mass_factor, lag_of
   use rst_sync_dense, only: trace_type
   implicit none (type, external)
   private
   public :: sample_curve
 
-  integer(ip), parameter :: lanes = 8, highest = 16  !! degree of the polynomials, at most
+  integer(ip), parameter :: highest = 16  !! degree of the polynomials, at most
   integer(ip), parameter :: most_steps = 20
+  real(dp), parameter :: settling = 2.9_dp      !! of springs behind the turning point, in relaxation times
   real(dp), parameter :: sharp(2:4) = [1.0e-3_dp, 3.0e-5_dp, 1.0e-6_dp] !! part of a time that Newton's last step may be, by degree
   real(dp), parameter :: felt_until = 36        !! relaxation times
   real(dp), parameter :: at_once = 300          !! of them in the restitution, where springs do as dashpots
@@ -204,7 +205,7 @@ contains
       radius(q) = node(max(n - first - q + 1, 0_ip))%radius
     end do
     ago = turn(1)*(1 - y*y)
-    passed = guess_times(turn, ago)
+    passed = guess_times(turn, lag_of(eta, n_terms, g, tau, turn(1)), ago)
     sharpness = sharp(min(p/4, 4_ip))
     do step = 1, most_steps
       call weigh_edges(p, turn(2), g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, depth, &
@@ -233,19 +234,20 @@ contains
   end subroutine find_restitution
 
   !> Times since the turning point at which the edge is back where it was so long before it, nearly (see turn_round of the modules
-  !> rst_sync_fading_*).
-  pure function guess_times(turn, ago) result(passed)
-    real(dp), intent(in) :: turn(4), ago(lanes)
-    real(dp) :: passed(lanes), delay, square, x
+  !> rst_sync_fading_*), or as long, where springs have not settled yet.
+  pure function guess_times(turn, lag, ago) result(passed)
+    real(dp), intent(in) :: turn(4), lag, ago(lanes)
+    real(dp) :: passed(lanes), delay, square, x, unsettled
     integer(ip) :: q
     delay = turn(3)/turn(2)
+    unsettled = 1/max(settling*lag, 1.0e-100_dp)
     !$omp simd private(square, x)
     do q = 1, lanes
       square = (1 + 2*delay)*(ago(q)/turn(1))**2
       x = square/(sqrt(square + delay*delay) + delay)
       square = max(0.3_dp*square, square - (1 + 2*delay)*2*turn(4)*delay*x*x*(1 - x)/(x + 0.06_dp))
       x = square/(sqrt(square + delay*delay) + delay)
-      passed(q) = turn(2)*x
+      passed(q) = turn(2)*x + (ago(q) - turn(2)*x)*max(0.0_dp, 1 - ago(q)*unsettled)
     end do
   end function guess_times
 
@@ -315,7 +317,7 @@ contains
     end do
     do k = 1, n_terms
       z = h*(1/tau(k))
-      call memory_of_lanes(lanes, z, decay, phi1, phi2, phi3)
+      call memory_of_lanes(z, decay, phi1, phi2, phi3)
       gh = g(k)*h
       phi3 = gh*h*h*(2*phi3 - phi2)
       phi1 = gh*(phi1 - phi2)
