@@ -10,7 +10,7 @@ module GOING
   use rst_sync_grid, only: mass_factor, soften, lag_of
   use rst_memory, only: growth_of
   use ELIMINATION, only: solve_again, steps_type, accelerate
-  use POINTS, only: p, up, moment, fore
+  use POINTS, only: p, up, moment
   implicit none (type, external)
   private
   public :: compress, longest, most_sweeps, best_rate
@@ -185,7 +185,7 @@ contains
     end if
   end subroutine load
 
-  !> The same of the speed v, without the layer where there is one.
+  !> The same of the speed v, without the layer where there is one, that of the speed at first touch.
   pure subroutine remember(turn, g, tau, v, x_kept, inverse, memory, layer)
     real(dp), intent(in) :: turn, g, tau, v(0:p)
     real(dp), intent(inout) :: x_kept, inverse(0:p, 0:p)
@@ -195,9 +195,10 @@ contains
     if (turn < longest*tau) then
       call load(turn, g, tau, v(1:), x_kept, inverse, memory(1:))
     else
-      x_kept = 0
-      call solve_again(p + 1, fore, turn/tau, (g*turn)*v, kept_within, x_kept, inverse, memory)
-      layer = -memory(0)
+      layer = -g*tau
+      x_kept = 0 ! nothing has been solved before
+      call solve_again(p, moment, tau/turn, (g*tau)*moments(v(1:) - 1), kept_within, x_kept, inverse, memory(1:))
+      memory = memory - layer
     end if
   end subroutine remember
 end module GOING

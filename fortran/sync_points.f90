@@ -5,7 +5,7 @@ module POINTS
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: p, place, integral, slope, series, up, down, moment, back, curl, fore
+  public :: p, place, integral, slope, series, up, down, moment, back, curl
 
   integer(ip), parameter :: p = POINTS_DEGREE
   real(dp), parameter :: pi = acos(-1.0_dp)
@@ -35,9 +35,8 @@ module POINTS
   !> int f 2y dy from first touch and int f (-2z) dz from the turning point on by values of f; nothing comes from y = 0 or z = 0.
   real(dp), parameter :: moment(p, p) = reshape([((integral(i, k)*up(k), i=1, p), k=1, p)], int([p, p]))
   real(dp), parameter :: back(p, 0:p - 1) = reshape([((integral(i, k)*down(k), i=1, p), k=0, p - 1)], int([p, p]))
-  !> T df/ds in the restitution by values of f; at z = 0 by the second derivative. fore: s_m df/ds in the compression.
+  !> T df/ds in the restitution by values of f; at z = 0 by the second derivative.
   real(dp), parameter :: bend(0:p, 0:p) = matmul(slope, slope), over(0:p) = [(1/(0.5_dp*(1 - place(i))), i=0, p - 1), 0.0_dp]
   real(dp), parameter :: curl(0:p, 0:p) = &
                          reshape([((merge(-2*bend(i, k), slope(i, k)*over(i), i == p), i=0, p), k=0, p)], int([p + 1, p + 1]))
-  real(dp), parameter :: fore(0:p, 0:p) = reshape([((-curl(p - i, p - k), i=0, p), k=0, p)], int([p + 1, p + 1]))
 end module POINTS
