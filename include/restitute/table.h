@@ -184,6 +184,20 @@ RESTITUTE_API int restitute_table_pairs(const restitute_table *table, const rest
 RESTITUTE_API int restitute_table_numbers_pair(const restitute_table *table, double chi, double psi, double delta1,
                                                double gamma, restitute_table_value *pair);
 
+/** Many pairs by dimensionless numbers; each has the bits that @ref restitute_table_numbers_pair gives it. The calling thread does all. From a
+ *  table with axes of delta1 and gamma that is faster than one after the other, the more the larger the table: waits for memory are shared.
+ *
+ *  @param n                     number of impacts; 0 is allowed
+ *  @param chi,psi,delta1,gamma  n values each, as @ref restitute_table_numbers_pair takes them
+ *  @param ez,ex                 n values each; either may be NULL: not wanted
+ *  @return OK; ERROR_DOMAIN if any number is out of its range, or for a table of one contact: nothing is written then; ERROR_NULL
+ *
+ *      double chi[2] = {1.2, 0.9}, psi[2] = {2, 0}, delta1[2] = {1, 0.3}, gamma[2] = {0.5, 0.5}, ez[2], ex[2];
+ *      restitute_table_numbers_pairs(table, 2, chi, psi, delta1, gamma, ez, ex); */
+RESTITUTE_API int restitute_table_numbers_pairs(const restitute_table *table, size_t n, const double *chi,
+                                                const double *psi, const double *delta1, const double *gamma,
+                                                double *ez, double *ex);
+
 /* ------------------------------------------------------------------------------------------------ what a table is */
 
 /** What a table says of itself. */

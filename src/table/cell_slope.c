@@ -14,7 +14,7 @@ static const struct edge no_axis = {.f = {1}};
 /* stretch: how the place u in the root goes with that number. */
 static void set_edge(double u, int halvings, double stretch, struct edge *e)
 {
-    const double place = rst_tree_place(u, halvings);
+    const double place = rst_tree_place(u, ldexp(1, halvings));
     rst_serendipity_functions(place, e->f);
     rst_serendipity_slopes(place, e->df);
     for (int i = 0; i < rst_places; i++)
@@ -55,9 +55,8 @@ struct seat {
 
 static struct seat find_seat(const restitute_table *t, double chi, double psi, double width)
 {
-    double quotient;
-    struct seat seat = {.stretch = 1};
-    seat.sheet = rst_sheet_find(psi, 1, width, &seat.psi, &seat.y, &quotient);
+    const struct rst_sheet sheet = rst_sheet_find(psi, 1, width);
+    struct seat seat = {.sheet = sheet.number, .psi = sheet.place, .y = sheet.y, .stretch = 1};
     if (seat.sheet > 0)
         seat.stretch = 0.25 * rst_slip_sheets / rst_largest_r / sqrt(fmin(seat.y, 1 - seat.y) + rst_soft * rst_soft);
     if (t->n_chi > 1) seat.chi = fmin(rst_below_one, (chi - t->chi_low) / (t->chi_high - t->chi_low));

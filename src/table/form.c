@@ -86,10 +86,14 @@ double rst_table_h(double gamma)
 
 void rst_w_axis_logs(struct rst_w_axis *w)
 {
+    w->begin = (double)w->first;
+    w->end = (double)w->roots * rst_below_one;
+    for (int i = 0; i < 5; i++)
+        w->series[i] = (i % 2 ? -1 : 1) * w->scale / ((i + 1) * log(2));
     for (int i = 0; i < rst_log_parts; i++) {
         const double middle = 1 + (i + 0.5) / rst_log_parts;
         w->inverse[i] = 1 / middle;
-        w->log[i] = log2(middle);
+        w->log[i] = log2(middle) * w->scale;
     }
 }
 
@@ -109,23 +113,39 @@ static size_t doubles(size_t bytes)
     return (bytes + sizeof(double) - 1) / sizeof(double);
 }
 
-/* Trees are planted already. */
+/* The cubic through h at four nodes of an octave, by powers. */
+static void set_h(const struct rst_octaves *gamma, int64_t octave, double h[4])
+{
+    double y[4];
+    for (int i = 0; i < 4; i++)
+        y[i] = rst_table_h(rst_octaves_node(gamma, octave * rst_cubic + i));
+    const double first = 3 * (y[1] - y[0]), second = 4.5 * (y[2] - 2 * y[1] + y[0]);
+    const double third = 4.5 * ((y[3] - y[0]) - 3 * (y[2] - y[1]));
+    h[0] = y[0];
+    h[1] = first - second / 3 + third * 2 / 9;
+    h[2] = second - third;
+    h[3] = third;
+}
+
+/* Trees are planted already. The coefficients of ex begin at a line of memory: a leaf is then on no more lines than it
+ * needs. */
 static restitute_table *allocate_cells(const restitute_table *form)
 {
     const size_t n_ez = (size_t)form->rebound.leaves * rst_pair_functions, n_term = 2 * (size_t)form->terms;
     const size_t n_ex = (size_t)form->n_cells * (size_t)form->n_gamma;
-    const size_t along = (size_t)form->gamma.cells * rst_cubic + 1;
-    const size_t size = n_ez + n_term + along + doubles(n_ex * sizeof(float));
+    const size_t octaves = (size_t)form->gamma.cells, line = 64;
+    const size_t size = n_ez + n_term + 4 * octaves + doubles(n_ex * sizeof(float) + line);
     restitute_table *table = malloc(sizeof *table + size * sizeof(double));
     if (!table) return NULL;
     *table = *form;
     table->block_size = size;
     table->ez = table->block;
     table->term = table->ez + n_ez;
-    table->along = table->term + n_term;
-    for (size_t i = 0; i < along; i++)
-        table->along[i] = rst_table_h(rst_octaves_node(&form->gamma, (int64_t)i));
-    table->ex_cells = (float *)(void *)(table->along + along);
+    table->h = (double(*)[4])(void *)(table->term + n_term);
+    for (size_t i = 0; i < octaves; i++)
+        set_h(&form->gamma, (int64_t)i, table->h[i]);
+    char *free_room = (char *)(table->h + octaves);
+    table->ex_cells = (float *)(void *)(free_room + (line - (uintptr_t)free_room % line) % line);
     table->ex = NULL;
     return table;
 }

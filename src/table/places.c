@@ -48,11 +48,9 @@ static double psi_of_sheet(int64_t sheet, double place)
 /* gamma, and h there as a lookup takes it: by the cubic of the octave. */
 static double gamma_of_leaf(const restitute_table *t, const struct rst_leaf *l, int place, double *h)
 {
-    double w[4];
     const double start = rst_octaves_node(&t->gamma, l->octave * rst_cubic);
-    const double u = ldexp((double)l->part + 0.25 * place, -(int)l->level), *along = t->along + l->octave * rst_cubic;
-    rst_cubic_weights(rst_cubic * u, w);
-    *h = (w[0] * along[0] + w[1] * along[1]) + (w[2] * along[2] + w[3] * along[3]);
+    const double u = ldexp((double)l->part + 0.25 * place, -(int)l->level);
+    *h = rst_h(t->h[l->octave], u);
     return start * (1 + u);
 }
 

@@ -21,6 +21,7 @@
 
 #include <restitute/table.h>
 
+#include "select.h"
 #include "serendipity.h"
 #include "tree.h"
 
@@ -32,10 +33,12 @@ enum {
 
 /* log2 of w = delta1 h(gamma), divided into roots of a tree. */
 struct rst_w_axis {
-    int64_t first, roots; /* the first begins at log2 w = first 2^width */
-    int64_t width;        /* log2 of the octaves of a root */
-    double scale;         /* 2^-width */
-    double inverse[rst_log_parts], log[rst_log_parts]; /* of the middles of parts of [1, 2] */
+    int64_t first, roots;                              /* the first begins at log2 w = first 2^width */
+    int64_t width;                                     /* log2 of the octaves of a root */
+    double scale;                                      /* 2^-width */
+    double begin, end;                                 /* `first`; below `roots` */
+    double series[5];                                  /* of log2(1 + r) times `scale`, from the first power on */
+    double inverse[rst_log_parts], log[rst_log_parts]; /* of the middles of parts of [1, 2]; times `scale` */
 };
 
 /* An axis by octaves. */
@@ -76,13 +79,14 @@ struct restitute_table {
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
 
-    int64_t n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the coefficients of a leaf */
+    int64_t
+        n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the coefficients of a leaf */
     struct rst_w_axis w;
     struct rst_tree rebound, tangent;
-    double *along;   /* h at the nodes of the octaves of gamma; ez is [leaf of rebound][coefficient] */
+    double (*h)[4];  /* [octave of gamma]: h by powers of the place in it; ez is [leaf of rebound][coefficient] */
     float *ex_cells; /* [leaf of tangent][coefficient] */
     struct rst_serendipity of_ez, of_ex; /* which they are */
-    size_t block_size;       /* doubles in `block` */
+    size_t block_size;                   /* doubles in `block` */
     double block[];
 };
 
@@ -111,7 +115,7 @@ double rst_table_h(double gamma);
 /* Set the roots so that they hold delta1 in [low, high] for all gamma of the axis. width: log2 of their octaves. */
 void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, int64_t width, struct rst_w_axis *w);
 
-/* What rst_w_log needs. */
+/* What rst_w_place needs of an axis whose roots are set. */
 void rst_w_axis_logs(struct rst_w_axis *w);
 
 /* Counts and starts of nodes from the cells. */
@@ -127,8 +131,7 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
 /* Cell and place in it, in [0, 3). */
 static inline double rst_octaves_find(const struct rst_octaves *axis, double number, int64_t *cell)
 {
-    number = !(number > axis->low) ? axis->low : number; /* NaN as well: the bits of the number are an index */
-    number = number > axis->high ? axis->high : number;
+    number = rst_clamp(number, axis->low, axis->high); /* NaN as well: the bits of the number are an index */
     int64_t bits;
     memcpy(&bits, &number, sizeof bits);
     *cell = (bits >> axis->shift) - axis->first;
@@ -146,11 +149,12 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
-/* log2 of a normal number to 1e-13, inline: half as dear as that of libm. The logarithm of the middle of one of 64 parts of [1, 2], and the series
- * of log2(1 + r), |r| <= 1/128, up to r^5. */
-static inline double rst_w_log(const struct rst_w_axis *w, double number)
+/* Place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as that of libm. The logarithm of
+ * the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128, up to r^5. */
+static inline double rst_w_place(const struct rst_w_axis *w, double number)
 {
     const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
+    const double *series = w->series;
     int64_t bits, reduced;
     double m;
     memcpy(&bits, &number, sizeof bits);
@@ -158,37 +162,51 @@ static inline double rst_w_log(const struct rst_w_axis *w, double number)
     memcpy(&m, &reduced, sizeof m);
     const int64_t part = (bits & fraction) >> 46;
     const double r = m * w->inverse[part] - 1, square = r * r;
-    const double series = (1.4426950408889634 - 0.7213475204444817 * r) +
-                          square * ((0.4808983469629878 - 0.36067376022224085 * r) + square * 0.28853900817779268);
-    return (double)(int32_t)((bits >> 52) - 1023) + (w->log[part] + r * series);
+    const double octaves = (double)(int32_t)((bits >> 52) - 1023) * w->scale - w->begin;
+    const double high = (square * r) * ((series[2] + series[3] * r) + series[4] * square);
+    return (octaves + w->log[part]) + (r * (series[0] + series[1] * r) + high);
+}
+
+/* Octave of gamma, which is on the axis, and place in it. */
+static inline double rst_gamma_place(const struct rst_octaves *axis, double gamma, int64_t *octave)
+{
+    const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
+    int64_t bits, reduced;
+    double m;
+    gamma = rst_clamp(gamma, axis->low, axis->high); /* NaN as well */
+    memcpy(&bits, &gamma, sizeof bits);
+    reduced = (bits & fraction) | one;
+    memcpy(&m, &reduced, sizeof m);
+    *octave = (bits >> 52) - axis->first;
+    return m - 1;
 }
 
 /* Places in [0, 1) of an octave of gamma and of a root of w. */
 struct rst_spot {
     int64_t octave, root;
     double gamma, w;
+    int32_t w_part; /* rst_tree_part of it */
 };
 
 /* The largest number below 1 */
 static const double rst_below_one = 1 - 0x1p-53;
 
+/* h at a place in an octave. */
+static inline double rst_h(const double h[4], double x)
+{
+    return (h[0] + h[1] * x) + (x * x) * (h[2] + h[3] * x);
+}
+
 static inline void rst_spot_find(const restitute_table *t, double delta1, double gamma, struct rst_spot *spot)
 {
-    double h[4];
-    const double s = rst_octaves_find(&t->gamma, gamma, &spot->octave);
-    const double *along = t->along + spot->octave * rst_cubic;
-    delta1 = !(delta1 > t->speed.low) ? t->speed.low : delta1;
-    delta1 = delta1 > t->speed.high ? t->speed.high : delta1;
-    rst_cubic_weights(s, h);
-    const double w = delta1 * ((h[0] * along[0] + h[1] * along[1]) + (h[2] * along[2] + h[3] * along[3]));
-    double u = rst_w_log(&t->w, w) * t->w.scale - (double)t->w.first;
-    u = u > 0 ? u : 0;
-    int64_t root = (int64_t)u;
-    root = root < t->w.roots ? root : t->w.roots - 1;
-    u -= (double)root;
-    spot->root = root;
-    spot->w = u < rst_below_one ? u : rst_below_one;
-    spot->gamma = s * (1.0 / rst_cubic);
+    const double x = rst_gamma_place(&t->gamma, gamma, &spot->octave);
+    const double w = rst_clamp(delta1, t->speed.low, t->speed.high) * rst_h(t->h[spot->octave], x);
+    const double u = rst_clamp(rst_w_place(&t->w, w), 0, t->w.end);
+    const int64_t part = (int64_t)(u * (1 << rst_most_halvings)); /* one conversion for root and part */
+    spot->root = part >> rst_most_halvings;
+    spot->w_part = (int32_t)(part & ((1 << rst_most_halvings) - 1));
+    spot->w = u - (double)spot->root;
+    spot->gamma = x;
 }
 
 /* First node of the cell of chi, which is in the table's range, and place s in [0, 3] in it. */
@@ -224,8 +242,11 @@ static inline struct rst_side rst_side_find(double sliding, double v_n, double w
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
     const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
-    return (struct rst_side){
-        .slips = slips, .upper = other < y, .quotient = smaller / (larger > rst_least ? larger : rst_least), .y = y, .root = root};
+    return (struct rst_side){.slips = slips,
+                             .upper = other < y,
+                             .quotient = smaller / (larger > rst_least ? larger : rst_least),
+                             .y = y,
+                             .root = root};
 }
 
 /* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of rst_side. */
@@ -244,29 +265,63 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
 /* r(1/2) */
 static const double rst_largest_r = 0.6916543936097672;
 
-/* Sheet of a tree and place in [0, 1) on it, for psi = sliding/v_n up to psi_c = 1 + width; y, and what the kept value is times: 1, and
- * 1/psi beyond psi = 1. The sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. What follows waits for the
- * place, so a guess of the side is faster than both sides, even if every other one is wrong. */
-static inline int64_t rst_sheet_find(double sliding, double v_n, double width, double *place, double *y,
-                                     double *quotient)
+/* What psi_c exceeds 1 by, times v_n. */
+static inline double rst_slip_width(double chi, double ez, double v_n)
 {
-    double u;
-    if (sliding > v_n) {
-        const double ratio = (sliding - v_n) / (width * v_n + rst_least), half = 0.5 * rst_slip_sheets;
-        *y = ratio < 1 ? ratio : 1;
-        const double root = sqrt((0.5 + rst_soft * rst_soft) - fabs(*y - 0.5)) - rst_soft;
-        const double on_slip_side = (1 + half) - copysign(half - root * (half / rst_largest_r), 0.5 - *y);
-        const double highest = 5 * rst_below_one;
-        u = on_slip_side < highest ? on_slip_side : highest;
-        *quotient = v_n / sliding;
-    } else {
-        *y = 0;
-        *quotient = 1;
-        u = sliding / (v_n + rst_least) * rst_below_one;
-    }
-    const int64_t sheet = (int64_t)u;
-    *place = u - (double)sheet;
-    return sheet;
+    return (rst_larger(2 * chi - 1, 0) * v_n) * (1 + ez);
+}
+
+/* y, from psi = 1 at 0 to psi_c at 1. */
+static inline double rst_slip_part(double sliding, double v_n, double width)
+{
+    return rst_clamp((sliding - v_n) / (width + rst_least), 0, 1);
+}
+
+/* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do behind
+ * the square root. */
+static inline double rst_slip_place(double y)
+{
+    const double half = 0.5 * rst_slip_sheets, scale = half / rst_largest_r, from_middle = 0.5 - y;
+    const double root = sqrt((0.5 + rst_soft * rst_soft) - fabs(from_middle));
+    const double start = (1 + half) - copysign(half + rst_soft * scale, from_middle);
+    return rst_clamp(start + copysign(scale, from_middle) * root, 1, 5 * rst_below_one);
+}
+
+/* Sheet of a tree and place in [0, 1) on it; y, and what the kept value is times: 1, and 1/psi beyond psi = 1. */
+struct rst_sheet {
+    int64_t number;
+    int32_t part; /* rst_tree_part of the place */
+    double place, y, quotient;
+};
+
+static inline struct rst_sheet rst_sheet_of(double u, double y, double quotient)
+{
+    const int32_t part = rst_tree_part(u), number = part >> rst_most_halvings; /* one conversion for both */
+    return (struct rst_sheet){.number = number,
+                              .part = part & ((1 << rst_most_halvings) - 1),
+                              .place = u - (double)number,
+                              .y = y,
+                              .quotient = quotient};
+}
+
+/* For psi = sliding/v_n up to psi_c = 1 + width/v_n. What follows waits for the place, so a guess of the side is faster than
+ * both sides, even if every other one is wrong. */
+static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double width)
+{
+    if (!(sliding > v_n)) return rst_sheet_of(sliding / (v_n + rst_least) * rst_below_one, 0, 1);
+    const double y = rst_slip_part(sliding, v_n, width);
+    return rst_sheet_of(rst_slip_place(y), y, v_n / sliding);
+}
+
+/* The same, to the bit, by both sides and a selection: where many are found one after the other nothing waits, and a wrong
+ * guess costs more. */
+static inline struct rst_sheet rst_sheet_select(double sliding, double v_n, double width)
+{
+    const double larger = rst_if_larger(sliding, v_n, sliding, v_n + rst_least);
+    const double part = rst_if_larger(sliding, v_n, v_n, sliding) / larger; /* 1/psi or psi */
+    const double y = rst_slip_part(sliding, v_n, width);
+    return rst_sheet_of(rst_if_larger(sliding, v_n, rst_slip_place(y), part * rst_below_one), y,
+                        rst_if_larger(sliding, v_n, part, 1));
 }
 
 #endif

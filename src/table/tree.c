@@ -14,6 +14,9 @@ void rst_tree_begin(struct rst_roots of, const int8_t *chain, int64_t length, st
     for (int64_t d = 0; d < rst_deepest; d++)
         for (int a = 0; a < rst_alongs; a++)
             tree->halvings[a][d + 1] = (int8_t)(tree->halvings[a][d] + (d < length && chain[d] == a));
+    for (int64_t d = 0; d <= rst_deepest; d++)
+        for (int a = 0; a < rst_alongs; a++)
+            tree->times[d][a] = (double)(INT64_C(1) << tree->halvings[a][d]);
     for (int64_t d = 0; d < length; d++) {
         const int bit = rst_most_halvings - 1 - tree->halvings[chain[d]][d], half = rst_most_halvings / 2;
         for (int i = 0; i < 1 << half; i++)
@@ -34,6 +37,13 @@ int rst_tree_takes(const struct rst_tree *t, const struct rst_leaf *l)
 static int64_t root_of(const struct rst_tree *t, const struct rst_leaf *l)
 {
     return (l->octave * t->of.roots + l->root) * t->of.sheets + l->sheet;
+}
+
+/* Of a part of gamma of the finest level */
+static int32_t *start_of(const struct rst_tree *t, int64_t root, int64_t part)
+{
+    const int64_t whole = root / t->of.sheets, sheet = root % t->of.sheets;
+    return &t->start[((whole << t->part_bits) + part) * t->of.sheets + sheet];
 }
 
 static int64_t fans_of(const struct rst_leaf *l)
@@ -125,8 +135,7 @@ static int plant_all(struct rst_tree *t, const int64_t *finest)
         const int64_t root = root_of(t, l), more = finest[root] - l->level;
         t->shape[i] = (struct rst_shape){(uint8_t)l->depth, (uint8_t)l->level};
         for (int64_t p = l->part << more; p < (l->part + 1) << more; p++)
-            if (lead_to(t, &t->start[(root << t->part_bits) + (p << (t->part_bits - finest[root]))], l, (int32_t)i))
-                return 2;
+            if (lead_to(t, start_of(t, root, p << (t->part_bits - finest[root])), l, (int32_t)i)) return 2;
     }
     return 0;
 }
@@ -141,22 +150,25 @@ static int32_t any_leaf(const struct rst_tree *t, int32_t next)
     return next < 0 ? next : nowhere;
 }
 
-/* No way may lead nowhere: places that no one asks for have the leaf beside them. */
+/* No way may lead nowhere: places that no one asks for have the leaf beside them. There is a fan even if none is needed,
+ * since a lookup reads one before it knows. */
 static void fill_gaps(struct rst_tree *t, const int64_t *finest)
 {
+    if (t->fans == 0) new_fan(t);
     for (int64_t f = 0; f < t->fans; f++) {
-        const int32_t other = any_leaf(t, (int32_t)f);
+        const int32_t found = any_leaf(t, (int32_t)f), other = found < 0 ? found : ~0;
         for (int i = 0; i < rst_fan; i++)
             if (t->fan[f][i] == nowhere) t->fan[f][i] = other;
     }
     const int64_t roots = t->of.octaves * t->of.roots * t->of.sheets;
     int32_t before = ~0;
-    for (int64_t i = 0; i < roots << t->part_bits; i++) {
-        const int64_t root = i >> t->part_bits, same = t->part_bits - finest[root];
-        const int64_t first = (root << t->part_bits) + ((i - (root << t->part_bits)) >> same << same);
-        if (t->start[i] == nowhere) t->start[i] = first < i ? t->start[first] : before;
-        before = t->start[i];
-    }
+    for (int64_t root = 0; root < roots; root++)
+        for (int64_t part = 0; part < INT64_C(1) << t->part_bits; part++) {
+            const int64_t same = t->part_bits - finest[root], first = part >> same << same;
+            int32_t *start = start_of(t, root, part);
+            if (*start == nowhere) *start = first < part ? *start_of(t, root, first) : before;
+            before = *start;
+        }
 }
 
 static void set_empty(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leaves)
@@ -182,10 +194,12 @@ int rst_tree_plant(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leav
     if (!status) {
         set_empty(t, leaf, leaves);
         status = plant_all(t, finest);
-        if (status)
+        if (status) {
             rst_tree_fell(t);
-        else
+        } else {
             fill_gaps(t, finest);
+            rst_tree_share(t);
+        }
     }
     free(finest);
     return status;

@@ -43,6 +43,9 @@ struct rst_shape {
     uint8_t depth, level;
 };
 
+/* 2^level */
+static const double rst_tree_parts[rst_finest_part + 1] = {1, 2, 4, 8, 16};
+
 struct rst_tree {
     struct rst_roots of;
     int64_t leaves, fans;
@@ -51,12 +54,14 @@ struct rst_tree {
     int64_t chain_length;
     int8_t chain[rst_deepest];
     int8_t halvings[rst_alongs][rst_deepest + 1]; /* along an axis, at a depth */
-    uint32_t spread[rst_alongs][2][1 << rst_most_halvings / 2]; /* bits of a coordinate in their places, by its halves */
-    int32_t *start;             /* [octave][root][sheet][part of gamma] */
-    int32_t (*fan)[rst_fan];    /* >= 0: a fan; negative: leaf ~number */
-    struct rst_shape *shape;    /* [leaf] */
-    struct rst_leaf *leaf;      /* [leaf] */
-    void *room;                 /* of the arrays */
+    double times[rst_deepest + 1][rst_alongs];    /* 2^ of these */
+    uint32_t spread[rst_alongs][2]
+                   [1 << rst_most_halvings / 2]; /* bits of a coordinate in their places, by its halves */
+    int32_t *start;                              /* [octave][root][part of gamma][sheet] */
+    int32_t (*fan)[rst_fan];                     /* >= 0: a fan; negative: leaf ~number */
+    struct rst_shape *shape;                     /* [leaf] */
+    struct rst_leaf *leaf;                       /* [leaf] */
+    void *room;                                  /* of the arrays */
 };
 
 /* Set the chain; the rest is empty. */
@@ -69,31 +74,68 @@ int rst_tree_takes(const struct rst_tree *tree, const struct rst_leaf *leaf);
  * of memory; 2: leaves overlap, or there are none. */
 int rst_tree_plant(struct rst_tree *tree, const struct rst_leaf *leaf, int64_t leaves);
 
+/* Make one of fans that are the same; without memory for that they stay. */
+void rst_tree_share(struct rst_tree *tree);
+
 void rst_tree_fell(struct rst_tree *tree);
 
-/* Which halves a coordinate in [0, 1) is in, along one axis, in the places of the chain; those of the axes are put together by `or`. */
-static inline uint32_t rst_tree_code(const struct rst_tree *t, enum rst_along along, double u)
+/* The finest part of a root that a coordinate u in [0, 1) is in: u in units of 2^-rst_most_halvings. */
+static inline int32_t rst_tree_part(double u)
 {
-    const int32_t bits = (int32_t)(u * (1 << rst_most_halvings)), half = rst_most_halvings / 2;
-    return t->spread[along][0][bits >> half] | t->spread[along][1][bits & ((1 << half) - 1)];
+    return (int32_t)(u * (1 << rst_most_halvings));
 }
 
-/* Number of a leaf. gamma: in [0, 1) of the octave. */
-static inline int64_t rst_tree_find(const struct rst_tree *t, int64_t octave, int64_t root, int64_t sheet, double gamma,
-                                    uint32_t code)
+/* Which halves such a part is in, along one axis, in the places of the chain; those of the axes are put together by `or`. */
+static inline uint32_t rst_tree_code_of(const struct rst_tree *t, enum rst_along along, int32_t part)
 {
-    const int64_t at = (octave * t->of.roots + root) * t->of.sheets + sheet;
-    int32_t next = t->start[(at << t->part_bits) + (int32_t)(gamma * t->parts)];
-    for (int shift = rst_deepest - rst_fan_bits; next >= 0; shift -= rst_fan_bits)
+    const int32_t half = rst_most_halvings / 2;
+    return t->spread[along][0][part >> half] | t->spread[along][1][part & ((1 << half) - 1)];
+}
+
+static inline uint32_t rst_tree_code(const struct rst_tree *t, enum rst_along along, double u)
+{
+    return rst_tree_code_of(t, along, rst_tree_part(u));
+}
+
+/* The same in a tree that has halvings along this axis alone; bits beyond them lead nowhere else. */
+static inline uint32_t rst_tree_code_alone(int32_t part)
+{
+    return (uint32_t)part << (rst_deepest - rst_most_halvings);
+}
+
+/* Where the ways to leaves begin: as a fan has it, those of the sheets side by side. gamma: in [0, 1) of the octave. */
+static inline const int32_t *rst_tree_start(const struct rst_tree *t, int64_t octave, int64_t root, double gamma)
+{
+    const int64_t at = ((octave * t->of.roots + root) << t->part_bits) + (int32_t)(gamma * t->parts);
+    return &t->start[at * t->of.sheets];
+}
+
+/* What is behind the first fan, without a branch: most leaves are behind one, many before it, and which cannot be foreseen. */
+static inline int32_t rst_tree_first(const struct rst_tree *t, int32_t start, uint32_t code)
+{
+    const int32_t is_leaf = start >> 31, behind = t->fan[start & ~is_leaf][code >> (rst_deepest - rst_fan_bits)];
+    return (start & is_leaf) | (behind & ~is_leaf);
+}
+
+/* Number of the leaf: the rest of the way, when so many fans are behind. */
+static inline int64_t rst_tree_rest(const struct rst_tree *t, int32_t next, int fans, uint32_t code)
+{
+    for (int shift = rst_deepest - (fans + 1) * rst_fan_bits; next >= 0; shift -= rst_fan_bits)
         next = t->fan[next][(code >> shift) & (rst_fan - 1)];
     return ~(int64_t)next;
 }
 
-/* Place in [0, 1) in a cell that is 2^-halvings of the whole. */
-static inline double rst_tree_place(double u, int halvings)
+/* Number of a leaf. */
+static inline int64_t rst_tree_find(const struct rst_tree *t, int64_t octave, int64_t root, int64_t sheet, double gamma,
+                                    uint32_t code)
 {
-    static const double times[rst_most_halvings + 1] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
-    const double scaled = u * times[halvings];
+    return rst_tree_rest(t, rst_tree_start(t, octave, root, gamma)[sheet], 0, code);
+}
+
+/* Place in [0, 1) in a cell that is a part of the whole; times: 1 over that part. */
+static inline double rst_tree_place(double u, double times)
+{
+    const double scaled = u * times;
     return scaled - (double)(int32_t)scaled;
 }
 
