@@ -31,7 +31,8 @@ static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behin
  * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
  * is much faster than the impact. */
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
-static const double part_if_smooth = 0.5; /* of that where the normal problem is known as polynomials */
+/* Part of that where the normal problem is known as polynomials: with up to 16 levels, and from 20 on. */
+static const double part_if_smooth = 0.5, part_if_many = 0.4, few = 16;
 static const double most_alone = 160;
 
 /* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
@@ -196,7 +197,7 @@ static double error_alone(const struct rst_problem *problem, const struct normal
 {
     const double chi = fmax(1, problem->chi), rebound = -normal->velocity;
     double error = usual_alone * thin_alone(problem) * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
-    if (normal->degree > 0) error *= part_if_smooth;
+    if (normal->degree > 0) error *= fmax(part_if_many, part_if_smooth * fmin(1, few / n));
     if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
     return error;
 }
