@@ -84,7 +84,7 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_follow_curve
 
-  pure subroutine rst_sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node) &
+  pure subroutine rst_sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, failed) &
     bind(c, name="rst_sample_curve"//RST_WIDTH)
     integer(c_int64_t), intent(in), value :: p, n_terms, n
     real(c_double), intent(in), value :: g_inf, eta
@@ -92,7 +92,10 @@ contains
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
-    call sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
+    integer(c_int64_t), intent(out) :: failed
+    logical :: fails
+    call sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, fails)
+    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_sample_curve
 
   !> What all runs on these levels share, made once.

@@ -21,16 +21,18 @@ module rst_sync_sample
 
 contains
 
-  !> n levels a phase. turn, spread, curve, layer: see follow_curve.
-  pure subroutine sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node)
+  !> n levels a phase. turn, spread, curve, layer: see follow_curve. failed: a time was not found.
+  pure subroutine sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, failed)
     integer(ip), intent(in) :: p, n_terms, n
     real(dp), intent(in) :: turn(4), spread(2), g_inf, eta, g(n_terms), tau(n_terms)
     real(dp), intent(in) :: curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
+    logical, intent(out) :: failed
     real(dp) :: c(3), rise(0:highest)
     integer(ip) :: first, k
+    failed = .false.
     call derive(p, curve(:, 1), rise)
     c(1) = max(1.3_dp, min(spread(1), 1.9_dp)) ! beyond, y would not rise everywhere
     c(3) = (max(0.15_dp, min(spread(2), 0.5_dp)) - 3 + 2*c(1))/2
@@ -46,7 +48,8 @@ contains
     do first = 1, n, lanes
       if (turn(2) > 0) then
         call find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve(:, 4 + 2*n_terms:), layer(:, 2), n, first, node, &
-                              level, trace)
+                              level, trace, failed)
+        if (failed) return
       else
         call sample_restitution(p, c, g_inf, n_terms, curve(:, 3 + 2*n_terms:), n, first, node, level, trace)
       end if
@@ -190,13 +193,14 @@ contains
   end subroutine sample_restitution
 
   !> The same by time: where the edge is on the nodes is found by Newton's steps.
-  pure subroutine find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve, layer, n, first, node, level, trace)
+  pure subroutine find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve, layer, n, first, node, level, trace, failed)
     integer(ip), intent(in) :: p, n_terms, n, first
     real(dp), intent(in) :: turn(4), c(3), g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     real(dp), dimension(lanes) :: y, slope, ago, passed, radius, depth, velocity, force, excess, rate, dx
+    logical, intent(out) :: failed
     real(dp) :: sharpness, beyond
     integer(ip) :: q, k, l, last, step
     last = min(lanes, n + 1 - first)
@@ -216,9 +220,11 @@ contains
         dx(q) = max(-0.5_dp*passed(q), min(passed(q), -excess(q)/min(rate(q), -tiny(1.0_dp))))
         beyond = max(beyond, abs(dx(q)) - sharpness*passed(q))
       end do
-      if (beyond < 0) exit
+      failed = .not. beyond < 0
+      if (.not. failed) exit
       passed = passed + dx
     end do
+    if (failed) return
     do q = 1, last
       l = n + first + q - 1
       do k = 1, n_terms
@@ -234,7 +240,7 @@ contains
   end subroutine find_restitution
 
   !> Times since the turning point at which the edge is back where it was so long before it, nearly (see turn_round of the modules
-  !> rst_sync_fading_*), or as long, where springs have not settled yet.
+  !> rst_sync_fading_*), or as long, where springs have not settled yet; T at the end.
   pure function guess_times(turn, lag, ago) result(passed)
     real(dp), intent(in) :: turn(4), lag, ago(lanes)
     real(dp) :: passed(lanes), delay, square, x, unsettled
@@ -247,7 +253,8 @@ contains
       x = square/(sqrt(square + delay*delay) + delay)
       square = max(0.3_dp*square, square - (1 + 2*delay)*2*turn(4)*delay*x*x*(1 - x)/(x + 0.06_dp))
       x = square/(sqrt(square + delay*delay) + delay)
-      passed(q) = turn(2)*x + (ago(q) - turn(2)*x)*max(0.0_dp, 1 - ago(q)*unsettled)
+      passed(q) = turn(2)*x + (ago(q) - turn(2)*x)*max(0.0_dp, 1 - ago(q)*unsettled)*(1 - ago(q)/turn(1))
+      passed(q) = min(passed(q), turn(2)) ! as far as the series go
     end do
   end function guess_times
 

@@ -125,7 +125,8 @@ double rst_sync_curve_force(const struct rst_problem *problem, const struct norm
     struct sync_level *level = (struct sync_level *)(normal->layer + 2 * terms);
     struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
     struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
+    int64_t failed;
     normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g, s->tau,
-                     normal->curve, normal->layer, few_levels, level, trace, node);
-    return rst_sync_largest_force(level, few_levels);
+                     normal->curve, normal->layer, few_levels, level, trace, node, &failed);
+    return failed ? NAN : rst_sync_largest_force(level, few_levels);
 }

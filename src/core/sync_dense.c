@@ -105,7 +105,7 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
     if (normal->degree > 0)
         normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g,
                                      s->tau, normal->curve, normal->layer, rung->levels, rung->level, rung->trace,
-                                     rung->node);
+                                     rung->node, &failed);
     else
         normal->kernel->dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
                                      normal->level, rung->level, rung->trace, rung->node, &failed);

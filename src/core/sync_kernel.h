@@ -18,7 +18,8 @@ typedef void sync_follow_curve(int64_t p, double depth, double g_inf, double eta
                       int64_t *failed);
 typedef void sync_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf, double eta,
                       int64_t n_terms, const double *g, const double *tau, const double *curve, const double *layer,
-                      int64_t n, struct sync_level *level, struct sync_trace *trace, struct sync_node *node);
+                      int64_t n, struct sync_level *level, struct sync_trace *trace, struct sync_node *node,
+                               int64_t *failed);
 typedef void sync_finish_levels(double g_inf, int64_t n_terms, int64_t n, int64_t smooth, const struct sync_trace *trace,
                        const struct sync_node *node, struct sync_level *level);
 typedef void sync_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
