@@ -97,7 +97,7 @@ contains
         least = min(least, next(l))
         change = max(change, abs(next(l) - d(l)))
         d(l) = next(l)
-        a(l) = sqrt(d(l))
+        a(l) = sqrt(max(d(l), 0.0_dp))
       end do
       change = max(change, abs(turn - guess(0)))*(1/turn)
       if (.not. (least > 0 .and. turn < 2*guess(0))) return

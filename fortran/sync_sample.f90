@@ -217,12 +217,12 @@ contains
       beyond = -huge(1.0_dp)
       !$omp simd reduction(max: beyond)
       do q = 1, lanes
-        dx(q) = max(-0.5_dp*passed(q), min(passed(q), -excess(q)/min(rate(q), -tiny(1.0_dp))))
+        dx(q) = max(-0.5_dp*passed(q), min(passed(q), -excess(q)/min(rate(q), -1.0e-100_dp)))
         beyond = max(beyond, abs(dx(q)) - sharpness*passed(q))
       end do
       failed = .not. beyond < 0
       if (.not. failed) exit
-      passed = passed + dx
+      passed = min(passed + dx, turn(2))
     end do
     if (failed) return
     do q = 1, last

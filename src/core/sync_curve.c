@@ -55,8 +55,8 @@ static size_t few_room(size_t terms)
 
 size_t rst_sync_curve_room(int64_t n_terms)
 {
-    const size_t terms = (size_t)n_terms, rows = highest_degree + 1, factors = terms * (1 + rows * rows);
-    return rows * columns(terms) + 2 * terms + (factors > few_room(terms) ? factors : few_room(terms));
+    const size_t terms = (size_t)n_terms, rows = highest_degree + 1, equations = terms * (1 + rows * rows);
+    return rows * columns(terms) + 2 * terms + (equations > few_room(terms) ? equations : few_room(terms));
 }
 
 int rst_sync_is_thin(const struct rst_problem *problem)
@@ -102,14 +102,16 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         if (failed) return;
         normal->updates += 2 * p;
         normal->contact_time = normal->turn[1] > 0 ? normal->turn[0] + normal->turn[1] : coming[p];
-        normal->velocity = fmax(-1, coming[(size_t)p + 2 * rows]);
+        normal->velocity = coming[(size_t)p + 2 * rows];
+        if (!isfinite(normal->velocity)) return;
+        normal->velocity = fmax(-1, normal->velocity);
         normal->depth = going[p];
         normal->error = (normal->turn[1] > 0 ? part_of_end_if_memory_fades : part_of_end) * lacks[0] +
                         share_of_unfinished * lacks[1];
         normal->taken_off = lacks[0];
         normal->curve = curve;
         normal->layer = layer;
-        if (-normal->velocity < least_rebound || !isfinite(normal->velocity)) return;
+        if (-normal->velocity < least_rebound) return;
         if (normal->error <= wanted && lacks[0] <= allowed) {
             normal->degree = p;
             normal->reached = 1;

@@ -160,7 +160,8 @@ static int find_rebounds(const restitute_table *t, int n, const struct rst_asked
         s[i].chi = chi_place(t, chi);
         s[i].width = rst_slip_width(chi, ez[i], a[i].v_n);
         const double end = a[i].v_n + s[i].width;
-        ex[i] = closed_form(chi, ez[i], a[i].v_n, rst_if_larger(sliding, end, sliding, 1)); /* v_t may be 0 */
+        ex[i] = closed_form(chi, ez[i], rst_if_larger(sliding, end, a[i].v_n, 0),
+                            rst_if_larger(sliding, end, sliding, 1)); /* v_t may be 0 */
         kept[count] = i;
         count += !(sliding > end);
     }

@@ -274,7 +274,7 @@ static inline double rst_slip_width(double chi, double ez, double v_n)
 /* y, from psi = 1 at 0 to psi_c at 1. */
 static inline double rst_slip_part(double sliding, double v_n, double width)
 {
-    return rst_clamp((sliding - v_n) / (width + rst_least), 0, 1);
+    return rst_clamp(rst_larger(sliding - v_n, 0) / (width + rst_least), 0, 1);
 }
 
 /* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do behind
