@@ -67,9 +67,10 @@ void rst_table_count(restitute_table *form)
     const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
     form->start[2] = form->start[1] + half;
     form->n_psi = form->start[2] + half;
-    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->n_psi > 1;
-    form->psi_cells[0] = nextafter((double)form->stick_cells, 0);
-    form->psi_cells[1] = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / rst_largest_r, 0);
+    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->slip_cells > 0;
+    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = nextafter((double)form->stick_cells, 0)};
+    form->psi_cells[1] = (struct rst_psi_cells){
+        .of_root = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / rst_largest_r, 0), .of_closed = 1};
 }
 
 double rst_chi_node(const restitute_table *form, int64_t i)

@@ -84,10 +84,10 @@ static double sum_general(const restitute_table *t, const struct place *p, doubl
 static double tangential(const restitute_table *t, const struct place *p, double chi, double sliding, double v_n,
                          double full, double width)
 {
-    double s, quotient;
+    double s, quotient, closed;
     if (t->stick_cells == 0) return sum_general(t, p, chi, 0, 0);
-    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient);
-    return sum_general(t, p, chi, node, s) + (sliding > v_n) * (full * quotient - 1);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient, &closed);
+    return sum_general(t, p, chi, node, s) + closed * (full * quotient - 1);
 }
 
 /* psi = sliding/v_n; v_n may be 0 and sliding infinite. Apart from the case of two axes, which needs fewer registers to be saved. */
@@ -113,19 +113,19 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
 static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
                                      restitute_table_value *pair)
 {
-    double w[4], s, quotient;
+    double w[4], s, quotient, closed;
     int64_t cell;
     rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
     const double *v = t->ez + cell * rst_cubic;
     const double ez = rst_clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
-    const double full = t->chi_low * 2 * (1 + ez), critical = 2 * t->chi_low > 1 ? full - ez : 1;
+    const double full = t->chi_low * 2 * (1 + ez), critical = full - ez;
     pair->ez = ez;
     if (sliding > critical * v_n) {
         pair->ex = rst_clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
         return;
     }
-    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient);
-    const double closed = (sliding > v_n) * (full * quotient - 1); /* (27), from psi = 1 on */
+    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient, &closed);
+    closed *= full * quotient - 1; /* (27), from psi = 1 on */
     pair->ex = rst_clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed, -1, 1);
 }
 
@@ -233,6 +233,21 @@ static void pairs_by_blocks(const restitute_table *t, const restitute_table_cont
     }
 }
 
+static void pairs_of_two_axes(const restitute_table *t, const restitute_table_contact *c, size_t n, const double *v_n,
+                              const double *v_t, double *ez, double *ex)
+{
+    double speed[rst_block], sliding[rst_block], unwanted[2][rst_block];
+    for (size_t done = 0; done < n; done += rst_block) {
+        const int count = block_of(n - done);
+        for (int i = 0; i < count; i++) {
+            speed[i] = speed_of(t, c, v_n[done + i]);
+            sliding[i] = sliding_of(c, v_t[done + i]);
+        }
+        rst_two_axes_pairs(t, count, speed, sliding, v_n + done, ez ? ez + done : unwanted[0],
+                           ex ? ex + done : unwanted[1]);
+    }
+}
+
 int restitute_table_pairs(const restitute_table *table, const restitute_table_contact *contact, size_t n,
                           const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex)
 {
@@ -246,6 +261,8 @@ int restitute_table_pairs(const restitute_table *table, const restitute_table_co
     const restitute_table_contact *c = contact_or_own(table, contact);
     if (table->n_cells > 0 && n > 1)
         pairs_by_blocks(table, c, n, normal_speeds, tangential_speeds, ez, ex);
+    else if (table->two_axes && n > 1)
+        pairs_of_two_axes(table, c, n, normal_speeds, tangential_speeds, ez, ex);
     else
         pairs_one_by_one(table, c, n, normal_speeds, tangential_speeds, ez, ex);
     return RESTITUTE_OK;

@@ -25,6 +25,10 @@ void rst_cells_pairs(const restitute_table *t, int n, const struct rst_asked *as
 /* The same of ez alone. */
 void rst_cells_rebounds(const restitute_table *t, int n, const struct rst_asked *asked, double *ez);
 
+/* Up to rst_block pairs from a table of two axes. */
+void rst_two_axes_pairs(const restitute_table *t, int n, const double *speed, const double *sliding, const double *v_n,
+                        double *ez, double *ex);
+
 static inline double rst_chi_in_table(const restitute_table *t, double chi)
 {
     return rst_clamp(chi, t->chi_low, t->chi_high);

@@ -91,7 +91,7 @@ static double sum_ex(const restitute_table *t, const struct directions *d, const
 static double slip_stretch(const restitute_table *t, double y)
 {
     const double u = (y > 0.5 ? 1 - y : y) + rst_soft * rst_soft;
-    return (y > 0.5 ? -1 : 1) * rst_cubic * t->psi_cells[1] / (2 * sqrt(u));
+    return (y > 0.5 ? -1 : 1) * rst_cubic * t->psi_cells[1].of_root / (2 * sqrt(u));
 }
 
 void rst_table_slope(const restitute_table *t, double speed, double gamma, double chi, double psi,
@@ -104,7 +104,7 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
     const struct directions d = {find_direction(&t->speed, speed), find_direction(&t->gamma, gamma)};
     const double ez = sum_ez(t, &d, d.speed.w);
     double chi_w[4] = {1}, s;
-    double quotient;
+    double quotient, closed;
     int64_t chi_node = 0;
     *slope = (struct rst_slope){.ez_speed = ez > 0 && ez < 1 ? sum_ez(t, &d, d.speed.dw) : 0};
     chi = fmin(fmax(chi, t->chi_low), t->chi_high);
@@ -122,7 +122,7 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
     double stretch = 0, y = 0;
     if (t->stick_cells > 0) {
         y = (psi - 1) / (critical - 1);
-        p.node = rst_psi_find(t, psi, 1, critical - 1, &s, &quotient);
+        p.node = rst_psi_find(t, psi, 1, critical - 1, &s, &quotient, &closed);
         p.n = 4;
         rst_cubic_slopes(s, p.w, p.dw);
         stretch = psi <= 1 ? (double)t->stick_cells * rst_cubic : slip_stretch(t, y) / (critical - 1);

@@ -51,6 +51,12 @@ struct rst_octaves {
     double scale;     /* 3/2^shift */
 };
 
+/* Cells over the length of psi in [0, 1] and of r in [0, r(1/2)], next below that, on one side of psi = 1, 0 on the other; how much of
+ * the closed form of slip to the end is kept aside. What is not foreseen is looked up, not branched for. */
+struct rst_psi_cells {
+    double of_psi, of_root, of_closed;
+};
+
 struct restitute_table {
     int of_contact;
     struct restitute_table_contact own; /* its own contact; of a table of ranges: not used */
@@ -73,9 +79,9 @@ struct restitute_table {
     int64_t stick_cells; /* 0: one node, psi = 0 or no friction */
     int64_t slip_cells;  /* in each half of the slip side; 0: none */
     int64_t n_speed, n_gamma, n_psi;
-    int two_axes;        /* speed and psi, and no more */
+    int two_axes;        /* speed and psi, which may slip, and no more */
     int64_t start[3];    /* first node of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
-    double psi_cells[2]; /* cells over the length of psi in [0, 1], of r in [0, r(1/2)]; next below that */
+    struct rst_psi_cells psi_cells[2]; /* stick and slip side */
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
 
@@ -237,8 +243,8 @@ struct rst_side {
 static inline struct rst_side rst_side_find(double sliding, double v_n, double width)
 {
     const int slips = sliding > v_n;
-    const double beyond = sliding - v_n, most = width * v_n;
-    const double ratio = (beyond > 0 ? beyond : 0) / (most > rst_least ? most : rst_least);
+    const double beyond = sliding - v_n, most = width * v_n > rst_least ? width * v_n : rst_least;
+    const double ratio = (beyond > 0 ? beyond : 0) / most;
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
     const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
@@ -249,16 +255,19 @@ static inline struct rst_side rst_side_find(double sliding, double v_n, double w
                              .root = root};
 }
 
-/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of rst_side. */
+/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of rst_side; closed: 1 from psi = 1
+ * on, 0 below. */
 static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
-                                   double *quotient)
+                                   double *quotient, double *closed)
 {
     const struct rst_side at = rst_side_find(sliding, v_n, width);
     /* below the number of cells even at their end */
-    const double u = at.root * (at.slips * t->psi_cells[1]) + at.quotient * ((1 - at.slips) * t->psi_cells[0]);
+    const struct rst_psi_cells *cells = &t->psi_cells[at.slips];
+    const double u = at.root * cells->of_root + at.quotient * cells->of_psi;
     const int64_t cell = (int64_t)u;
     *s = (u - (double)cell) * rst_cubic;
     *quotient = at.quotient;
+    *closed = cells->of_closed;
     return t->start[at.slips + (at.slips & at.upper)] + cell * rst_cubic;
 }
 

@@ -3,7 +3,8 @@
  *     table_lookup
  *
  * One table of two axes at 1e-5 over six decades of speed (with the time of its build), one of four axes at 1e-2. Places are random over
- * all speeds and psi up to beyond psi_c; pow has random arguments as well. "chained": every call needs the result of the one
+ * all speeds and psi up to beyond psi_c; pow has random arguments as well. A thousand places in turn: a processor comes to foresee on
+ * which side of psi = 1 and of psi_c the next one is. A hundred thousand: it does not. "chained": every call needs the result of the one
  * before it, which measures latency. SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -14,7 +15,7 @@
 
 #include <restitute/table.h>
 
-enum { n = 1000, repeats = 1001 };
+enum { few = 1000, n = 100000, most_repeats = 1001 };
 
 static double seconds(void)
 {
@@ -32,6 +33,7 @@ static double random_unit(void)
 
 struct places {
     const restitute_table *table;
+    int count; /* few: in turn, whose sides of psi = 1 and psi_c a processor comes to foresee; n: it does not */
     double v[n], u[n], chi[n], gamma[n];
 };
 
@@ -40,7 +42,7 @@ static volatile double sink;
 static double pow_free(const struct places *p)
 {
     double sum = 0;
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < p->count; i++)
         sum += pow(p->v[i], 0.2 + 1e-9 * i);
     return sum;
 }
@@ -48,7 +50,7 @@ static double pow_free(const struct places *p)
 static double pow_chained(const struct places *p)
 {
     double x = 1;
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < p->count; i++)
         x = pow(p->v[i] + 1e-300 * x, 0.2);
     return x;
 }
@@ -57,7 +59,7 @@ static double table_free(const struct places *p)
 {
     double sum = 0;
     restitute_table_value pair;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < p->count; i++) {
         restitute_table_pair(p->table, p->v[i], p->u[i], &pair);
         sum += pair.ex;
     }
@@ -67,7 +69,7 @@ static double table_free(const struct places *p)
 static double table_chained(const struct places *p)
 {
     restitute_table_value pair = {0, 0};
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < p->count; i++)
         restitute_table_pair(p->table, p->v[i] + 1e-300 * pair.ex, p->u[i], &pair);
     return pair.ex;
 }
@@ -75,15 +77,15 @@ static double table_chained(const struct places *p)
 static double table_many(const struct places *p)
 {
     static double ez[n], ex[n];
-    restitute_table_pairs(p->table, NULL, n, p->v, p->u, ez, ex);
-    return ex[n - 1];
+    restitute_table_pairs(p->table, NULL, (size_t)p->count, p->v, p->u, ez, ex);
+    return ex[p->count - 1];
 }
 
 static double four_axes(const struct places *p)
 {
     double sum = 0;
     restitute_table_value pair;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < p->count; i++) {
         restitute_table_numbers_pair(p->table, p->chi[i], p->u[i], p->v[i], p->gamma[i], &pair);
         sum += pair.ex;
     }
@@ -93,8 +95,8 @@ static double four_axes(const struct places *p)
 static double four_axes_many(const struct places *p)
 {
     static double ez[n], ex[n];
-    restitute_table_numbers_pairs(p->table, n, p->chi, p->u, p->v, p->gamma, ez, ex);
-    return ex[n - 1];
+    restitute_table_numbers_pairs(p->table, (size_t)p->count, p->chi, p->u, p->v, p->gamma, ez, ex);
+    return ex[p->count - 1];
 }
 
 static int by_value(const void *a, const void *b)
@@ -104,13 +106,14 @@ static int by_value(const void *a, const void *b)
 
 static double median_ns(double (*work)(const struct places *), const struct places *p)
 {
-    static double samples[repeats];
+    static double samples[most_repeats];
+    const int repeats = p->count == few ? most_repeats : 51;
     for (int i = 0; i < repeats; i++) {
         const double start = seconds();
         sink = work(p);
-        samples[i] = (seconds() - start) / n * 1e9;
+        samples[i] = (seconds() - start) / p->count * 1e9;
     }
-    qsort(samples, repeats, sizeof *samples, by_value);
+    qsort(samples, (size_t)repeats, sizeof *samples, by_value);
     return samples[repeats / 2];
 }
 
@@ -153,9 +156,12 @@ static void measure_contact(struct places *p, double pow_ns, double chained_ns)
     family.scene = &scene;
     restitute_table *table = build(&family, 1e-5, "build, two axes, 1e-5");
     p->table = table;
-    report("restitute_table_pair", median_ns(table_free, p), pow_ns);
-    report("restitute_table_pairs", median_ns(table_many, p), pow_ns);
-    report("restitute_table_pair, chained", median_ns(table_chained, p), chained_ns);
+    for (p->count = few; p->count <= n; p->count *= n / few) {
+        printf("%d places:\n", p->count);
+        report("restitute_table_pair", median_ns(table_free, p), pow_ns);
+        report("restitute_table_pairs", median_ns(table_many, p), pow_ns);
+        report("restitute_table_pair, chained", median_ns(table_chained, p), chained_ns);
+    }
     restitute_table_destroy(table);
     restitute_material_destroy(rubber);
 }
@@ -175,14 +181,17 @@ static void measure_ranges(struct places *p, double pow_ns)
         p->chi[i] = 2.0 / 3 + 13.0 / 12 * random_unit();
         p->gamma[i] = 0.5 * pow(4, random_unit());
     }
-    report("restitute_table_numbers_pair", median_ns(four_axes, p), pow_ns);
-    report("restitute_table_numbers_pairs", median_ns(four_axes_many, p), pow_ns);
+    for (p->count = few; p->count <= n; p->count *= n / few) {
+        printf("%d places:\n", p->count);
+        report("restitute_table_numbers_pair", median_ns(four_axes, p), pow_ns);
+        report("restitute_table_numbers_pairs", median_ns(four_axes_many, p), pow_ns);
+    }
     restitute_table_destroy(table);
 }
 
 int main(void)
 {
-    static struct places p;
+    static struct places p = {.count = few};
     for (int i = 0; i < n; i++) {
         p.v[i] = 1e-4 * pow(1e6, random_unit());
         p.u[i] = 5 * random_unit() * p.v[i] * 0.45; /* psi up to 5 with nu = 1/2, mu = 0.3 */
