@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The loops over cells of a conjugate gradient method with bounds: K x = rhs where low < x < high, residual >= 0 where x = high, <= 0
-!> where x = low. The normal problem (Polonsky & Keer 1999) has 0 <= p, the tangential one |tau| <= mu p. A cell is free where its
-!> residual can move it. Fields are m x m cells in lines of length ld.
+!> The loops over cells of a conjugate gradient method with bounds: K x = rhs where low < x < high, residual >= 0 where x = high,
+!> <= 0 where x = low. The normal problem (Polonsky & Keer 1999) has 0 <= p, the tangential one |tau| <= mu p. A cell is free where
+!> its residual can move it. Fields are m x m cells in lines of length ld.
 module rst_bem_bounded
   use rst_precision, only: dp, ip
   implicit none (type, external)

@@ -87,8 +87,8 @@ contains
     end do
   end subroutine normal_target
 
-  !> Anchors of the cells that entered in the step. The anchor a is u_x - 1.5 U of a cell that sticks. Before it enters, both its gap
-  !> and its s = u_x - 1.5 U move as under a growing flat punch, in proportion, so s where the gap closes is extrapolated
+  !> Anchors of the cells that entered in the step. The anchor a is u_x - 1.5 U of a cell that sticks. Before it enters, both its
+  !> gap and its s = u_x - 1.5 U move as under a growing flat punch, in proportion, so s where the gap closes is extrapolated
   !> from the last two steps. In the first step the load is proportional: s = -1.5 (U/D) r^2/2.
   pure subroutine enter(ld, m, spacing, first_ratio, p, p_before, gap, gap_before, s, s_before, a) bind(c, name="rst_bem_enter")
     integer(ip), intent(in), value :: ld, m

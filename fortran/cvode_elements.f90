@@ -14,9 +14,9 @@
 !> The integral is taken of f - q, which vanishes where the contact slips forward and, but for a parallel dashpot, at
 !> the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, with the first part exact and the second by the trapezium rule
 !> up to the last element and on to the edge; cells in which slip begins
-!> are divided where it does, for the annulus of slip may be thinner than a cell. Of a term that relaxes faster than the edge passes from element to element the
-!> fading memory b is a layer at the edge that the trapezium rule would not see; it is exponential in the time since entry,
-!> so what the rule misses of it in a cell is known: width times b at its younger end times
+!> are divided where it does, for the annulus of slip may be thinner than a cell. Of a term that relaxes faster than the edge
+!> passes from element to element the fading memory b is a layer at the edge that the trapezium rule would not see; it is
+!> exponential in the time since entry, so what the rule misses of it in a cell is known: width times b at its younger end times
 !>
 !>   missed(z) = (1 + exp(-z))/2 - (1 - exp(-z))/z,   z: what passed between the entries of both ends, over tau_k.
 module rst_cvode_elements

@@ -19,8 +19,9 @@ module rst_cvode_ledger
 
 contains
 
-  !> rate: int dX of the dissipation in z and x and of the work of friction, without the factors; held_z, held_x: energy of each element
-  !> inside the edge, or of those 1..n_last, whichever are more. Memory of elements is that of the reference time, which is t.
+  !> rate: int dX of the dissipation in z and x and of the work of friction, without the factors; held_z, held_x: energy of each
+  !> element inside the edge, or of those 1..n_last, whichever are more. Memory of elements is that of the reference time, which is
+  !> t.
   subroutine energy_rates(scene, g, tau, contact, x, entry, past, motion, shift, c, b, rate_of, u_of, v_of, amplitude, shears, &
                           n_last, t, y, rate, held_z, held_x) bind(c, name="rst_cvode_energy_rates")
     type(scene_type), intent(in) :: scene

@@ -126,8 +126,8 @@ contains
     a3(1:2) = a(1:2)**3
   end subroutine guess_compression
 
-  !> What the dashpot does to depth and velocity. A strong one answers more depth with less velocity, hence less depth: Newton's step
-  !> instead of the sweep's.
+  !> What the dashpot does to depth and velocity. A strong one answers more depth with less velocity, hence less depth: Newton's
+  !> step instead of the sweep's.
   pure subroutine resist(drag, x, spacing, a, a3, d, v)
     real(dp), intent(in) :: drag, x(2), a(0:2), a3(0:2)
     type(spacing_type), intent(in) :: spacing

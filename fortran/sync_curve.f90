@@ -1,9 +1,9 @@
 !> The normal problem of the method `sync` where nothing in it is abrupt: one polynomial a phase.
 !>
-!> Compression and restitution are found at Chebyshev's points by sweeps (modules rst_sync_going_*; rst_sync_coming_* if memory lasts
-!> long, otherwise rst_sync_fading_*). Columns of `curve`, their series: A/y, D', g_k P_k, g_k M_k by y in the compression; s, D, D',
-!> g_k M_k in the restitution, by the y of the edge, falling, if memory lasts long, otherwise by z, with B in place of s. Beside M_k
-!> there is layer(k, 1)*exp(-s/tau_k) and layer(k, 2)*exp(-(s-s_m)/tau_k) in the one and the other phase.
+!> Compression and restitution are found at Chebyshev's points by sweeps (modules rst_sync_going_*; rst_sync_coming_* if memory
+!> lasts long, otherwise rst_sync_fading_*). Columns of `curve`, their series: A/y, D', g_k P_k, g_k M_k by y in the compression;
+!> s, D, D', g_k M_k in the restitution, by the y of the edge, falling, if memory lasts long, otherwise by z, with B in place of s.
+!> Beside M_k there is layer(k, 1)*exp(-s/tau_k) and layer(k, 2)*exp(-(s-s_m)/tau_k) in the one and the other phase.
 module CURVE
   use rst_precision, only: dp, ip
   use rst_sync_grid, only: mass_factor

@@ -45,8 +45,8 @@ contains
     f = f + others(:n)
   end subroutine solve_again
 
-  !> The inverse of A + x by the elimination of Gauss and Jordan, rows in the order in which they come: whole columns at a time, which
-  !> suit vectors better than triangular factors.
+  !> The inverse of A + x by the elimination of Gauss and Jordan, rows in the order in which they come: whole columns at a time,
+  !> which suit vectors better than triangular factors.
   pure subroutine invert(n, a, x, inverse)
     integer(ip), intent(in) :: n
     real(dp), intent(in) :: a(n, n), x
@@ -71,8 +71,8 @@ contains
     end do
   end subroutine invert
 
-  !> The next guess x of a sequence, of which the step `step` was found at x: where, as if it were linear, the steps before would have
-  !> led to the least step (Anderson's mixing of depth two, or one where these are alike).
+  !> The next guess x of a sequence, of which the step `step` was found at x: where, as if it were linear, the steps before would
+  !> have led to the least step (Anderson's mixing of depth two, or one where these are alike).
   pure subroutine accelerate(step, before, x)
     real(dp), intent(in) :: step(0:p)
     type(steps_type), intent(inout) :: before

@@ -1,9 +1,9 @@
 !> The restitution of the normal problem as one polynomial (module rst_sync_curve_*).
 !>
-!> The motion is smooth in time, and in the root of the time that is left: s = s_m + T (1 - z^2), z from 1 at the turning point to 0.
-!> So is the edge of contact there but for what is felt of springs that relax at once, while as a function of the edge time has a
-!> sharp bend where dashpots rule, behind the turning point. So unknown are the squares B of the edge at Chebyshev's points in z, and T.
-!> Edges are free (THEORY 4.5) where
+!> The motion is smooth in time, and in the root of the time that is left: s = s_m + T (1 - z^2), z from 1 at the turning point to
+!> 0. So is the edge of contact there but for what is felt of springs that relax at once, while as a function of the edge time has a
+!> sharp bend where dashpots rule, behind the turning point. So unknown are the squares B of the edge at Chebyshev's points in z,
+!> and T. Edges are free (THEORY 4.5) where
 !>   G_inf (D - B) + sum_k (M_k - E_k M_k(t)) + eta D' = 0,     int f dX = (2/3) G_inf B^(3/2) + sum_k E_k P_k(t),
 !> t(B) being when the compression had that edge and E_k = exp(-(s-t)/tau_k). Where E_k is felt t is found with B, in terms of
 !> (1 - t/s_m)^2, which is to B as 1 to 1 nearly, at the turning point too. What the edges lack of being free gives Newton's step of
@@ -35,8 +35,9 @@ module FADING
 
 contains
 
-  !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading: series, layer: what its M_k have
-  !> beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k). x_kept, inverse: see solve_again.
+  !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading:
+  !> series, layer: what its M_k have beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k).
+  !> x_kept, inverse: see solve_again.
   pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, inverse, delay, lead, &
                           lasts, coming, left, unfinished, failed)
     integer(ip), intent(in) :: n_terms
@@ -98,8 +99,8 @@ contains
     call shift(n_terms, g, tau, later, force, coming)
   end subroutine retreat
 
-  !> Nearly what a Kelvin-Voigt solid of that stiffness and viscosity would do if the force stayed as it is at the turning point: with
-  !> delay = viscosity/stiffness it is (s - s_m + delay)^2 = (s_m - t)^2 + delay^2. Forces fall, and so
+  !> Nearly what a Kelvin-Voigt solid of that stiffness and viscosity would do if the force stayed as it is at the turning point:
+  !> with delay = viscosity/stiffness it is (s - s_m + delay)^2 = (s_m - t)^2 + delay^2. Forces fall, and so
   !> edges are ahead of that, by `lead`, where springs settle at once.
   pure subroutine turn_round(g_inf, eta, n_terms, g, tau, turn, depth, delay, lead, lasts, edges)
     integer(ip), intent(in) :: n_terms

@@ -1,11 +1,11 @@
 !> The tangential problem of the method `sync` behind one front, without stepping elements.
 !>
 !> In most impacts all that is in contact sticks at first; then slip sets in at the edge, in one direction, and its front moves
-!> inwards until all slips or contact ends. An element that sticks has q = Q - alpha - sum_k e_k beta_k with what it was given at its
-!> entry and e_k = exp(-(s-t_X)/tau_k) (module rst_sync_shear); one that slips has q = -d f, d = 1 or -1. So with the slack
+!> inwards until all slips or contact ends. An element that sticks has q = Q - alpha - sum_k e_k beta_k with what it was given at
+!> its entry and e_k = exp(-(s-t_X)/tau_k) (module rst_sync_shear); one that slips has q = -d f, d = 1 or -1. So with the slack
 !>   y = f + d q = f_0 + d Q - (G_inf X^2 + d alpha) - sum_k e_k (M_k + d beta_k),   f_0 = f + G_inf X^2 of an unfading element,
-!> smooth in X and zero at the front c, S = int q dX = d (H - int f dX) with H = int_0^c y dX. Sums over the nodes that stick give it,
-!> and a node is taken off them when the front passes. From the onset of slip on, alpha and beta stand for G_inf X^2 + d alpha
+!> smooth in X and zero at the front c, S = int q dX = d (H - int f dX) with H = int_0^c y dX. Sums over the nodes that stick give
+!> it, and a node is taken off them when the front passes. From the onset of slip on, alpha and beta stand for G_inf X^2 + d alpha
 !> and M_k + d beta_k.
 !>
 !> Slip velocities, over d, are highest for the element that slipped last: relaxation functions are convex in logarithm, so

@@ -8,8 +8,8 @@ module rst_sync_guess
 
 contains
 
-  !> A guess of 2n levels a phase from n: every other one, and between them polynomials in the number of the level, through six of the
-  !> same phase, four if there are no six.
+  !> A guess of 2n levels a phase from n: every other one, and between them polynomials in the number of the level, through six of
+  !> the same phase, four if there are no six.
   pure subroutine double_levels(n, level)
     integer(ip), intent(in) :: n  !! 4 or more
     type(level_type), intent(inout) :: level(0:4*n)  !! the first 2n + 1 are given

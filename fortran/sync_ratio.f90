@@ -1,8 +1,8 @@
 !> int S ds over a step from level to level where the motion is smooth in the number j of the level (module rst_sync_sample).
 !>
-!> While F = int f dX rises and falls by the whole of it within few levels, S/F is smooth from first touch on; and S/A is towards the
-!> end, in stick, where S goes like the radius A, and in slip, where it is F. But F and A are known at all levels beforehand. So the
-!> weights are those with which
+!> While F = int f dX rises and falls by the whole of it within few levels, S/F is smooth from first touch on; and S/A is towards
+!> the end, in stick, where S goes like the radius A, and in slip, where it is F. But F and A are known at all levels beforehand.
+!> So the weights are those with which
 !>   int r(j) B(j) ds/dj dj,   r the cubic through S/B at the end of the step and at the three levels before it,
 !> is exact for B ds/dj as the polynomial through the six levels around the step, B = F in the compression and A in the restitution.
 !> There what they lack of int F ds is added by way of S/F at both ends of the step, so that slip is as exact. Around the turning
@@ -18,8 +18,8 @@ module rst_sync_ratio
   integer(ip), parameter :: block = 32  !! levels at a time
 
   !> Integrals over a step, in the numbers of six levels in a row, of Lagrange's polynomials of r at its levels (columns, backwards
-  !> from the end of the step) times those of F ds/dj (rows): for the first three levels of a phase, those amid it, and the last two,
-  !> where r of the very end is not known, 0/0.
+  !> from the end of the step) times those of F ds/dj (rows): for the first three levels of a phase, those amid it, and the last
+  !> two, where r of the very end is not known, 0/0.
   real(dp), parameter :: &
     first(6) = [475, 1427, -798, 482, -173, 27]/1440.0_dp, &
     second(6, 2) = reshape([-82, 1355, 4444, -902, 262, -37, &

@@ -1,4 +1,5 @@
-!> The element that slipped last behind the front of the method `sync` (module rst_sync_front): as long as it goes on slipping, all do.
+!> The element that slipped last behind the front of the method `sync` (module rst_sync_front): as long as it goes on slipping, all
+!> do.
 module rst_sync_sentinel
   use rst_precision, only: dp, ip
   use rst_sync_elements, only: scene_type, term_type

@@ -131,9 +131,9 @@ contains
                                                   *full_friction(scene%n, state%level, level)
   end subroutine follow_shear
 
-  !> Whether all slips, one way and to the end, even if lags of slip velocities, which grow by a tenth or so, doubled. Slip velocities
-  !> of elements that began to slip within a step are off by turns, up to half of what slip loses in a step, so two levels have to say
-  !> it.
+  !> Whether all slips, one way and to the end, even if lags of slip velocities, which grow by a tenth or so, doubled. Slip
+  !> velocities of elements that began to slip within a step are off by turns, up to half of what slip loses in a step, so two
+  !> levels have to say it.
   pure function slides_on(scene, level, kappa, state) result(yes)
     type(scene_type), intent(in) :: scene
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -385,9 +385,9 @@ contains
     passed = weight(0)*force + weight(1)*state%force + weight(2)*state%force_before(1) + weight(3)*state%force_before(2)
   end function impulse
 
-  !> The same where stick ends at the centre, in the step or soon after: its radius vanishes like the root of the time that is left to
-  !> it, and so what S lacks of full friction like the 3/2-th power. That is integrated by this law, full friction as before; the more
-  !> time is left, the more of the cubic there is.
+  !> The same where stick ends at the centre, in the step or soon after: its radius vanishes like the root of the time that is left
+  !> to it, and so what S lacks of full friction like the 3/2-th power. That is integrated by this law, full friction as before;
+  !> the more time is left, the more of the cubic there is.
   pure function impulse_near_sliding(direction, stuck, h, force, normal_force, cubic, weight, state) result(passed)
     real(dp), intent(in) :: direction, h, force, normal_force, cubic, weight(0:3)
     logical, intent(in) :: stuck  !! some of it, at the start

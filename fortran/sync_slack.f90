@@ -1,5 +1,5 @@
-!> The slack of the method `sync` behind its front (module rst_sync_front): sums over the nodes that stick, y at those beside the front,
-!> and how they change as the front passes a node or slip turns round.
+!> The slack of the method `sync` behind its front (module rst_sync_front): sums over the nodes that stick, y at those beside the
+!> front, and how they change as the front passes a node or slip turns round.
 module rst_sync_slack
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type

@@ -14,17 +14,19 @@ static const double grid_error_ez = 0.002, grid_error_ex = 0.04;
 /* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
 static const double largest_chi = 10, thin_slip = 0.1;
 
-/* Where next to nothing slips the traction is all but singular at the rim, and there is an error of first order in the cells besides. */
+/* Where next to nothing slips the traction is all but singular at the rim, and there is an error of first order in the
+ * cells besides. */
 static const double singular = 0.6, singular_slip = 0.01;
 
-/* A solid with next to no instantaneous compliance rings from step to step (solid.h): e_z is off by up to this if nothing damps it,
- * and by no more than usual if 1 - ringing is above the limit (docs/bem.md). */
+/* A solid with next to no instantaneous compliance rings from step to step (solid.h): e_z is off by up to this if
+ * nothing damps it, and by no more than usual if 1 - ringing is above the limit (docs/bem.md). */
 static const double most_ringing_error = 0.1, damped_enough = 0.005;
 
 /* Refining waits for an estimate that falls, be it by this. */
 static const double falls_to = 0.9;
 
-/* Steps of an impact with 60 cells over the radius, when they are chosen; of one with any number, when that is given. */
+/* Steps of an impact with 60 cells over the radius, when they are chosen; of one with any number, when that is given.
+ * */
 static const double usual_elements = 60, usual_steps = 200;
 
 /* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for chi up to 4. */

@@ -1,7 +1,7 @@
-/* The tangential problem with tractions along x and y. In turn: tau_x under what friction leaves of p beside tau_y, then tau_y, until it changes
- * no more. In cells that slip tau_y/p = v_y/v, v being the slip in the step: with v from the turn before, v_y = (v/p) tau_y is a linear resistance,
- * which the solver takes as an addition to the diagonal of K.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* The tangential problem with tractions along x and y. In turn: tau_x under what friction leaves of p beside tau_y,
+ * then tau_y, until it changes no more. In cells that slip tau_y/p = v_y/v, v being the slip in the step: with v from
+ * the turn before, v_y = (v/p) tau_y is a linear resistance, which the solver takes as an addition to the diagonal of
+ * K. SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <math.h>
 

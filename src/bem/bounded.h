@@ -5,7 +5,8 @@
 
 #include "transform.h"
 
-/* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x m in lines of ld. */
+/* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x m in lines of ld.
+ * */
 struct bem_bounded {
     struct bem_transform *transform;
     enum bem_kind kind;

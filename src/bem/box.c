@@ -1,6 +1,6 @@
-/* Box and duration. The first guess: an elastic sphere meets the solid with the modulus that it has at the time of the impact,
- * D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at the time 1.47).
- * Runs on a coarse grid correct it until they fit into their box.
+/* Box and duration. The first guess: an elastic sphere meets the solid with the modulus that it has at the time of the
+ * impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at
+ * the time 1.47). Runs on a coarse grid correct it until they fit into their box.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "box.h"
 
@@ -8,7 +8,8 @@
 
 static const int64_t coarse = 16, coarse_steps = 40;
 
-/* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again. */
+/* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again.
+ * */
 static const double generous = 1.15, least_part = 0.6;
 
 /* The guess of the time is far less wrong than this. */

@@ -1,5 +1,5 @@
-/* The impact in steps of time: velocity Verlet for the sphere (5), in each step the normal problem for p and then the tangential
- * one for tau (THEORY 8). All is of second order in the step.
+/* The impact in steps of time: velocity Verlet for the sphere (5), in each step the normal problem for p and then the
+ * tangential one for tau (THEORY 8). All is of second order in the step.
  *   D'' = -(15/64) int p dA,   U'' = -(15/32) chi int tau dA,   u_x = (3/2) U where it sticks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"
@@ -73,8 +73,9 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
     memset(x + m * ld, 0, (size_t)((ld - m) * ld) * sizeof *x);
 }
 
-/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the grid: where contact
- * will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the result. */
+/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the
+ * grid: where contact will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the
+ * result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
@@ -177,7 +178,8 @@ static int rests(const struct bem_stepper *s)
            normal_mass_factor * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
-/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact too. */
+/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact
+ * too. */
 static int leaves(const struct bem_stepper *s)
 {
     return !s->setup->problem->solid.can_sink || s->motion.velocity <= -s->setup->rest_speed;

@@ -1,7 +1,9 @@
-/* The recursion over time in its clean form. With E_k = exp(-h/lambda_k), phi_k = (1 - E_k) lambda_k/h, f changing linearly in the step:
+/* The recursion over time in its clean form. With E_k = exp(-h/lambda_k), phi_k = (1 - E_k) lambda_k/h, f changing
+ * linearly in the step:
  *   b_k' = E_k b_k + J_k phi_k (f' - f),   u' = J_inf f' - sum b_k'.
- * Its own oscillation, with u = 0, is f' = -r f; for terms slow beside the step r = (h/2 sum J_k/lambda_k - J_0)/(h/2 sum J_k/lambda_k + J_0),
- * near 1 where the instantaneous compliance is next to nothing, as in the trapezoidal rule. The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
+ * Its own oscillation, with u = 0, is f' = -r f; for terms slow beside the step r = (h/2 sum J_k/lambda_k - J_0)/(h/2
+ * sum J_k/lambda_k + J_0), near 1 where the instantaneous compliance is next to nothing, as in the trapezoidal rule.
+ * The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solid.h"
 
@@ -15,8 +17,9 @@ void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep
                        &creep->flow, &creep->n_terms, creep->compliance, creep->lambda);
 }
 
-/* A term relaxes by J_k (1 - exp(-t/lambda_k)): with lambda_k far below the duration it is J_k but for about J_k lambda_k/t of the time,
- * far above it at most J_k t/lambda_k. Both are let go where they are below this part of the compliance. */
+/* A term relaxes by J_k (1 - exp(-t/lambda_k)): with lambda_k far below the duration it is J_k but for about J_k
+ * lambda_k/t of the time, far above it at most J_k t/lambda_k. Both are let go where they are below this part of the
+ * compliance. */
 static const double negligible = 1e-6;
 
 void bem_solid_prune(double shortest, double longest, struct bem_solid *s)

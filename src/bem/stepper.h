@@ -26,7 +26,8 @@ enum bem_end bem_solve_shear(struct bem_stepper *s, double shift);
 /* The same with tractions along y, which friction turns towards the slip of each cell. */
 enum bem_end bem_solve_both(struct bem_stepper *s, double shift);
 
-/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. diagonal: added to K's, or NULL. Nonzero: not settled. */
+/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. diagonal: added to K's,
+ * or NULL. Nonzero: not settled. */
 int bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double closeness, double *x);
 
 /* Energy that the springs of the solid hold when the contact has ended. */

@@ -1,5 +1,5 @@
-/* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the images of the periodic convolution.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the images of the periodic
+ * convolution. SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include "transform.h"

@@ -1,6 +1,6 @@
-/* Boundary elements against the foundation, on impacts drawn at random: the domain is that of the truth tables in tests/data, chi from 1/3
- * (blocked rotation) to 4 (thin shells and beyond), psi from nearly full stick to slip to the end.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* Boundary elements against the foundation, on impacts drawn at random: the domain is that of the truth tables in
+ * tests/data, chi from 1/3 (blocked rotation) to 4 (thin shells and beyond), psi from nearly full stick to slip to the
+ * end. SPDX-License-Identifier: BSD-3-Clause */
 #include "bem_campaign.h"
 
 #include <math.h>

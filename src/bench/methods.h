@@ -29,7 +29,8 @@ extern const struct bench_method bench_methods[BENCH_METHODS];
 /* The method with the smallest `finest`. */
 const struct bench_method *bench_reference_method(void);
 
-/* Let the solver solve another solid, by restitute_solve_scene(), so that it is found with no knowledge of the one to be timed. */
+/* Let the solver solve another solid, by restitute_solve_scene(), so that it is found with no knowledge of the one to
+ * be timed. */
 void bench_forget(restitute_solver *solver);
 
 /* Index by name, -1 if there is none. */

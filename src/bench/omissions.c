@@ -44,7 +44,8 @@ static const struct pair pairs[BENCH_OMISSIONS] = {
 static const int64_t elements = 64;
 static const double step = 1e-3;
 
-/* Prescribed resolution leaves to the tolerance only what is merged: with the smallest one, nothing that the impact feels. */
+/* Prescribed resolution leaves to the tolerance only what is merged: with the smallest one, nothing that the impact
+ * feels. */
 static const double keep_all = 1e-8, merge = 1e-3;
 
 static int make_solid(enum solid kind, restitute_material **material, restitute_error *error)
@@ -72,7 +73,8 @@ static int make_solid(enum solid kind, restitute_material **material, restitute_
     }
 }
 
-/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are then those of the impact. */
+/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are then those of the
+ * impact. */
 struct ready {
     restitute_material *solid;
     restitute_solver *solver;

@@ -1,9 +1,9 @@
 /* What it saves to leave out what a scene does not need: for each method of the library the time of a scene that needs
  * everything over that of one that does not, in one run and in turn, elements and step prescribed and equal.
  *
- * Only the public interface is used, which never does what is not needed; so the full scene is one next to the lean one in which
- * nothing can be left out: a dashpot that is weak but not negligible, a psi below and not above 1, a friction that is not zero.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * Only the public interface is used, which never does what is not needed; so the full scene is one next to the lean
+ * one in which nothing can be left out: a dashpot that is weak but not negligible, a psi below and not above 1, a
+ * friction that is not zero. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BENCH_OMISSIONS_H
 #define BENCH_OMISSIONS_H
 

@@ -1,9 +1,11 @@
 /* The paper's algorithm, (5), (8)-(17), as published: positions first, then the forces of all elements, the inner
- * displacements by backward Euler, velocities last; fixed step, fixed elements. Every element is stepped in both directions
- * in every step, (12),(13) outside of the contact. In slip the force has the sign of the force of the step before (16), which is
- * none for an element that slips in its first step: such an element bears no force until it has stuck once.
+ * displacements by backward Euler, velocities last; fixed step, fixed elements. Every element is stepped in both
+ * directions in every step, (12),(13) outside of the contact. In slip the force has the sign of the force of the step
+ * before (16), which is none for an element that slips in its first step: such an element bears no force until it has
+ * stuck once.
  *
- * In dimensionless form, f = G_inf u + sum g_k w_k + eta u' and w_k' = u' - w_k/tau_k, an element that moves by du has the force
+ * In dimensionless form, f = G_inf u + sum g_k w_k + eta u' and w_k' = u' - w_k/tau_k, an element that moves by du has
+ * the force
  *
  *     f = b + s du,   b = G_inf u + sum g_k w_k/(1 + h/tau_k),   s = G_inf + eta/h + sum g_k/(1 + h/tau_k).
  *

@@ -37,7 +37,8 @@ struct bench_runs {
     size_t count, capacity;
 };
 
-/* What the paper's algorithm is told about a scene, favourably: radius and contact time, so that no element is wasted. */
+/* What the paper's algorithm is told about a scene, favourably: radius and contact time, so that no element is wasted.
+ * */
 struct paper_settings bench_paper_settings(const struct bench_scene *scene, enum paper_motion motion, int64_t elements,
                                            int64_t steps);
 

@@ -92,8 +92,8 @@ static int run_paper(const struct bench_scene *scene, const struct bench_method 
     return 0;
 }
 
-/* Ten times the steps, and from some elements on ten times these: a hundred times the work. A factor of four is left, since a
- * short run may have met a busy machine. */
+/* Ten times the steps, and from some elements on ten times these: a hundred times the work. A factor of four is left,
+ * since a short run may have met a busy machine. */
 static int foreseeably_slow(const struct bench_cell *coarser, double budget)
 {
     return coarser && (coarser->verdict == BENCH_TOO_SLOW || coarser->seconds * 100 > 4 * budget);

@@ -1,7 +1,7 @@
 /* Stability map: what a method makes of a prescribed number of steps, over the plane of (delta1, gamma).
  *
- * chi = 7/6, psi = 1.5, delta1 and gamma 1e-6, 1e-5, ..., 1e6; 10, 1e2, ..., 1e5 steps in a contact time, an element for every 32
- * steps, at least 4. A method that cannot take a time step is given the elements.
+ * chi = 7/6, psi = 1.5, delta1 and gamma 1e-6, 1e-5, ..., 1e6; 10, 1e2, ..., 1e5 steps in a contact time, an element
+ * for every 32 steps, at least 4. A method that cannot take a time step is given the elements.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BENCH_STABILITY_H
 #define BENCH_STABILITY_H
@@ -42,8 +42,8 @@ void bench_map_scene(int place, int quick, struct bench_scene *scene);
 /* Steps of a level, 0 <= level < MAP_LEVELS. */
 int64_t bench_map_steps(int level);
 
-/* One cell; `coarser` is the cell of the level before, NULL for the first: a cell that would exceed the budget (s) is not run.
- * Nonzero: out of memory, no cell. */
+/* One cell; `coarser` is the cell of the level before, NULL for the first: a cell that would exceed the budget (s) is
+ * not run. Nonzero: out of memory, no cell. */
 int bench_map_cell(const struct bench_scene *scene, int method, int level, double budget,
                    const struct bench_cell *coarser, struct bench_cell *cell);
 

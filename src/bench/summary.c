@@ -107,8 +107,8 @@ static double fastest(const struct bench_scenes *scenes, const struct bench_runs
     return best;
 }
 
-/* Time of the paper's algorithm at an error, between its runs on a straight line in logarithms. A coarse run that is good by
- * chance does not count: an error is that of the run or of a finer one, whichever is larger. NaN: no runs. */
+/* Time of the paper's algorithm at an error, between its runs on a straight line in logarithms. A coarse run that is
+ * good by chance does not count: an error is that of the run or of a finer one, whichever is larger. NaN: no runs. */
 static double paper_time(const struct bench_runs *runs, int paper, size_t scene, double error, int *extrapolated)
 {
     double finer_error = 0, finer_time = NAN;

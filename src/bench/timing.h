@@ -14,7 +14,8 @@ struct bench_time {
 };
 
 /* Time `work`: once to warm up, then at least five times and until a millisecond is full. Work that takes longer
- * than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it. `between`, if not NULL, is called before each and not timed. */
+ * than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it. `between`, if
+ * not NULL, is called before each and not timed. */
 struct bench_time bench_time_work(void (*work)(void *context), void (*between)(void *context), void *context,
                                   double long_work);
 

@@ -8,7 +8,8 @@
 /* What keeps the fields of a run; NULL where --fields is not given. */
 struct bem_fields_keeper;
 
-/* Refuse a place, an extension or a method that --fields cannot do; else let `options` use a method that keeps fields. */
+/* Refuse a place, an extension or a method that --fields cannot do; else let `options` use a method that keeps fields.
+ * */
 bool bem_fields_begin(const struct settings *settings, restitute_options *options, struct bem_fields_keeper **keeper,
                       struct reason *why);
 

@@ -1,5 +1,5 @@
-/* `restitute bench --bem-campaign`: set after set into PREFIX-bem.csv.partial, whose first line tells the settings. Rows of finished
- * shards may be joined: what is there already is not solved again.
+/* `restitute bench --bem-campaign`: set after set into PREFIX-bem.csv.partial, whose first line tells the settings.
+ * Rows of finished shards may be joined: what is there already is not solved again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 

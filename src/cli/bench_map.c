@@ -1,5 +1,5 @@
-/* `restitute bench --stability`: cell after cell into PREFIX-stability.csv.partial, whose first line tells the settings.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* `restitute bench --stability`: cell after cell into PREFIX-stability.csv.partial, whose first line tells the
+ * settings. SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
@@ -50,7 +50,8 @@ static void settings_line(const struct map *map, char *line, size_t size)
     if (used < size) snprintf(line + used, size - used, "\n");
 }
 
-/* Cells of an interrupted run with the same settings. A last line without its end was not written whole and is done again. */
+/* Cells of an interrupted run with the same settings. A last line without its end was not written whole and is done
+ * again. */
 static bool read_partial(struct map *map, struct reason *why)
 {
     char expected[256], line[512];

@@ -28,8 +28,8 @@ struct event_table {
 const char *event_column_name(int column, bool physical);
 const char *event_column_unit(int column, bool physical);
 
-/* Refuse --events in a build without the component, with a method that logs none, and a name that ends in nothing known; without
- * --method, take cvode. */
+/* Refuse --events in a build without the component, with a method that logs none, and a name that ends in nothing
+ * known; without --method, take cvode. */
 bool events_check(struct settings *settings, struct reason *why);
 
 /* Solve, with the events. Returns the library's status. */

@@ -30,7 +30,8 @@ struct materials {
 /* The material of this file, read on first use. NULL if it cannot be read. It belongs to `materials`. */
 const struct material_entry *materials_get(struct materials *materials, const char *path, struct reason *why);
 
-/* The solid that this material and the one in the file `partner` are to each other, made on first use; NULL: refused. */
+/* The solid that this material and the one in the file `partner` are to each other, made on first use; NULL: refused.
+ * */
 const restitute_material *materials_pair(struct materials *materials, const struct material_entry *entry,
                                          const char *partner, struct reason *why);
 

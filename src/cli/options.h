@@ -51,10 +51,12 @@ struct settings {
 /* What to do after reading the command line. */
 enum reading { READING_GO_ON, READING_STOP, READING_FAILED };
 
-/* Read the options behind `restitute pair` or `restitute history`: arguments[1] is the subcommand. STOP: help was printed. */
+/* Read the options behind `restitute pair` or `restitute history`: arguments[1] is the subcommand. STOP: help was
+ * printed. */
 enum reading options_read(int count, char **arguments, struct settings *settings);
 
-/* Refuse outputs that would replace the case file or a material file, or one another; at most one is standard output. */
+/* Refuse outputs that would replace the case file or a material file, or one another; at most one is standard output.
+ * */
 bool settings_check_places(const struct settings *settings, struct reason *why);
 
 void options_release(struct settings *settings);

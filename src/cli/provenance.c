@@ -46,7 +46,8 @@ static json_t *described(struct materials *materials, const char *path)
                      json_of_fingerprint(entry->info.fingerprint));
 }
 
-/* All materials that the rows name, each once: their contents belong to the inputs that a resumed run must find again. */
+/* All materials that the rows name, each once: their contents belong to the inputs that a resumed run must find again.
+ * */
 static json_t *materials_of_column(const struct cases *cases, size_t column, struct materials *materials)
 {
     json_t *object = json_object();

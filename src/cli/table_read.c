@@ -138,8 +138,8 @@ static void set_defaults(struct query *q)
 static const enum table_text speed_options[] = {TABLE_NORMAL_SPEED, TABLE_TANGENTIAL_SPEED};
 static const enum table_text number_options[] = {TABLE_CHI, TABLE_PSI, TABLE_DELTA1, TABLE_GAMMA};
 
-/* The name of the first value that lies outside the table, which takes it as the end; NULL: none does. An elastic table is the same
- * for all speeds, or all delta1 and gamma. */
+/* The name of the first value that lies outside the table, which takes it as the end; NULL: none does. An elastic
+ * table is the same for all speeds, or all delta1 and gamma. */
 static const char *outside(const struct query *q)
 {
     const restitute_table_info *i = &q->info;
@@ -294,8 +294,8 @@ static double psi_of(double place, double chi, double ez)
     return place <= 1 ? place : 1 + (place - 1) * (restitute_critical_psi(chi, fmin(1, fmax(0, ez))) - 1);
 }
 
-/* ex of a node, as it is kept: the axes go on to the seams around the range asked for, where a lookup would take its end. `node`: of the
- * first two axes. Beyond psi = 1 it is what ex exceeds full slip by that is kept. */
+/* ex of a node, as it is kept: the axes go on to the seams around the range asked for, where a lookup would take its
+ * end. `node`: of the first two axes. Beyond psi = 1 it is what ex exceeds full slip by that is kept. */
 static double stored_ex(const restitute_table_data *d, int64_t node, int64_t k, int64_t l, double chi, double psi)
 {
     if (d->psi_factor > 1e300 && d->of_contact) return -1; /* no friction */

@@ -8,8 +8,8 @@
 #include "kernels.h"
 #include "status.h"
 
-/* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer division
- * than space for errors of like size (docs/theory.md, "The default method"). */
+/* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer
+ * division than space for errors of like size (docs/theory.md, "The default method"). */
 static const double steps_per_element = 16;
 static const int64_t first_elements = 8;
 
@@ -46,7 +46,8 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
 }
 
-/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi - 1. */
+/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi -
+ * 1. */
 static int moves_tangentially(const struct rst_problem *problem)
 {
     return problem->mode != RST_FRICTIONLESS &&
@@ -290,8 +291,8 @@ static int euler_solve(const struct rst_problem *problem, struct rst_workspace *
     return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
 }
 
-/* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly from the two outermost,
- * by at most one cell. */
+/* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly from the two
+ * outermost, by at most one cell. */
 static double zero_beyond(double spacing, int64_t n, double outermost, double neighbour)
 {
     double position = ((double)n - 0.5) * spacing;

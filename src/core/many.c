@@ -119,7 +119,8 @@ static int report_first(const struct batch *batch, const struct worker *workers,
                       first.error.message);
 }
 
-/* The size that the first struct of an array names tells how far apart all are: of another version, none can be found. */
+/* The size that the first struct of an array names tells how far apart all are: of another version, none can be found.
+ * */
 static int check_batch(const struct batch *batch, int threads, restitute_error *error)
 {
     if (threads < 0 || threads > most_threads)

@@ -8,7 +8,8 @@
 
 struct restitute_method {
     const char *name;
-    /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none left. */
+    /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none
+     * left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
     int takes_time_step;       /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
     int takes_all_terms;       /* no merging: a fast term would become a dashpot, which this method cannot do */
@@ -21,8 +22,8 @@ struct restitute_method {
                   struct rst_history *history, restitute_error *error);
 };
 
-/* The method and the workspace of a solver, for components of the same version that bring a method. Exported from the shared
- * library, but no part of its interface. */
+/* The method and the workspace of a solver, for components of the same version that bring a method. Exported from the
+ * shared library, but no part of its interface. */
 RESTITUTE_API const struct restitute_method *restitute_private_method(const restitute_solver *solver);
 RESTITUTE_API struct rst_workspace *restitute_private_workspace(restitute_solver *solver);
 

@@ -64,8 +64,8 @@ static void elastic_constants(const restitute_material *a, const restitute_mater
     *beta = ((1 - 2 * a->nu) * ja - (1 - 2 * b->nu) * jb) / (2 * normal);
 }
 
-/* The moduli of the pair at first and for ever must be those of two springs in series: a lost term would show. 1e-9: rounding of
- * the sum, with room. */
+/* The moduli of the pair at first and for ever must be those of two springs in series: a lost term would show. 1e-9:
+ * rounding of the sum, with room. */
 static int is_sound(const struct rst_chain *a, const double *m_a, const struct rst_chain *b, const double *m_b,
                     const struct rst_chain *pair, const double *m)
 {

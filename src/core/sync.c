@@ -22,14 +22,14 @@ static const double part_taken = 1.0 / 25;
 static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, least_slip = 0.02,
                     rounding_of_level = 6e-13;
 
-/* Where slip stays behind one front errors are smaller. (Levels that are told are those of the history too, for which elements are
- * stepped.) */
+/* Where slip stays behind one front errors are smaller. (Levels that are told are those of the history too, for which
+ * elements are stepped.) */
 static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behind_front = 0.06;
 
-/* There one run alone says enough, unless all but nothing slips or slip turns round: of 44 000 random runs with 16 to 144
- * levels 99 in 100 are off by less than this times max(1, chi)^(3/2) n^-3 and the larger of n^(-1/2) and a tenth (half of them by
- * an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall more slowly, where relaxation
- * is much faster than the impact. */
+/* There one run alone says enough, unless all but nothing slips or slip turns round: of 44 000 random runs with 16 to
+ * 144 levels 99 in 100 are off by less than this times max(1, chi)^(3/2) n^-3 and the larger of n^(-1/2) and a tenth
+ * (half of them by an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall
+ * more slowly, where relaxation is much faster than the impact. */
 static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
 /* Part of that where the normal problem is known as polynomials: with up to 16 levels, and from 20 on. */
 static const double part_if_smooth = 0.5, part_if_many = 0.4, few = 16;
@@ -38,8 +38,8 @@ static const double most_alone = 160;
 /* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
 static const double least_levels = 16, least_smooth = 14;
 
-/* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound of `tiny`, from so
- * many levels on that slip is followed at all; at `tiny`: `least_alone`. */
+/* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound
+ * of `tiny`, from so many levels on that slip is followed at all; at `tiny`: `least_alone`. */
 static const double more_if_small = 2, tiny = 0.03, growth_below_tiny = 1.3, least_alone = 128, more_levels = 0.45;
 
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
@@ -122,7 +122,8 @@ struct run {
     double velocity;
 };
 
-/* stepped: with elements, 1: from the start, 0: if slip does not stay behind one front, -1: never; then there is no velocity. */
+/* stepped: with elements, 1: from the start, 0: if slip does not stay behind one front, -1: never; then there is no
+ * velocity. */
 static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
                          const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
 {
@@ -130,8 +131,9 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
     struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
     scene.stepped = stepped;
-    workspace->kernel->follow_shear(&scene, workspace->kernel->elements, s->g, s->tau, store->level, store->trace, store->node, store->body,
-                     store->beta, store->faded, store->term, &shear);
+    const struct sync_kernel *kernel = workspace->kernel;
+    kernel->follow_shear(&scene, kernel->elements, s->g, s->tau, store->level, store->trace, store->node, store->body,
+                         store->beta, store->faded, store->term, &shear);
     *run = (struct run){.levels = store->levels,
                         .updates = 2 * store->levels + shear.updates * (1 + s->n_terms),
                         .one_front = shear.updates == 0,
@@ -164,8 +166,8 @@ static void note_normal(const struct rst_problem *problem, const struct normal *
         outcome->max_normal_force = 15.0 / 8.0 * rst_sync_curve_force(problem, normal);
 }
 
-/* What that adds to the estimate, times n^-2 and, as nothing turns round where damping is strong, at most twice the rebound: three
- * times the errors seen, or more (docs/accuracy.md). */
+/* What that adds to the estimate, times n^-2 and, as nothing turns round where damping is strong, at most twice the
+ * rebound: three times the errors seen, or more (docs/accuracy.md). */
 static double second_order_error(double chi)
 {
     if (chi > 0.5 && chi < 0.5 + all_but_even) return 4 * usual_error_then;
@@ -354,8 +356,8 @@ static double levels_needed(const struct rst_problem *problem, const struct norm
     return rst_sync_levels_to_start(problem->tolerance, swings);
 }
 
-/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs with
- * half and maybe a quarter of them, but about `least` if that is less. */
+/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs
+ * with half and maybe a quarter of them, but about `least` if that is less. */
 static int64_t levels_at_will(const struct rst_problem *problem, const struct normal *normal, int64_t least)
 {
     const double needed = levels_needed(problem, normal), ratio = fmax(1, floor(needed / (double)least));
@@ -388,9 +390,10 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
     return status;
 }
 
-/* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where elements have to be
- * stepped after all, the latter two may do, if their estimate leaves room for changes that are small by chance: of 6000 impacts each where
- * the sphere hardly rebounds, at 3e-5, 9e-5 and 3e-4, at most 39 estimates were too low. */
+/* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where
+ * elements have to be stepped after all, the latter two may do, if their estimate leaves room for changes that are
+ * small by chance: of 6000 impacts each where the sphere hardly rebounds, at 3e-5, 9e-5 and 3e-4, at most 39 estimates
+ * were too low. */
 static void runs_beside(const struct rst_problem *problem, const struct rst_workspace *workspace,
                         const struct normal *normal, const struct store *store, int runs, int first_is_left,
                         struct run *before, struct run *now, double *change_before, struct rst_outcome *outcome)
@@ -411,8 +414,8 @@ static void runs_beside(const struct rst_problem *problem, const struct rst_work
     if (runs > 2) *change_before = before->velocity - quarter.velocity;
 }
 
-/* The first run, and others beside it, unless it may stand alone. If the updates allowed may not be enough, it is the half one
- * alone, which tells what the other would take. */
+/* The first run, and others beside it, unless it may stand alone. If the updates allowed may not be enough, it is the
+ * half one alone, which tells what the other would take. */
 static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                       const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
                       double *change_before, struct rst_outcome *outcome, restitute_error *error)

@@ -1,5 +1,5 @@
-/* The levels that the tangential problem of the method `sync` is followed on, made from those of the normal problem, and
- * its arrays of elements. SPDX-License-Identifier: BSD-3-Clause */
+/* The levels that the tangential problem of the method `sync` is followed on, made from those of the normal problem,
+ * and its arrays of elements. SPDX-License-Identifier: BSD-3-Clause */
 #include "kernels.h"
 #include "status.h"
 #include "sync_run.h"
@@ -82,7 +82,8 @@ size_t rst_sync_first_room(int64_t levels, int64_t n_terms)
     return lay_out_rungs(NULL, levels, rst_sync_first_runs, n_terms, rung);
 }
 
-/* Every other level of the rung before each of the rungs `made` to count - 1; runs are made on those from `first` on. */
+/* Every other level of the rung before each of the rungs `made` to count - 1; runs are made on those from `first` on.
+ * */
 static void thin_rungs(const struct rst_problem *problem, const struct normal *normal, int made, int first, int count,
                        const struct store *rung)
 {

@@ -12,15 +12,16 @@ static enum sync_sliding sliding(const struct rst_problem *problem, double rebou
     return rst_sync_sticks(problem, rebound) ? RST_STICKS : RST_SLIPS_TO_THE_END;
 }
 
-/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to `velocity`. */
+/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
+ * `velocity`. */
 static double gross_slip_work(double chi, double psi, double velocity)
 {
     return 4 * chi * ((psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
 }
 
-/* A sphere that has sunk in is not followed. Of its energy nothing is left at the end of time, neither in it nor in springs,
- * which all relax: what friction did not take is viscous work. Friction is that of gross slip, to its end if it ends;
- * slip at the edge after that is counted as viscous. */
+/* A sphere that has sunk in is not followed. Of its energy nothing is left at the end of time, neither in it nor in
+ * springs, which all relax: what friction did not take is viscous work. Friction is that of gross slip, to its end if
+ * it ends; slip at the edge after that is counted as viscous. */
 static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     const double chi = problem->chi, psi = problem->psi;

@@ -23,8 +23,8 @@ static const double left_in_levels = 0.3;
 /* Iterations stop when velocities change by less than this part of the tolerance, or by what rounding leaves. */
 static const double closeness = 0.002, rounding = 1e-12;
 
-/* So many times less close are the first two runs: no result rests on them but by a small part of what they change, and the next
- * run, which they guess for. */
+/* So many times less close are the first two runs: no result rests on them but by a small part of what they change,
+ * and the next run, which they guess for. */
 static const double slack_of_first_runs[] = {10, 3};
 
 /* The levels of the tangential problem are denser, and n of them move the edge by n^-2 at the turning point: what is
@@ -39,8 +39,8 @@ double rst_sync_swings(const struct rst_problem *problem)
     return fmax(1, problem->chi * 6 / 7);
 }
 
-/* What the normal problem is asked for follows chi in these steps, so that impacts on one solid whose chi is alike share
- * its solution. */
+/* What the normal problem is asked for follows chi in these steps, so that impacts on one solid whose chi is alike
+ * share its solution. */
 double rst_sync_stepped_swings(const struct rst_problem *problem)
 {
     const double swings = rst_sync_swings(problem) / 1.001; /* rounding of chi = 7/6 is not to cost a step */

@@ -37,8 +37,8 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
-/* Whether polynomials are worth a trial, which depends on whether little slips; if so, try: normal->degree is 0 if they are not good enough. `room`: of
- * rst_sync_curve_room doubles. */
+/* Whether polynomials are worth a trial, which depends on whether little slips; if so, try: normal->degree is 0 if
+ * they are not good enough. `room`: of rst_sync_curve_room doubles. */
 int rst_sync_is_thin(const struct rst_problem *problem);
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid);
 void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal);
@@ -78,7 +78,8 @@ struct store {
     double *beta, *faded;     /* n_terms times capacity */
 };
 
-/* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2). */
+/* Whether elements are needed: not without friction, nor in slip to the end, which is known once e_z is (THEORY 4.2).
+ * */
 int rst_sync_sticks(const struct rst_problem *problem, double rebound);
 
 struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct store *store);
@@ -102,8 +103,8 @@ struct kept {
 };
 struct kept *rst_sync_kept(const struct rst_shelf *shelf);
 
-/* The levels of the first `needed` of up to `runs` runs, on the shelf, where they are kept for other impacts on the solid, and
- * where asking again for more of the same runs goes on; the arrays of elements are the same for all. */
+/* The levels of the first `needed` of up to `runs` runs, on the shelf, where they are kept for other impacts on the
+ * solid, and where asking again for more of the same runs goes on; the arrays of elements are the same for all. */
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
                           const struct normal *normal, const struct resolution *resolution, int runs, int needed,
                           struct store *store, double *largest_force, restitute_error *error);

@@ -30,8 +30,8 @@ static double denser_sphere(const restitute_scene *scene)
                                                         : fmax(first, sphere_density(scene->mass2, scene->radius2));
 }
 
-/* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves do
- * not travel: the ratio is infinite. */
+/* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves
+ * do not travel: the ratio is infinite. */
 static double shear_wave_speed(const restitute_scene *scene, double time)
 {
     double density = scene->density > 0 ? scene->density : denser_sphere(scene);

@@ -1,5 +1,5 @@
-/* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or fixed-point iteration, and
- * messages that are kept and never printed.
+/* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or fixed-point iteration,
+ * and messages that are kept and never printed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
 

@@ -30,7 +30,8 @@ struct integrator_counts {
 
 struct integrator;
 
-/* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y: the states at t, copied. */
+/* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y: the states at t,
+ * copied. */
 int integrator_create(const struct integrator_system *system, double t, const double *y, struct integrator **integrator,
                       char *text, int text_size);
 void integrator_destroy(struct integrator *integrator);

@@ -1,5 +1,5 @@
-/* The energy ledger of the method cvode (THEORY 4.8): the run once more, with what dissipates and what leaves added up by the
- * trapezium rule over CVODE's steps and over the elements that leave.
+/* The energy ledger of the method cvode (THEORY 4.8): the run once more, with what dissipates and what leaves added up
+ * by the trapezium rule over CVODE's steps and over the elements that leave.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,8 @@
 #include "report.h"
 #include "solve.h"
 
-/* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the others. */
+/* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
+ * others. */
 static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
 /* What has been added up, and what was last seen. */
@@ -71,7 +72,8 @@ static void post(struct run *run, double from, double to)
     keeper->inside = inside;
 }
 
-/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to `velocity`. */
+/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
+ * `velocity`. */
 static double gross_slip_work(double chi, double psi, double velocity)
 {
     return 4 * chi * ((psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
@@ -86,7 +88,8 @@ static void add_gross_slip(const struct run_setup *setup, double end, struct eul
         ledger->friction_x += gross_slip_work(setup->chi, setup->psi, end);
 }
 
-/* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all relax. */
+/* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all
+ * relax. */
 static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
 {
     struct euler_ledger *ledger = &outcome->ledger;

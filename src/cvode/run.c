@@ -14,20 +14,20 @@
 /* Root functions before those of the elements. */
 enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 
-/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root of the error of a step:
- * Hermite's cubic between them, of fourth order, then errs by less than a hundredth of that. */
+/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root of the error of a
+ * step: Hermite's cubic between them, of fourth order, then errs by less than a hundredth of that. */
 static const double knot_factor = 0.5;
 
-/* Functions of elements that are 0 by construction are shifted by this part of the allowed error, so that CVODE does not
- * take them for events; an element changes its motion that much later. */
+/* Functions of elements that are 0 by construction are shifted by this part of the allowed error, so that CVODE does
+ * not take them for events; an element changes its motion that much later. */
 static const double shift_of_root = 1e-3;
 
-/* A step after which elements prove to have stuck for a while is taken back if that changed U' by more than this part of the
- * error allowed. */
+/* A step after which elements prove to have stuck for a while is taken back if that changed U' by more than this part
+ * of the error allowed. */
 static const double late_part = 1;
 
-/* The velocity of a sphere that may sink in is followed more closely where it is small: it must not pass through 0 by errors
- * while it is told from rest_speed. */
+/* The velocity of a sphere that may sink in is followed more closely where it is small: it must not pass through 0 by
+ * errors while it is told from rest_speed. */
 static const double sinking_scale = 0.02;
 
 /* Below this psi tangential stresses are small beside the normal ones almost everywhere. */
@@ -135,8 +135,8 @@ static void call_newton(void *owner, double gamma, const double *y, const double
     rst_cvode_solve_newton(&run->scene, s->g, s->tau, &run->contact, &run->sums, gamma, y, b, x);
 }
 
-/* Relative for what may grow, absolute by the scales of the impact: velocities 1 (tangential ones psi), stresses those that stop
- * the sphere. */
+/* Relative for what may grow, absolute by the scales of the impact: velocities 1 (tangential ones psi), stresses those
+ * that stop the sphere. */
 static void call_weights(void *owner, const double *y, double *weight)
 {
     const struct run *run = owner;
@@ -310,7 +310,8 @@ static void fade_to(struct run *run, double t)
     run->scene.reference = t;
 }
 
-/* Elements that have entered up to now get their memory, which is kept from now on. Nonzero: CVODE does not reach back. */
+/* Elements that have entered up to now get their memory, which is kept from now on. Nonzero: CVODE does not reach
+ * back. */
 static int admit(struct run *run, double t)
 {
     const struct elements *e = &run->elements;
@@ -340,8 +341,8 @@ static void begin_step(struct run *run)
     evaluate(run, run->time, run->y, run->start_rate);
 }
 
-/* All elements in contact stick with the force that they slipped with: tangential memory is that of the normal side, and with
- * U = D nothing else is to be kept. */
+/* All elements in contact stick with the force that they slipped with: tangential memory is that of the normal side,
+ * and with U = D nothing else is to be kept. */
 static void take_over_gross_slip(struct run *run)
 {
     const struct elements *e = &run->elements;
@@ -392,7 +393,8 @@ static int note(struct run *run, int kind, double position, int elements)
     return log_add(run->log, &event) ? fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for events") : RESTITUTE_OK;
 }
 
-/* How much U' has suffered from elements that have stuck since now, over a weight of contact, until the end of CVODE's step. */
+/* How much U' has suffered from elements that have stuck since now, over a weight of contact, until the end of CVODE's
+ * step. */
 static double suffered(struct run *run, double weight)
 {
     const struct rst_solid *s = &run->setup->solid;
@@ -416,8 +418,8 @@ static void watch(struct run *run)
                          e->d, e->f, run->time, run->y, e->value);
 }
 
-/* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if the slip
- * has come to its end: CVODE did not watch them. */
+/* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if
+ * the slip has come to its end: CVODE did not watch them. */
 static void find_changes(struct run *run, int64_t first, const int *fell)
 {
     const struct elements *e = &run->elements;
@@ -426,7 +428,8 @@ static void find_changes(struct run *run, int64_t first, const int *fell)
         e->change[i] = fell[i] || (i >= first && e->motion[i] != RST_ELEMENT_STICKS && e->value[i] <= nearly(run));
 }
 
-/* At the end of a step those that are past their change by more than errors can explain: they entered and changed within it. */
+/* At the end of a step those that are past their change by more than errors can explain: they entered and changed
+ * within it. */
 static int find_late(struct run *run)
 {
     const struct elements *e = &run->elements;
@@ -546,8 +549,8 @@ static int extend_trace(struct run *run, double from)
     return RESTITUTE_OK;
 }
 
-/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units of the impact
- * energy: below rest_speed^2 the sphere stays (THEORY 4.9). */
+/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units
+ * of the impact energy: below rest_speed^2 the sphere stays (THEORY 4.9). */
 static int is_lost(const struct run *run)
 {
     const struct rst_solid *s = &run->setup->solid;

@@ -69,12 +69,13 @@ struct run {
     char text[200];
 };
 
-/* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is released by run_release(),
- * whatever the status. */
+/* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is released by
+ * run_release(), whatever the status. */
 int run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log);
 void run_release(struct run *run);
 
-/* States at a time within the last step, with the contact and, where there are elements, their margins and sums. Nonzero: not there. */
+/* States at a time within the last step, with the contact and, where there are elements, their margins and sums.
+ * Nonzero: not there. */
 int run_look(struct run *run, double t, const double **y);
 
 /* The contact, margins and sums of where the run is. */

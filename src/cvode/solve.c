@@ -7,8 +7,8 @@
 #include "report.h"
 #include "solve.h"
 
-/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add up to this
- * many times as much (docs/cvode.md). */
+/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add
+ * up to this many times as much (docs/cvode.md). */
 static const double closeness_part = 2e-3, adding_up = 50;
 
 /* The normal side is also followed this much less closely; a part of the change is left. */
@@ -17,13 +17,13 @@ static const double looser = 10, share_of_change_ez = 0.3;
 /* Rounding in CVODE's predictions. */
 static const double closest = 1e-13;
 
-/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left is judged
- * by how much that result changed from half as many elements. A change may be small by chance, so the error of the median impact,
- * 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
+/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left
+ * is judged by how much that result changed from half as many elements. A change may be small by chance, so the error
+ * of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
-/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a small part of the
- * tolerance. */
+/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
+ * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
 
 /* The rest of the tolerance is for merged terms. */
@@ -34,17 +34,18 @@ static const int64_t most_elements = 16384;
 /* Events that an element may have before it counts as a storm, and steps that mean that something is wrong. */
 static const int64_t most_events = 64, most_steps = 1000000;
 
-/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where the
- * pair needs none. */
+/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where
+ * the pair needs none. */
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
-/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it is faster than
- * the other, Adams' formulas would take their steps at the limit of stability, where their error is not estimated any more. */
+/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it
+ * is faster than the other, Adams' formulas would take their steps at the limit of stability, where their error is not
+ * estimated any more. */
 static const double stiff = 30, too_stiff = 300;
 
-/* Estimate of the largest indentation: energy balance with the modulus of that age (THEORY 4.4 has the exact motion). It gives
- * scales, on which nothing depends but the work. */
+/* Estimate of the largest indentation: energy balance with the modulus of that age (THEORY 4.4 has the exact motion).
+ * It gives scales, on which nothing depends but the work. */
 static double likely_depth(const struct rst_solid *s)
 {
     double depth = 1;
@@ -109,7 +110,8 @@ static void add_work(struct cvode_memory *memory, const struct run *run)
     memory->updates += run->updates;
 }
 
-/* The normal side alone, followed `looser` times less closely and as closely as is wanted; its trace stays in memory. */
+/* The normal side alone, followed `looser` times less closely and as closely as is wanted; its trace stays in memory.
+ * */
 static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
                         restitute_error *error)
 {
@@ -203,8 +205,8 @@ static int64_t halved(int64_t n, int times)
     return (n + ((int64_t)1 << times) - 1) >> times;
 }
 
-/* A first run, with a quarter of the elements or as few as an eighth of what is left to spend allows: the next one takes four times as
- * much, and what trials cost that were too dear stays small. */
+/* A first run, with a quarter of the elements or as few as an eighth of what is left to spend allows: the next one
+ * takes four times as much, and what trials cost that were too dear stays small. */
 static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
                         restitute_error *error)
 {
@@ -217,8 +219,8 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
     }
 }
 
-/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all of them. Once
- * more as much is left for coarser ones. */
+/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all
+ * of them. Once more as much is left for coarser ones. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
     return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
@@ -261,7 +263,8 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     return RESTITUTE_OK;
 }
 
-/* Elements are doubled until the pair settles. What stands in the way of that leaves the pair as it is, with a remark. */
+/* Elements are doubled until the pair settles. What stands in the way of that leaves the pair as it is, with a remark.
+ * */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
@@ -305,8 +308,8 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
                       problem->tolerance, outcome->error_ez, outcome->error_ex);
 }
 
-/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation being blocked,
- * it slides slower and slower without a closed form. */
+/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
+ * being blocked, it slides slower and slower without a closed form. */
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)
 {
@@ -319,8 +322,8 @@ static int stay(const struct rst_problem *problem, const struct run_setup *setup
             problem->chi, problem->psi);
     outcome->shear_velocity =
         slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
-    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all sticks, psi < 1, U' falls
-     * with D' in proportion */
+    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all
+     * sticks, psi < 1, U' falls with D' in proportion */
     outcome->error_ez = setup->rest_speed;
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->psi);

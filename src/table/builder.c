@@ -6,13 +6,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that those that
- * are interpolated may take all of the tolerance; those of the checks have theirs added to the difference. Where checks fail for
- * no other reason, the first is lessened (docs/table.md). */
+/* Impacts are solved to this part of the tolerance. The estimate of sync is ten times its usual error or more, so that
+ * those that are interpolated may take all of the tolerance; those of the checks have theirs added to the difference.
+ * Where checks fail for no other reason, the first is lessened (docs/table.md). */
 static const double part_for_filling = 1, part_for_checks = 0.5, part_for_cell_checks = 0.2;
 
-/* Of one impact at a node of a cell, about a thousand levels: a few that hardly rebound would take a hundred times the usual work, and tell
- * by their estimates that they did not. */
+/* Of one impact at a node of a cell, about a thousand levels: a few that hardly rebound would take a hundred times the
+ * usual work, and tell by their estimates that they did not. */
 static const int64_t most_updates = 3000000;
 
 /* Times that points are added after a check. */
@@ -246,8 +246,9 @@ static int solve_alone(const struct piece *p, int64_t i, double factor, const re
     return restitute_solve_many(options, 1, &impact, &p->results[i], NULL, 1, error);
 }
 
-/* An impact that the solver gives up, such as some with psi = 2 chi, whose slip would end just where D' = 0 (THEORY 4.3), is solved a
- * millionth beside, or else to larger tolerances; its estimated error says what it is worth. What is refused in the end is named. */
+/* An impact that the solver gives up, such as some with psi = 2 chi, whose slip would end just where D' = 0 (THEORY
+ * 4.3), is solved a millionth beside, or else to larger tolerances; its estimated error says what it is worth. What is
+ * refused in the end is named. */
 static int solve_again(const struct restitute_table_builder *b, const struct piece *p, int64_t i,
                        restitute_options options, restitute_error *error)
 {
@@ -351,8 +352,8 @@ static int remember(struct restitute_table_builder *b)
     return 0;
 }
 
-/* Largest differences of the table to the impacts of the checks, and the panels where they are too large. A check beyond psi = 1 that
- * is recalled was at the psi_c of an earlier table, within the error of ez. */
+/* Largest differences of the table to the impacts of the checks, and the panels where they are too large. A check
+ * beyond psi = 1 that is recalled was at the psi_c of an earlier table, within the error of ez. */
 static void compare(struct restitute_table_builder *b)
 {
     b->worst_ez = b->worst_ex = 0;

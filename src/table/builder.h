@@ -1,15 +1,17 @@
 /* The build of a table, as a machine that can stop after any impact.
  *
- *   probing    lines of impacts along every axis, at the middle and at the corners of the others, tell how many Chebyshev
+ *   probing    lines of impacts along every axis, at the middle and at the corners of the others, tell how many
+ * Chebyshev
  *              points each axis needs; a line that is not resolved is doubled
  *   filling    impacts at all products of these points
  *   checking   the table is made from them, finer and with local polynomials (table_form.h), and compared with impacts
- *              half way between the points in all axes, and in the middles of some of its cells; if the difference is too large: panels are halved or get more points,
+ *              half way between the points in all axes, and in the middles of some of its cells; if the difference is
+ * too large: panels are halved or get more points,
  *              and what is not yet known is filled in
  *
- * Every stage has two parts: first the impacts with psi <= 1, then those beyond, whose places depend on e_z through psi_c.
- * All impacts that were solved are kept in the order in which they were asked for, which depends on nothing but the family
- * and the options; a build goes on from them when it is resumed.
+ * Every stage has two parts: first the impacts with psi <= 1, then those beyond, whose places depend on e_z through
+ * psi_c. All impacts that were solved are kept in the order in which they were asked for, which depends on nothing but
+ * the family and the options; a build goes on from them when it is resumed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_BUILDER_H
 #define RST_TABLE_BUILDER_H

@@ -37,8 +37,8 @@ static inline rst_four rst_four_of(float x)
     return (rst_four){x, x, x, x};
 }
 
-/* ez at places w and gamma in its cell. The functions of both go side by side, and so do coefficients that differ in an end
- * of gamma, or of w. */
+/* ez at places w and gamma in its cell. The functions of both go side by side, and so do coefficients that differ in
+ * an end of gamma, or of w. */
 static inline double rst_sum_rebound(const double *c, double w, double gamma)
 {
     const rst_two u = {w, gamma}, other = 1 - u, fourfold = 4 * u, parabola = fourfold * other;
@@ -82,7 +82,8 @@ static inline void rst_four_functions(rst_four u, rst_four f[rst_places])
     f[4] = u;
 }
 
-/* Four rows, `stride` apart, each times one of four values. Sums are kept short, since additions wait for each other. */
+/* Four rows, `stride` apart, each times one of four values. Sums are kept short, since additions wait for each other.
+ * */
 static inline rst_four rst_sum_rows(const float *c, int64_t stride, rst_four value)
 {
     const rst_four low = rst_four_of(value[0]) * rst_four_at(c) + rst_four_of(value[1]) * rst_four_at(c + stride);
@@ -101,8 +102,9 @@ static inline double rst_sum_pair(const struct rst_pair_functions *first, rst_fo
     return (double)((total[0] + total[1]) + (total[2] + total[3]));
 }
 
-/* ex in a cell whose table has an axis of chi; u: psi, chi, w, gamma. The rows of coefficients: 16 for each function of the
- * ends of psi and chi, and then the last of each of these; 8 for each of their middles; 4 for each of the others. */
+/* ex in a cell whose table has an axis of chi; u: psi, chi, w, gamma. The rows of coefficients: 16 for each function
+ * of the ends of psi and chi, and then the last of each of these; 8 for each of their middles; 4 for each of the
+ * others. */
 static inline double rst_sum_cell(const float *c, rst_four u)
 {
     rst_four f[rst_places];
@@ -118,7 +120,8 @@ static inline double rst_sum_cell(const float *c, rst_four u)
                         rst_sum_rows(c + 12, 16, second.ends), second.ends * rst_four_at(last));
 }
 
-/* The same without an axis of chi: 16 for each end of psi, and the last of both; 8 for the middle; 4 for each quarter. */
+/* The same without an axis of chi: 16 for each end of psi, and the last of both; 8 for the middle; 4 for each quarter.
+ * */
 static inline double rst_sum_without_chi(const float *c, rst_four u)
 {
     rst_four f[rst_places];

@@ -5,14 +5,16 @@
 #include <float.h>
 #include <stdlib.h>
 
-/* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together: ez shifts psi_c. */
+/* Parts of the tolerance that the polynomial of a cell may miss where it is compared with impacts, all axes together:
+ * ez shifts psi_c. */
 static const double part_for_rebound = 0.15, part_for_tangent = 0.8;
 
-/* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the solver's errors, which are up
- * to several times its estimates in a few corners, must not be taken for that. */
+/* Impacts at nodes are solved to these parts of the tolerance: cells are halved where a few impacts miss, and the
+ * solver's errors, which are up to several times its estimates in a few corners, must not be taken for that. */
 static const double part_for_rebound_nodes = 0.03, part_for_nodes = 0.3;
 
-/* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few cells, and that of ex rests on it. */
+/* A cell is compared with impacts at so many places: on its edges along each axis, and inside. The tree of ez has few
+ * cells, and that of ex rests on it. */
 enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside = 8 };
 
 /* Rounds of checks that may fail, and tables whose seams may tell before the checks do. */
@@ -21,8 +23,8 @@ enum { most_rounds = 12, most_seam_rounds = 2 };
 /* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
 
-/* Nodes of cells at the ends of the range of delta1 lie outside, no farther than by this factor, since a root spans 2 octaves of w, and an
- * octave of gamma 1 of h; there ez must be known. */
+/* Nodes of cells at the ends of the range of delta1 lie outside, no farther than by this factor, since a root spans 2
+ * octaves of w, and an octave of gamma 1 of h; there ez must be known. */
 static const double beyond_range = 8;
 
 static int64_t width_of(const double range[2])

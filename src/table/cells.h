@@ -1,10 +1,13 @@
 /* The build of a table with axes of delta1 and of gamma: trees of cells (tree.h), halved where they need it.
  *
- *   nodes      Impacts at the nodes of all cells of a depth, half way between them on edges, and inside. Where these differ too much from the
- *              polynomial of the cell, it is halved. Along what is the same for all cells of a depth: what most of them ask for. An octave
+ *   nodes      Impacts at the nodes of all cells of a depth, half way between them on edges, and inside. Where these
+ * differ too much from the
+ *              polynomial of the cell, it is halved. Along what is the same for all cells of a depth: what most of
+ * them ask for. An octave
  *              of gamma is halved along gamma where enough of its cells ask for that.
  *   rebound    First the tree of ez alone; then, with psi_c from that, the tree of ex.
- *   checking   The table is compared with impacts at arbitrary places in every new cell; cells where that fails are halved, too. All checks that
+ *   checking   The table is compared with impacts at arbitrary places in every new cell; cells where that fails are
+ * halved, too. All checks that
  *              were ever made are compared with the last table.
  *
  * The order of all depends on nothing but family and options.
@@ -116,8 +119,8 @@ void rst_cell_place(const struct rst_growth *g, const struct rst_leaf *at, struc
 /* Whether a place on the lattice is in a cell. */
 int rst_cell_holds(const struct rst_growth *g, const struct rst_leaf *cell, const double at[rst_cell_axes]);
 
-/* The numbers at a place on the lattice, counted in its steps. Beyond psi = 1 psi follows from y and the table of ez; while that grows it is
- * so large that the contact slips to the end. */
+/* The numbers at a place on the lattice, counted in its steps. Beyond psi = 1 psi follows from y and the table of ez;
+ * while that grows it is so large that the contact slips to the end. */
 struct rst_place {
     double delta1, gamma, w, chi, psi, y, ez;
 };
@@ -130,12 +133,13 @@ double rst_cells_h(const struct rst_octaves *gamma, int64_t octave, double place
 /* Whether a place is in what was asked for. */
 int rst_cells_asked(const struct restitute_table_builder *b, double delta1, double gamma);
 
-/* Checks (checks.c): in all leaves that have none, nonzero: out of memory; and what comes of all. The table that was compared becomes the draft. */
+/* Checks (checks.c): in all leaves that have none, nonzero: out of memory; and what comes of all. The table that was
+ * compared becomes the draft. */
 int rst_checks_plan(struct restitute_table_builder *b);
 void rst_checks_compare(struct restitute_table_builder *b);
 
-/* From the trees that have grown to a table (seams.c); the first: of ez alone. Where cells of unlike size touch, the nodes of the smaller
- * one tell what the larger one misses, which may fail then. Nonzero: out of memory. */
+/* From the trees that have grown to a table (seams.c); the first: of ez alone. Where cells of unlike size touch, the
+ * nodes of the smaller one tell what the larger one misses, which may fail then. Nonzero: out of memory. */
 int rst_cells_make_rebound(struct restitute_table_builder *b);
 int rst_cells_make(struct restitute_table_builder *b, restitute_table **table);
 

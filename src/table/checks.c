@@ -4,7 +4,8 @@
 
 #include "cells.h"
 
-/* At least so many in all, and two in a cell as long as that is not many; and places drawn until one is in the range. */
+/* At least so many in all, and two in a cell as long as that is not many; and places drawn until one is in the range.
+ * */
 enum { least_checks = 10000, many_cells = 30000, most_tries = 200 };
 
 static int add_check(struct restitute_table_builder *b, struct rst_check check)
@@ -23,14 +24,16 @@ static int add_check(struct restitute_table_builder *b, struct rst_check check)
     return rst_plan_add(b, p);
 }
 
-/* Where a check fails by more than this part of the tolerance even before the cell's nodes are put on its neighbours', it is its own fault. */
+/* Where a check fails by more than this part of the tolerance even before the cell's nodes are put on its neighbours',
+ * it is its own fault. */
 static const double part_of_own = 0.8;
 
 /* Additive recurrences of the plastic number's kind for four axes: evenly spread, and no period of the cells. */
 static const double spread[rst_cell_axes] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                              0.5385972572236101};
 
-/* An arbitrary place of what was asked for in a cell, number n of all that are drawn; nonzero: there is none at that gamma. */
+/* An arbitrary place of what was asked for in a cell, number n of all that are drawn; nonzero: there is none at that
+ * gamma. */
 static int place_in_cell(const struct restitute_table_builder *b, int64_t k, int64_t n, double at[rst_cell_axes])
 {
     const struct rst_cells *c = b->cells;
@@ -127,7 +130,8 @@ static double missed_by_own(const struct restitute_table_builder *b, const struc
     return fabs((kept + p.y * p.ez) / psi - check->solved.ex) + check->solved.error_ex;
 }
 
-/* A check has failed: its cell fails, or where its own impacts would do, the neighbours on whose polynomials its nodes were put. */
+/* A check has failed: its cell fails, or where its own impacts would do, the neighbours on whose polynomials its nodes
+ * were put. */
 static void blame(struct restitute_table_builder *b, struct rst_cell *cell, const struct rst_check *check)
 {
     int blamed = 0;

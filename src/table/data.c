@@ -10,8 +10,8 @@
 static const int64_t most_cells_of_psi = 1 << 20, most_terms = 1 << 20;
 static const double most_values = 1e11;
 
-/* Of tables with cells: parts of gamma in all roots; the highest delta1 and gamma, whose w must be finite; widths of roots and where they
- * begin, far beyond any w. */
+/* Of tables with cells: parts of gamma in all roots; the highest delta1 and gamma, whose w must be finite; widths of
+ * roots and where they begin, far beyond any w. */
 static const double most_parts = 1 << 24, most_of_axis = 1 << 30;
 static const int64_t narrowest_root = -8, widest_root = 4, farthest_root = 1 << 20;
 
@@ -180,8 +180,9 @@ static int set_cells(const restitute_table_data *d, restitute_table *form, resti
     return check_chain(d, error);
 }
 
-/* Leaves that are in the roots and do not overlap. Whether they fill the roots is not asked, since a build leaves out what no delta1 of its
- * range reaches: where there is none a lookup takes another, so that it cannot leave the arrays. */
+/* Leaves that are in the roots and do not overlap. Whether they fill the roots is not asked, since a build leaves out
+ * what no delta1 of its range reaches: where there is none a lookup takes another, so that it cannot leave the arrays.
+ * */
 static int plant(const int64_t *leaves, int64_t count, const char *name, struct rst_tree *tree, restitute_error *error)
 {
     const struct rst_leaf *leaf = (const struct rst_leaf *)(const void *)leaves;

@@ -1,6 +1,6 @@
-/* From impacts at Chebyshev points to a table: the polynomials through them are taken at the nodes of the table's cells, whose
- * number is doubled until the local polynomials differ from the global ones by a small part of the tolerance.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* From impacts at Chebyshev points to a table: the polynomials through them are taken at the nodes of the table's
+ * cells, whose number is doubled until the local polynomials differ from the global ones by a small part of the
+ * tolerance. SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
 #include "builder.h"

@@ -209,7 +209,8 @@ static int same_material(const restitute_table *t, const restitute_material *mat
     return same;
 }
 
-/* The solid sees its own times over T, and T goes with v^(-1/5): a contact that is longer by f is one at f^-5 of the speed. */
+/* The solid sees its own times over T, and T goes with v^(-1/5): a contact that is longer by f is one at f^-5 of the
+ * speed. */
 static int bind_own(const restitute_table *t, const restitute_scene *scene, const restitute_numbers *n,
                     restitute_table_contact *c, restitute_error *error)
 {

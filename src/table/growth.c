@@ -5,7 +5,8 @@
 #include "cells.h"
 #include "parallel.h"
 
-/* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for something else. */
+/* An octave of gamma is halved along gamma where so many of its failing cells ask for that, for one that asks for
+ * something else. */
 static const double share_for_gamma = 0.3;
 
 static const int axis_of_chain[rst_alongs] = {[RST_ALONG_W] = RST_W, [RST_ALONG_CHI] = RST_C, [RST_ALONG_PSI] = RST_P};
@@ -65,7 +66,8 @@ static int is_asked(const struct rst_growth *g, const struct restitute_table_bui
     return beyond > 1 || (high.gamma <= range[1][1] * (1 + margin) && low.gamma >= range[1][0] * (1 - margin));
 }
 
-/* `whole`: what it is a half of, NULL: a root; as_asked: it was halved along the axis along which its polynomial misses most. */
+/* `whole`: what it is a half of, NULL: a root; as_asked: it was halved along the axis along which its polynomial
+ * misses most. */
 static int add_cell(struct rst_growth *g, const struct restitute_table_builder *b, struct rst_leaf at,
                     const struct rst_cell *whole, int as_asked)
 {

@@ -20,8 +20,8 @@ static struct rst_spot_on_lattice node_at(const struct rst_spot_on_lattice *corn
     return spot;
 }
 
-/* On an edge of the cell along an axis, half way between two nodes, where its halves have nodes; for rst_cell_axes in place of an axis
- * inside, at eighths, where the products of high powers are that the polynomial lacks. */
+/* On an edge of the cell along an axis, half way between two nodes, where its halves have nodes; for rst_cell_axes in
+ * place of an axis inside, at eighths, where the products of high powers are that the polynomial lacks. */
 static struct rst_spot_on_lattice place_to_compare(const struct rst_spot_on_lattice *corner,
                                                    const int32_t step[rst_cell_axes], int64_t cell, int axis, int n)
 {

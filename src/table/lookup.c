@@ -1,5 +1,5 @@
-/* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only function of
- * libm is, in tables of ranges, the fifth root of the speed, which cannot set errno for what gets here.
+/* Looking up a pair: tensor products of the weights of table_form.h. Nothing is written but the outputs; the only
+ * function of libm is, in tables of ranges, the fifth root of the speed, which cannot set errno for what gets here.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 
@@ -90,7 +90,8 @@ static double tangential(const restitute_table *t, const struct place *p, double
     return sum_general(t, p, chi, node, s) + closed * (full * quotient - 1);
 }
 
-/* psi = sliding/v_n; v_n may be 0 and sliding infinite. Apart from the case of two axes, which needs fewer registers to be saved. */
+/* psi = sliding/v_n; v_n may be 0 and sliding infinite. Apart from the case of two axes, which needs fewer registers
+ * to be saved. */
 #if defined(__GNUC__)
 __attribute__((__noinline__))
 #endif

@@ -1,6 +1,6 @@
-/* Many places of a table of two axes, speed and psi, at once: step by step for all of a block, so that no place waits for another one and
- * that compilers may take vectors. The same operations as for one place (lookup.c), so the same bits.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* Many places of a table of two axes, speed and psi, at once: step by step for all of a block, so that no place waits
+ * for another one and that compilers may take vectors. The same operations as for one place (lookup.c), so the same
+ * bits. SPDX-License-Identifier: BSD-3-Clause */
 #include "lookup.h"
 
 /* Where the places of a block are. */
@@ -50,7 +50,8 @@ static void find_speeds(const restitute_table *t, int n, const double *speed, st
         ez[i] = smaller(larger(ez[i], 0), 1);
 }
 
-/* rst_psi_find of many: u is the place in cells, of which the stick side begins at 0 and both halves of the slip side too. */
+/* rst_psi_find of many: u is the place in cells, of which the stick side begins at 0 and both halves of the slip side
+ * too. */
 static void find_psi(const restitute_table *t, int n, const double *sliding, const double *v_n, const double *ez,
                      struct seats *at)
 {

@@ -34,7 +34,8 @@ int64_t rst_nodes_need(struct rst_nodes *nodes, struct rst_spot_on_lattice spot)
 /* The value at a place that was needed. */
 double rst_nodes_value(const struct rst_nodes *nodes, struct rst_spot_on_lattice spot);
 
-/* The numbers of those that are not solved, in an order in which impacts on one solid follow each other; to be freed. NULL: out of memory. */
+/* The numbers of those that are not solved, in an order in which impacts on one solid follow each other; to be freed.
+ * NULL: out of memory. */
 int64_t *rst_nodes_new(const struct rst_nodes *nodes);
 
 void rst_nodes_clear(struct rst_nodes *nodes);

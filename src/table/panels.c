@@ -1,5 +1,5 @@
-/* The points of an axis: Chebyshev points in each of its panels. Panels of speed and gamma are halved where checks fail, since ex has
- * lines across which its second derivative jumps (docs/table.md); the other axes have one panel.
+/* The points of an axis: Chebyshev points in each of its panels. Panels of speed and gamma are halved where checks
+ * fail, since ex has lines across which its second derivative jumps (docs/table.md); the other axes have one panel.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
 #include "interpolation.h"
@@ -37,7 +37,8 @@ void rst_panels_nodes(const struct rst_panels *p, double *x)
     }
 }
 
-/* Half way between the points, which is where a polynomial through them is worst. Returns how many; 1 without an axis. */
+/* Half way between the points, which is where a polynomial through them is worst. Returns how many; 1 without an axis.
+ * */
 int64_t rst_panels_half_ways(const struct rst_panels *p, double *x)
 {
     double fine[2 * rst_most_points];

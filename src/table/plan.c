@@ -30,7 +30,8 @@ void rst_plan_begin(struct restitute_table_builder *b)
     b->part = 0;
 }
 
-/* The columns that probes go through: the middle and the corners of all axes but `along`, that is, 1, 3 or 5 of them. */
+/* The columns that probes go through: the middle and the corners of all axes but `along`, that is, 1, 3 or 5 of them.
+ * */
 struct columns {
     int count;
     double u[9][3];
@@ -104,8 +105,8 @@ int rst_plan_probes(struct restitute_table_builder *b)
     return 0;
 }
 
-/* Fewest points whose neglected coefficients have a norm below `goal`; n + 1 if the last ones are not small either. The norm and not
- * the sum: the solver's errors are in all of them alike, and would add up. */
+/* Fewest points whose neglected coefficients have a norm below `goal`; n + 1 if the last ones are not small either.
+ * The norm and not the sum: the solver's errors are in all of them alike, and would add up. */
 static int64_t points_needed(const double *value, int64_t n, double goal)
 {
     double *row = malloc((size_t)(n * n + n) * sizeof *row);

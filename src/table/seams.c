@@ -1,14 +1,14 @@
-/* From trees that have grown to a table (cells.h). Of two cells that touch, the deeper one is nowhere wider (tree.h): its nodes on their
- * common face are put on the polynomials of the other. Cells are finished from the shallowest on, so that those are final.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* From trees that have grown to a table (cells.h). Of two cells that touch, the deeper one is nowhere wider (tree.h):
+ * its nodes on their common face are put on the polynomials of the other. Cells are finished from the shallowest on,
+ * so that those are final. SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
 #include "cells.h"
 #include "parallel.h"
 
-/* What a cell may miss at the nodes of its smaller neighbours: beyond that part of the tolerance it fails, if its own impacts tell no better
- * polynomial than what is left of it; beyond the second part of what it may miss where it is compared, if that is why a check of the
- * neighbour fails. */
+/* What a cell may miss at the nodes of its smaller neighbours: beyond that part of the tolerance it fails, if its own
+ * impacts tell no better polynomial than what is left of it; beyond the second part of what it may miss where it is
+ * compared, if that is why a check of the neighbour fails. */
 static const double part_at_seams = 1, part_to_blame = 0.3;
 
 /* A tree with the values at the nodes of its leaves, then their coefficients. */
@@ -107,7 +107,8 @@ static int is_shallower(const struct rst_leaf *a, const struct rst_leaf *b)
     return a->depth < b->depth || (a->depth == b->depth && a->level < b->level);
 }
 
-/* The shallowest leaf that touches the part of the boundary which lies in a direction, if it is shallower than the leaf itself; else -1. */
+/* The shallowest leaf that touches the part of the boundary which lies in a direction, if it is shallower than the
+ * leaf itself; else -1. */
 static void find_masters(const struct harvest *h, int64_t leaf, int64_t master[directions])
 {
     struct rst_spot_on_lattice corner;
@@ -187,7 +188,8 @@ static int misses(const struct harvest *h, int64_t leaf, const struct rst_spot_o
     return fabs(off) > most * psi_at(h, spot);
 }
 
-/* The node of a leaf goes where the other leaf's polynomial is. If that is far from the impact at the node, the other leaf fails. */
+/* The node of a leaf goes where the other leaf's polynomial is. If that is far from the impact at the node, the other
+ * leaf fails. */
 static void put_on(struct harvest *h, int64_t leaf, int64_t other, const struct rst_spot_on_lattice *spot,
                    double *value)
 {

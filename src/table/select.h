@@ -1,5 +1,5 @@
-/* Selections of numbers that are not foreseen: compilers like to make branches of `?:`, and every other lookup would take
- * the wrong one.
+/* Selections of numbers that are not foreseen: compilers like to make branches of `?:`, and every other lookup would
+ * take the wrong one.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_SELECT_H
 #define RST_TABLE_SELECT_H

@@ -1,13 +1,15 @@
 /* The polynomials of a cell of a tree: serendipity elements of degree four.
  *
- * Along one axis there are five places, u = 0, 1/4, 1/2, 3/4, 1, in three levels: the ends have level 0 and straight lines, the middle
- * level 1 and the parabola that is 0 at the ends, the quarters level 2 and quartics that are 0 at all other places. A cell has only the
- * nodes whose levels, added over the axes, are at most 2, 136 of 5^4, and as coefficients what the value at a node exceeds the lower levels by. That
- * holds all terms up to fourth order but no products of many high powers, which are small: cells of 4^4 nodes, cubics along all axes, have larger errors.
- * On a face only the nodes of the face count, and what is so on a face is so on a part of it: cells that share them are continuous.
+ * Along one axis there are five places, u = 0, 1/4, 1/2, 3/4, 1, in three levels: the ends have level 0 and straight
+ * lines, the middle level 1 and the parabola that is 0 at the ends, the quarters level 2 and quartics that are 0 at
+ * all other places. A cell has only the nodes whose levels, added over the axes, are at most 2, 136 of 5^4, and as
+ * coefficients what the value at a node exceeds the lower levels by. That holds all terms up to fourth order but no
+ * products of many high powers, which are small: cells of 4^4 nodes, cubics along all axes, have larger errors. On a
+ * face only the nodes of the face count, and what is so on a face is so on a part of it: cells that share them are
+ * continuous.
  *
- * The axes go in pairs: (w, gamma) and (psi, chi). A pair has 17 functions: four of level 0, four of level 1, nine of level 2.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * The axes go in pairs: (w, gamma) and (psi, chi). A pair has 17 functions: four of level 0, four of level 1, nine of
+ * level 2. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_SERENDIPITY_H
 #define RST_TABLE_SERENDIPITY_H
 
@@ -23,8 +25,8 @@ enum {
     rst_functions_without_chi = 50
 };
 
-/* The nodes of a cell in the order in which its coefficients are kept: for all functions of psi and chi of level 0 the first 16 of w and
- * gamma; for these again the last of them; for those of level 1 eight, of level 2 four. */
+/* The nodes of a cell in the order in which its coefficients are kept: for all functions of psi and chi of level 0 the
+ * first 16 of w and gamma; for these again the last of them; for those of level 1 eight, of level 2 four. */
 struct rst_serendipity {
     int64_t count;
     int8_t at[rst_most_functions][rst_cell_axes]; /* places, 0 to 4 */

@@ -135,7 +135,8 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
     slope->ex_psi -= full / (psi * psi);
 }
 
-/* In full slip 1 + ex is 2 chi (1 + ez) v_n/(f v_t): by v_n and v_t it is smooth down to v_n = 0, where psi is infinite. */
+/* In full slip 1 + ex is 2 chi (1 + ez) v_n/(f v_t): by v_n and v_t it is smooth down to v_n = 0, where psi is
+ * infinite. */
 static void full_slip_by_speeds(double chi, double ez, double ez_normal, double factor, double v_n, double v_t,
                                 restitute_table_slope *slope)
 {

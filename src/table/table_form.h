@@ -1,17 +1,19 @@
 /* The inside of a table: how it is laid out, and how a place in it is found.
  *
- * Values are kept at nodes. Along the speed (or delta1) and along gamma an octave of the number is divided into 2^k equal cells,
- * each with a cubic through four nodes that are evenly spaced. So cell and place in the cell are the leading and the other bits of
- * the number itself, and no logarithm is taken. Along psi: even cells from 0 to 1, then for
- * y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c, which are dense at both
- * ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as well; so have even cells of chi. Cells share the nodes at their seams.
+ * Values are kept at nodes. Along the speed (or delta1) and along gamma an octave of the number is divided into 2^k
+ * equal cells, each with a cubic through four nodes that are evenly spaced. So cell and place in the cell are the
+ * leading and the other bits of the number itself, and no logarithm is taken. Along psi: even cells from 0 to 1, then
+ * for y = (psi - 1)/(psi_c - 1) even cells of r(y) up to y = 1/2 and of r(1 - y) beyond, r(y) = sqrt(y + c^2) - c,
+ * which are dense at both ends (THEORY 9: there ex has singular curvature; c keeps slopes finite); each has a cubic as
+ * well; so have even cells of chi. Cells share the nodes at their seams.
  *
- * A table with axes of delta1 and gamma has a tree of cells for ez and one for ex (tree.h). A cell keeps the coefficients of its polynomial
- * (serendipity.h) side by side, in single precision for ex: a lookup then reads a run of memory.
+ * A table with axes of delta1 and gamma has a tree of cells for ez and one for ex (tree.h). A cell keeps the
+ * coefficients of its polynomial (serendipity.h) side by side, in single precision for ex: a lookup then reads a run
+ * of memory.
  *
- * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c. In cells of a tree that is
- * psi ex - y ez beyond psi = 1, which is ex at psi = 1 and 0 at psi_c, where ex is ez/psi_c: continuous there whatever the error of ez.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c. In cells
+ * of a tree that is psi ex - y ez beyond psi = 1, which is ex at psi = 1 and 0 at psi_c, where ex is ez/psi_c:
+ * continuous there whatever the error of ez. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
 
@@ -51,8 +53,9 @@ struct rst_octaves {
     double scale;     /* 3/2^shift */
 };
 
-/* Cells over the length of psi in [0, 1] and of r in [0, r(1/2)], next below that, on one side of psi = 1, 0 on the other; how much of
- * the closed form of slip to the end is kept aside. What is not foreseen is looked up, not branched for. */
+/* Cells over the length of psi in [0, 1] and of r in [0, r(1/2)], next below that, on one side of psi = 1, 0 on the
+ * other; how much of the closed form of slip to the end is kept aside. What is not foreseen is looked up, not branched
+ * for. */
 struct rst_psi_cells {
     double of_psi, of_root, of_closed;
 };
@@ -115,7 +118,8 @@ double rst_chi_node(const restitute_table *form, int64_t i);
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
 
-/* h: delta1 h(gamma) = 1/3 is about where ex turns sharply; a power of gamma for small gamma, gamma itself for large. */
+/* h: delta1 h(gamma) = 1/3 is about where ex turns sharply; a power of gamma for small gamma, gamma itself for large.
+ * */
 double rst_table_h(double gamma);
 
 /* Set the roots so that they hold delta1 in [low, high] for all gamma of the axis. width: log2 of their octaves. */
@@ -155,8 +159,8 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
-/* Place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as that of libm. The logarithm of
- * the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128, up to r^5. */
+/* Place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as that of libm. The
+ * logarithm of the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128, up to r^5. */
 static inline double rst_w_place(const struct rst_w_axis *w, double number)
 {
     const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
@@ -231,8 +235,8 @@ static const double rst_soft = 1.0 / 64;
 /* Smallest divisor: nothing is divided by 0, for programs that trap that. */
 static const double rst_least = 0x1p-1000;
 
-/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width. Both sides go the same way without a branch, since which one it is
- * cannot be foreseen. */
+/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width. Both sides go the same way without a
+ * branch, since which one it is cannot be foreseen. */
 struct rst_side {
     int slips, upper; /* upper: y > 1/2 */
     double quotient;  /* psi, or 1/psi for psi > 1 */
@@ -255,8 +259,8 @@ static inline struct rst_side rst_side_find(double sliding, double v_n, double w
                              .root = root};
 }
 
-/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of rst_side; closed: 1 from psi = 1
- * on, 0 below. */
+/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of
+ * rst_side; closed: 1 from psi = 1 on, 0 below. */
 static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
                                    double *quotient, double *closed)
 {
@@ -286,8 +290,8 @@ static inline double rst_slip_part(double sliding, double v_n, double width)
     return rst_clamp(rst_larger(sliding - v_n, 0) / (width + rst_least), 0, 1);
 }
 
-/* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do behind
- * the square root. */
+/* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do
+ * behind the square root. */
 static inline double rst_slip_place(double y)
 {
     const double half = 0.5 * rst_slip_sheets, scale = half / rst_largest_r, from_middle = 0.5 - y;
@@ -313,8 +317,8 @@ static inline struct rst_sheet rst_sheet_of(double u, double y, double quotient)
                               .quotient = quotient};
 }
 
-/* For psi = sliding/v_n up to psi_c = 1 + width/v_n. What follows waits for the place, so a guess of the side is faster than
- * both sides, even if every other one is wrong. */
+/* For psi = sliding/v_n up to psi_c = 1 + width/v_n. What follows waits for the place, so a guess of the side is
+ * faster than both sides, even if every other one is wrong. */
 static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double width)
 {
     if (!(sliding > v_n)) return rst_sheet_of(sliding / (v_n + rst_least) * rst_below_one, 0, 1);
@@ -322,8 +326,8 @@ static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double
     return rst_sheet_of(rst_slip_place(y), y, v_n / sliding);
 }
 
-/* The same, to the bit, by both sides and a selection: where many are found one after the other nothing waits, and a wrong
- * guess costs more. */
+/* The same, to the bit, by both sides and a selection: where many are found one after the other nothing waits, and a
+ * wrong guess costs more. */
 static inline struct rst_sheet rst_sheet_select(double sliding, double v_n, double width)
 {
     const double larger = rst_if_larger(sliding, v_n, sliding, v_n + rst_least);

@@ -150,8 +150,8 @@ static int32_t any_leaf(const struct rst_tree *t, int32_t next)
     return next < 0 ? next : nowhere;
 }
 
-/* No way may lead nowhere: places that no one asks for have the leaf beside them. There is a fan even if none is needed,
- * since a lookup reads one before it knows. */
+/* No way may lead nowhere: places that no one asks for have the leaf beside them. There is a fan even if none is
+ * needed, since a lookup reads one before it knows. */
 static void fill_gaps(struct rst_tree *t, const int64_t *finest)
 {
     if (t->fans == 0) new_fan(t);

@@ -1,11 +1,11 @@
 /* A tree of cells: how a table with axes of delta1 and of gamma is divided.
  *
- * The axes of the cells are gamma, by octaves; w = delta1 h(gamma), by its logarithm; chi; and places of psi. ex turns sharply near
- * w = 1/3 for small gamma, whatever gamma is (docs/table.md), so that cells may be wide in gamma and narrow in w. A root is an octave of
- * gamma, a width of log2 w, all of chi and a sheet of psi. It is halved again and again along w, chi or psi, always in the same order
- * (`chain`), and along gamma, at depths that the octave has of its own. So of two cells that touch, the one that is deeper is nowhere
- * wider than the other, and the values at its nodes on their common face can be put on the polynomials of the other: the table is
- * continuous.
+ * The axes of the cells are gamma, by octaves; w = delta1 h(gamma), by its logarithm; chi; and places of psi. ex turns
+ * sharply near w = 1/3 for small gamma, whatever gamma is (docs/table.md), so that cells may be wide in gamma and
+ * narrow in w. A root is an octave of gamma, a width of log2 w, all of chi and a sheet of psi. It is halved again and
+ * again along w, chi or psi, always in the same order (`chain`), and along gamma, at depths that the octave has of its
+ * own. So of two cells that touch, the one that is deeper is nowhere wider than the other, and the values at its nodes
+ * on their common face can be put on the polynomials of the other: the table is continuous.
  *
  * A place is found by the bits of its coordinates in the order of the chain, four at a time.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -70,8 +70,8 @@ void rst_tree_begin(struct rst_roots of, const int8_t *chain, int64_t length, st
 /* Whether there is such a leaf, whatever else there is. */
 int rst_tree_takes(const struct rst_tree *tree, const struct rst_leaf *leaf);
 
-/* Make room for the leaves, copy them, and make the fans that lead to them; where there is no leaf they lead to another. Returns 0; 1: out
- * of memory; 2: leaves overlap, or there are none. */
+/* Make room for the leaves, copy them, and make the fans that lead to them; where there is no leaf they lead to
+ * another. Returns 0; 1: out of memory; 2: leaves overlap, or there are none. */
 int rst_tree_plant(struct rst_tree *tree, const struct rst_leaf *leaf, int64_t leaves);
 
 /* Make one of fans that are the same; without memory for that they stay. */
@@ -85,7 +85,8 @@ static inline int32_t rst_tree_part(double u)
     return (int32_t)(u * (1 << rst_most_halvings));
 }
 
-/* Which halves such a part is in, along one axis, in the places of the chain; those of the axes are put together by `or`. */
+/* Which halves such a part is in, along one axis, in the places of the chain; those of the axes are put together by
+ * `or`. */
 static inline uint32_t rst_tree_code_of(const struct rst_tree *t, enum rst_along along, int32_t part)
 {
     const int32_t half = rst_most_halvings / 2;
@@ -110,7 +111,8 @@ static inline const int32_t *rst_tree_start(const struct rst_tree *t, int64_t oc
     return &t->start[at * t->of.sheets];
 }
 
-/* What is behind the first fan, without a branch: most leaves are behind one, many before it, and which cannot be foreseen. */
+/* What is behind the first fan, without a branch: most leaves are behind one, many before it, and which cannot be
+ * foreseen. */
 static inline int32_t rst_tree_first(const struct rst_tree *t, int32_t start, uint32_t code)
 {
     const int32_t is_leaf = start >> 31, behind = t->fan[start & ~is_leaf][code >> (rst_deepest - rst_fan_bits)];

@@ -1,6 +1,6 @@
-/* Fans that lead to the same leaves become one. Parts of gamma in a root with finer parts elsewhere have ways of their own
- * through larger leaves: in a table of 92 000 leaves 31 000 of 112 000 fans are left, and a lookup finds more of them near by.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* Fans that lead to the same leaves become one. Parts of gamma in a root with finer parts elsewhere have ways of their
+ * own through larger leaves: in a table of 92 000 leaves 31 000 of 112 000 fans are left, and a lookup finds more of
+ * them near by. SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 #include <string.h>
 

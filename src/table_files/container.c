@@ -1,8 +1,8 @@
 /* The block of text with the checksum, and files that get their name when they are complete.
  *
- * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>", a line for those who look into
- * it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind the block: a change of one of them always changes it.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>", a line for those
+ * who look into it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind the block: a change of one of
+ * them always changes it. SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
 #include "container.h"
@@ -152,8 +152,9 @@ static int fail_writing(restitute_error *error, const char *path)
     return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(errno));
 }
 
-/* A new, empty file beside the final one, with the mode that a new file has. Where links lead to: it is the file that is replaced,
- * not the link. Process and attempt in its name keep it apart from those of others. NULL: none, see errno. */
+/* A new, empty file beside the final one, with the mode that a new file has. Where links lead to: it is the file that
+ * is replaced, not the link. Process and attempt in its name keep it apart from those of others. NULL: none, see
+ * errno. */
 static char *new_beside(const char *path)
 {
     enum { attempts = 1000 };

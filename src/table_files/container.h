@@ -41,7 +41,8 @@ int rst_old_file_open(const char *path, const char *title, int oldest_schema, st
                       restitute_error *error);
 void rst_old_file_close(struct rst_old_file *file);
 
-/* Datasets and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size asked for. */
+/* Datasets and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size asked for.
+ * */
 enum rst_kind { RST_DOUBLES, RST_SINGLES, RST_INTEGERS /* of 64 bits */ };
 int rst_put_values(hid_t place, const char *name, enum rst_kind kind, int rank, const int64_t *size, const void *value,
                    const char *units, const char *description);

@@ -136,7 +136,8 @@ static hid_t open_set(hid_t place, const char *name)
     return H5Lexists(place, name, H5P_DEFAULT) > 0 ? H5Dopen2(place, name, H5P_DEFAULT) : -1;
 }
 
-/* Values are stored as they are, so that there cannot be more of them than bytes in the file: what is made room for is bounded. */
+/* Values are stored as they are, so that there cannot be more of them than bytes in the file: what is made room for is
+ * bounded. */
 static int fits(hid_t place, int64_t count)
 {
     hsize_t bytes;
