@@ -86,7 +86,7 @@ static double tangential(const restitute_table *t, const struct place *p, double
 {
     double s, quotient, closed;
     if (t->stick_cells == 0) return sum_general(t, p, chi, 0, 0);
-    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient, &closed);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width * v_n, &s, &quotient, &closed);
     return sum_general(t, p, chi, node, s) + closed * (full * quotient - 1);
 }
 
@@ -119,13 +119,14 @@ static inline void evaluate_two_axes(const restitute_table *t, double speed, dou
     rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
     const double *v = t->ez + cell * rst_cubic;
     const double ez = rst_clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
-    const double full = t->chi_low * 2 * (1 + ez), critical = full - ez;
+    const double twice_chi = t->chi_low * 2, full = twice_chi * (1 + ez);
+    const double share = (twice_chi - 1) * v_n, width = share + share * ez; /* little waits for ez */
     pair->ez = ez;
-    if (sliding > critical * v_n) {
+    if (sliding - v_n > width) { /* psi > psi_c */
         pair->ex = rst_clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
         return;
     }
-    const int64_t node = rst_psi_find(t, sliding, v_n, critical - 1, &s, &quotient, &closed);
+    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient, &closed);
     closed *= full * quotient - 1; /* (27), from psi = 1 on */
     pair->ex = rst_clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed, -1, 1);
 }
@@ -237,14 +238,15 @@ static void pairs_by_blocks(const restitute_table *t, const restitute_table_cont
 static void pairs_of_two_axes(const restitute_table *t, const restitute_table_contact *c, size_t n, const double *v_n,
                               const double *v_t, double *ez, double *ex)
 {
-    double speed[rst_block], sliding[rst_block], unwanted[2][rst_block];
+    double speed[rst_block], sliding[rst_block], normal[rst_block], unwanted[2][rst_block];
     for (size_t done = 0; done < n; done += rst_block) {
         const int count = block_of(n - done);
         for (int i = 0; i < count; i++) {
-            speed[i] = speed_of(t, c, v_n[done + i]);
+            normal[i] = v_n[done + i]; /* results may be written over it */
+            speed[i] = speed_of(t, c, normal[i]);
             sliding[i] = sliding_of(c, v_t[done + i]);
         }
-        rst_two_axes_pairs(t, count, speed, sliding, v_n + done, ez ? ez + done : unwanted[0],
+        rst_two_axes_pairs(t, count, speed, sliding, normal, ez ? ez + done : unwanted[0],
                            ex ? ex + done : unwanted[1]);
     }
 }

@@ -24,7 +24,7 @@ static inline double larger(double a, double b)
 }
 
 /* rst_cubic_weights of many. */
-static void weights(int n, const double *s, double w[4][rst_block])
+static void weights(int n, const double *restrict s, double w[restrict 4][rst_block])
 {
     for (int i = 0; i < n; i++) {
         const double a = s[i] - 1, b = s[i] - 2, c = s[i] - 3, ab = s[i] * a, bc = b * c;
@@ -35,7 +35,8 @@ static void weights(int n, const double *s, double w[4][rst_block])
     }
 }
 
-static void find_speeds(const restitute_table *t, int n, const double *speed, struct seats *at, double *ez)
+static void find_speeds(const restitute_table *t, int n, const double *restrict speed, struct seats *restrict at,
+                        double *restrict ez)
 {
     double s[rst_block];
     for (int i = 0; i < n; i++)
@@ -52,22 +53,24 @@ static void find_speeds(const restitute_table *t, int n, const double *speed, st
 
 /* rst_psi_find of many: u is the place in cells, of which the stick side begins at 0 and both halves of the slip side
  * too. */
-static void find_psi(const restitute_table *t, int n, const double *sliding, const double *v_n, const double *ez,
-                     struct seats *at)
+static void find_psi(const restitute_table *t, int n, const double *restrict sliding, const double *restrict v_n,
+                     const double *restrict ez, struct seats *restrict at)
 {
-    double s[rst_block], u[rst_block], upper[rst_block];
+    double s[rst_block], u[rst_block], upper[rst_block], width[rst_block];
     const double twice_chi = t->chi_low * 2, of_psi = t->psi_cells[0].of_psi, of_root = t->psi_cells[1].of_root;
     for (int i = 0; i < n; i++) {
         at->full[i] = twice_chi * (1 + ez[i]);
-        const double critical = at->full[i] - ez[i], most = larger((critical - 1) * v_n[i], rst_least);
-        at->kept[i] = sliding[i] > critical * v_n[i] ? 0 : 1;
-        const double y = smaller(larger(sliding[i] - v_n[i], 0), most) / most, other = 1 - y;
+        const double share = (twice_chi - 1) * v_n[i], beyond = sliding[i] - v_n[i];
+        width[i] = share + share * ez[i];
+        const double y = smaller(larger(beyond, 0), width[i]) / (width[i] + rst_least), other = 1 - y;
         const double root = sqrt(smaller(other, y) + rst_soft * rst_soft) - rst_soft;
-        at->quotient[i] = smaller(sliding[i], v_n[i]) / larger(larger(sliding[i], v_n[i]), rst_least);
+        at->quotient[i] = smaller(sliding[i], v_n[i]) / (larger(sliding[i], v_n[i]) + rst_least);
         at->closed[i] = sliding[i] > v_n[i] ? 1 : 0;
         upper[i] = other < y ? 1 : 0;
-        u[i] = sliding[i] > v_n[i] ? root * of_root : at->quotient[i] * of_psi;
+        u[i] = root * of_root * at->closed[i] + at->quotient[i] * of_psi * (1 - at->closed[i]);
     }
+    for (int i = 0; i < n; i++)
+        at->kept[i] = sliding[i] - v_n[i] > width[i] ? 0 : 1;
     for (int i = 0; i < n; i++) {
         const int32_t cell = (int32_t)u[i];
         s[i] = (u[i] - (double)cell) * rst_cubic;
@@ -76,7 +79,7 @@ static void find_psi(const restitute_table *t, int n, const double *sliding, con
     weights(n, s, at->share);
 }
 
-static void sum_up(const restitute_table *t, int n, const struct seats *at, double *ex)
+static void sum_up(const restitute_table *t, int n, const struct seats *restrict at, double *restrict ex)
 {
     const int64_t stride = t->n_psi;
     for (int i = 0; i < n; i++) {

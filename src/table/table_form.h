@@ -235,7 +235,7 @@ static const double rst_soft = 1.0 / 64;
 /* Smallest divisor: nothing is divided by 0, for programs that trap that. */
 static const double rst_least = 0x1p-1000;
 
-/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width. Both sides go the same way without a
+/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width/v_n. Both sides go the same way without a
  * branch, since which one it is cannot be foreseen. */
 struct rst_side {
     int slips, upper; /* upper: y > 1/2 */
@@ -247,20 +247,19 @@ struct rst_side {
 static inline struct rst_side rst_side_find(double sliding, double v_n, double width)
 {
     const int slips = sliding > v_n;
-    const double beyond = sliding - v_n, most = width * v_n > rst_least ? width * v_n : rst_least;
-    const double ratio = (beyond > 0 ? beyond : 0) / most;
+    const double beyond = sliding - v_n, ratio = (beyond > 0 ? beyond : 0) / (width + rst_least);
     const double y = ratio < 1 ? ratio : 1, other = 1 - y;
     const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
     const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
     return (struct rst_side){.slips = slips,
                              .upper = other < y,
-                             .quotient = smaller / (larger > rst_least ? larger : rst_least),
+                             .quotient = smaller / (larger + rst_least),
                              .y = y,
                              .root = root};
 }
 
-/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width; `quotient` as of
- * rst_side; closed: 1 from psi = 1 on, 0 below. */
+/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width/v_n; `quotient` as
+ * of rst_side; closed: 1 from psi = 1 on, 0 below. */
 static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
                                    double *quotient, double *closed)
 {
