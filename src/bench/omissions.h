@@ -16,7 +16,7 @@ struct bench_omission {
     const char *left_out, *full, *lean; /* in words */
     int status;                         /* negative: one of the two was refused, no times */
     double seconds_full, seconds_lean;  /* medians */
-    double ratio;                       /* of these; of those of one step where the resolution is prescribed */
+    double ratio;                       /* of these; of those of one step where the step is prescribed */
     int64_t elements, steps_full, steps_lean;
 };
 
