@@ -38,12 +38,20 @@ def root(y):
     return np.sqrt(y + SOFT**2) - SOFT
 
 
+def stick_nodes(table):
+    """How many places of psi are at most 1; the others, if there are any, lie between 1 and psi_c."""
+    return 3 * table.attrs["stick_cells"] + 1
+
+
 def ez_at(table, v_n):
-    """ez, and where its nodes are; beyond the ends of the table those of the ends."""
+    """ez, and where its nodes are; beyond the ends of the table those of the ends. Where psi_c goes with the speed, the cubic
+    is one of 1/(1 + ez)."""
     speed = table["speed"][:]
     v_n = min(max(v_n, table.attrs["range_first_low"]), table.attrs["range_first_high"])
     first, weights = cubic(speed, v_n)
-    return float(weights @ table["ez"][first : first + 4, 0]), first, weights
+    nodes = table["ez"][first : first + 4, 0]
+    ez = 1 / (weights @ (1 / (1 + nodes))) - 1 if len(table["psi"]) > stick_nodes(table) else weights @ nodes
+    return float(min(max(ez, 0), 1)), first, weights
 
 
 def pair_at(table, v_n, v_t):
@@ -54,10 +62,12 @@ def pair_at(table, v_n, v_t):
     critical = full - ez if 2 * chi > 1 else 1
     if psi > critical:
         return ez, full / psi - 1
-    place, stick = table["psi"][:], 3 * table.attrs["stick_cells"] + 1
+    place, stick = table["psi"][:], stick_nodes(table)
+    kept = table["ex"][first : first + 4, 0, :, 0]
     if psi <= 1:
         column, by_psi = cubic(place[:stick], psi)
-        closed = 0
+        closed = full - 1 if len(place) > stick else 0  # as on the other side of psi = 1
+        kept = kept - (2 * chi * (1 + table["ez"][first : first + 4]) - 1 if len(place) > stick else 0)
     else:
         y = (psi - 1) / (critical - 1)
         half = (len(place) - stick) // 2
@@ -65,8 +75,7 @@ def pair_at(table, v_n, v_t):
         column, by_psi = cubic(root(lower), root(min(y, 1 - y)))
         column += stick + (half if y > 0.5 else 0)
         closed = full / psi - 1
-    ex = weights @ table["ex"][first : first + 4, 0, column : column + 4, 0] @ by_psi
-    return ez, float(ex) + closed
+    return ez, float(weights @ kept[:, column : column + 4] @ by_psi) + closed
 
 
 def find_leaf(leaves, chain, octave, root_of_w, sheet, gamma, places):

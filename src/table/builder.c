@@ -520,6 +520,7 @@ static int hand_over(struct restitute_table_builder *b, restitute_table **table,
     t->impacts = b->used;
     rst_octaves_limit(t->asked[0][0], t->asked[0][1], &t->speed);
     rst_octaves_limit(t->asked[1][0], t->asked[1][1], &t->gamma);
+    rst_table_set_polynomials(t);
     snprintf(t->version, sizeof t->version, "%s", restitute_version());
     *table = t;
     if (fmax(t->error_ez, t->error_ex) <= t->tolerance) return rst_done(error);

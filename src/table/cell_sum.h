@@ -5,31 +5,20 @@
 
 #include <stdint.h>
 
+#include "select.h"
 #include "serendipity.h"
 
 /* Numbers that are added at once, and such as they stand in a cell. */
 #if defined(__GNUC__)
-typedef double rst_two __attribute__((__vector_size__(16)));
-typedef double rst_kept_two __attribute__((__vector_size__(16), __aligned__(8), __may_alias__));
 typedef float rst_four __attribute__((__vector_size__(16)));
 typedef float rst_kept_four __attribute__((__vector_size__(16), __aligned__(4), __may_alias__));
 #else
 #error "cell_sum.h needs the vector types of gcc and clang"
 #endif
 
-static inline rst_two rst_two_at(const double *c)
-{
-    return *(const rst_kept_two *)(const void *)c;
-}
-
 static inline rst_four rst_four_at(const float *c)
 {
     return *(const rst_kept_four *)(const void *)c;
-}
-
-static inline rst_two rst_two_of(double x)
-{
-    return (rst_two){x, x};
 }
 
 static inline rst_four rst_four_of(float x)

@@ -7,7 +7,7 @@
 #include "family.h"
 
 /* Far more than any build makes: a bound on sums and products of sizes. */
-static const int64_t most_cells_of_psi = 1 << 20, most_terms = 1 << 20;
+static const int64_t most_cells_of_chi = 1 << 20, most_terms = 1 << 20;
 static const double most_values = 1e11;
 
 /* Of tables with cells: parts of gamma in all roots; the highest delta1 and gamma, whose w must be finite; widths of
@@ -218,12 +218,12 @@ static int plant_trees(const restitute_table_data *d, restitute_table *form, res
 static int set_form(const restitute_table_data *d, restitute_table *form, restitute_error *error)
 {
     memset(form, 0, sizeof *form);
-    if (d->chi_cells < 0 || d->chi_cells > most_cells_of_psi || !(d->chi_low >= 1e-3 && d->chi_high <= 1e6) ||
+    if (d->chi_cells < 0 || d->chi_cells > most_cells_of_chi || !(d->chi_low >= 1e-3 && d->chi_high <= 1e6) ||
         (d->chi_cells > 0 ? !(d->chi_low < d->chi_high) : !(d->chi_low <= d->chi_high)))
         return refuse(error, "chi");
     if (d->terms < 0 || d->terms > most_terms) return refuse(error, "terms");
-    if (d->stick_cells < 0 || d->stick_cells > most_cells_of_psi || d->slip_cells < 0 ||
-        d->slip_cells > most_cells_of_psi || (d->stick_cells == 0 && d->slip_cells > 0))
+    if (d->stick_cells < 0 || d->stick_cells > rst_most_psi_cells || d->slip_cells < 0 ||
+        d->slip_cells > rst_most_psi_cells || (d->stick_cells == 0 && d->slip_cells > 0))
         return refuse(error, "cells of psi");
     int status = set_axis(d, 0, "axis of speed or delta1", &form->speed, error);
     if (!status) status = set_axis(d, 1, "axis of gamma", &form->gamma, error);
@@ -337,6 +337,7 @@ int restitute_table_from_data(const restitute_table_data *data, restitute_table 
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     }
     copy_values(data, made);
+    rst_table_set_polynomials(made);
     *table = made;
     return rst_done(error);
 }

@@ -373,9 +373,12 @@ static int make(struct restitute_table_builder *b, struct coarse *c, restitute_t
     if (!*table) return 1;
     if (b->family.material)
         restitute_material_series(b->family.material, NULL, NULL, (*table)->term, (*table)->term + form.terms);
-    if (!fill(b, c, *table)) return 0;
-    restitute_table_destroy(*table);
-    return 1;
+    if (fill(b, c, *table)) {
+        restitute_table_destroy(*table);
+        return 1;
+    }
+    rst_table_set_polynomials(*table);
+    return 0;
 }
 
 int rst_make_draft(struct restitute_table_builder *b, restitute_error *error)

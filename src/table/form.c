@@ -48,6 +48,22 @@ double rst_slip_y(double r)
     return fmin(0.5, r * (r + 2 * rst_soft));
 }
 
+/* Places are kept by less than 1e-9 of a cell within the first and the last one, so that no rounding, in whatever
+ * direction, leads beyond. y = 1 leads to the same place as y = 0, since total - square is soft without rounding. */
+static void set_psi_cells(restitute_table *form)
+{
+    const double part = 1 - 0x1p-38, begin = rst_cells_begin + 0x1p-42;
+    const double of_root = part * (double)form->slip_cells / rst_largest_r, square = of_root * of_root;
+    const double total = square + rst_soft * rst_soft * square, soft = total - square;
+    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = part * (double)form->stick_cells, .begin = begin, .open = 1};
+    form->psi_cells[1] = (struct rst_psi_cells){.square = rst_two_of(square),
+                                                .soft = rst_two_of(soft),
+                                                .total = rst_two_of(total),
+                                                .of_root = of_root,
+                                                .begin = begin - sqrt(soft),
+                                                .closed = 1};
+}
+
 void rst_table_count(restitute_table *form)
 {
     form->n_speed = form->speed.cells * rst_cubic + 1;
@@ -67,10 +83,13 @@ void rst_table_count(restitute_table *form)
     const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
     form->start[2] = form->start[1] + half;
     form->n_psi = form->start[2] + half;
-    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->slip_cells > 0;
-    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = nextafter((double)form->stick_cells, 0)};
-    form->psi_cells[1] = (struct rst_psi_cells){
-        .of_root = nextafter((double)(form->slip_cells > 0 ? form->slip_cells : 1) / rst_largest_r, 0), .of_closed = 1};
+    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->slip_cells > 0 &&
+                     2 * form->chi_low > 1;
+    form->first_cell[0] = 0;
+    form->first_cell[1] = form->stick_cells;
+    form->first_cell[2] = form->stick_cells + form->slip_cells;
+    form->cells_of_psi = form->stick_cells + 2 * form->slip_cells;
+    set_psi_cells(form);
 }
 
 double rst_chi_node(const restitute_table *form, int64_t i)
@@ -114,18 +133,77 @@ static size_t doubles(size_t bytes)
     return (bytes + sizeof(double) - 1) / sizeof(double);
 }
 
-/* The cubic through h at four nodes of an octave, by powers. */
+/* The cubic through four evenly spaced values, by powers of the place in [0, 1]. */
+static void set_cubic(const double y[4], double power[4])
+{
+    const double first = 3 * (y[1] - y[0]), second = 4.5 * (y[2] - 2 * y[1] + y[0]);
+    const double third = 4.5 * ((y[3] - y[0]) - 3 * (y[2] - y[1]));
+    power[0] = y[0];
+    power[1] = first - second / 3 + third * 2 / 9;
+    power[2] = second - third;
+    power[3] = third;
+}
+
+/* h in an octave of gamma. */
 static void set_h(const struct rst_octaves *gamma, int64_t octave, double h[4])
 {
     double y[4];
     for (int i = 0; i < 4; i++)
         y[i] = rst_table_h(rst_octaves_node(gamma, octave * rst_cubic + i));
-    const double first = 3 * (y[1] - y[0]), second = 4.5 * (y[2] - 2 * y[1] + y[0]);
-    const double third = 4.5 * ((y[3] - y[0]) - 3 * (y[2] - y[1]));
-    h[0] = y[0];
-    h[1] = first - second / 3 + third * 2 / 9;
-    h[2] = second - third;
-    h[3] = third;
+    set_cubic(y, h);
+}
+
+/* The same by powers of the place in [1, 2]. */
+static void set_shifted_cubic(const double y[4], double power[4])
+{
+    double a[4];
+    set_cubic(y, a);
+    power[0] = (a[0] - a[1]) + (a[2] - a[3]);
+    power[1] = (a[1] - 2 * a[2]) + 3 * a[3];
+    power[2] = a[2] - 3 * a[3];
+    power[3] = a[3];
+}
+
+/* A bicubic through four by four values, rows `stride` apart, of which `less` is taken away. */
+static void set_patch(const double *value, int64_t stride, const double less[4], double patch[4][4])
+{
+    double row[4][4];
+    for (int i = 0; i < 4; i++) {
+        set_shifted_cubic(value + i * stride, row[i]);
+        row[i][0] -= less[i];
+    }
+    for (int j = 0; j < 4; j++) {
+        double power[4];
+        set_shifted_cubic((double[]){row[0][j], row[1][j], row[2][j], row[3][j]}, power);
+        for (int i = 0; i < 4; i++)
+            patch[i][j] = power[i];
+    }
+}
+
+static void set_inverse(const double ez[4], double inverse[4])
+{
+    double power[4];
+    set_shifted_cubic((double[]){1 / (1 + ez[0]), 1 / (1 + ez[1]), 1 / (1 + ez[2]), 1 / (1 + ez[3])}, power);
+    inverse[0] = power[0], inverse[1] = power[2], inverse[2] = power[1], inverse[3] = power[3];
+}
+
+void rst_table_set_polynomials(restitute_table *t)
+{
+    const int64_t parts[3] = {t->stick_cells, t->slip_cells, t->slip_cells};
+    if (!t->two_axes) return;
+    t->low = rst_two_of(t->speed.low);
+    t->high = rst_two_of(t->speed.high);
+    for (int64_t i = 0; i < t->speed.cells; i++) {
+        const double *ez = t->ez + i * rst_cubic, *ex = t->ex + i * rst_cubic * t->n_psi;
+        double closed[2][4] = {{0}, {0}}; /* at psi = 1; beyond it that is taken away already */
+        for (int j = 0; j < 4; j++)
+            closed[0][j] = 2 * t->chi_low * (1 + ez[j]) - 1;
+        set_inverse(ez, t->inverse[i]);
+        for (int part = 0; part < 3; part++)
+            for (int64_t j = 0; j < parts[part]; j++)
+                set_patch(ex + t->start[part] + j * rst_cubic, t->n_psi, closed[part > 0],
+                          t->patch[i * t->cells_of_psi + t->first_cell[part] + j]);
+    }
 }
 
 /* Trees are planted already. The coefficients of ex begin at a line of memory: a leaf is then on no more lines than it
@@ -155,7 +233,10 @@ restitute_table *rst_table_allocate(const restitute_table *form)
 {
     if (form->n_cells > 0) return allocate_cells(form);
     const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma, n_term = 2 * (size_t)form->terms;
-    const size_t size = n_ez + n_term + n_ez * (size_t)form->n_psi * (size_t)form->n_chi;
+    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi, line = 64;
+    const size_t n_speed = form->two_axes ? (size_t)form->speed.cells : 0;
+    const size_t n_patch = n_speed * (size_t)form->cells_of_psi * 16;
+    const size_t size = n_ez + n_term + n_ex + 4 * n_speed + n_patch + line / sizeof(double);
     restitute_table *table = malloc(sizeof *table + size * sizeof(double));
     if (!table) return NULL;
     *table = *form;
@@ -163,6 +244,9 @@ restitute_table *rst_table_allocate(const restitute_table *form)
     table->ez = table->block;
     table->term = table->ez + n_ez;
     table->ex = table->term + n_term;
+    table->inverse = (double(*)[4])(void *)(table->ex + n_ex);
+    char *free_room = (char *)(table->inverse + n_speed);
+    table->patch = (double(*)[4][4])(void *)(free_room + (line - (uintptr_t)free_room % line) % line);
     return table;
 }
 

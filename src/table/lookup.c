@@ -41,18 +41,6 @@ static inline double rebound(const restitute_table *t, const struct place *p)
     return rst_clamp(sum, 0, 1);
 }
 
-/* Two axes: four rows of four values. */
-static inline double sum_two_axes(const restitute_table *t, const double w[4], int64_t row, int64_t node, double s)
-{
-    double q[4], c[4];
-    const int64_t stride = t->n_psi;
-    const double *v = t->ex + row * stride + node;
-    rst_cubic_weights(s, q);
-    for (int j = 0; j < 4; j++)
-        c[j] = (w[0] * v[j] + w[1] * v[stride + j]) + (w[2] * v[2 * stride + j] + w[3] * v[3 * stride + j]);
-    return (q[0] * c[0] + q[1] * c[1]) + (q[2] * c[2] + q[3] * c[3]);
-}
-
 /* Any number of axes, of which one is neither delta1 nor gamma. */
 static double sum_some_axes(const restitute_table *t, const struct place *p, const double *v, const double *w, int n,
                             const double *x, int m)
@@ -110,32 +98,11 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
         pair->ex = rst_clamp(tangential(t, &p, chi, sliding, v_n, full, critical - 1), -1, 1);
 }
 
-/* The same for speed and psi alone: one contact of a viscoelastic solid with friction. */
-static inline void evaluate_two_axes(const restitute_table *t, double speed, double sliding, double v_n,
-                                     restitute_table_value *pair)
-{
-    double w[4], s, quotient, closed;
-    int64_t cell;
-    rst_cubic_weights(rst_octaves_find(&t->speed, speed, &cell), w);
-    const double *v = t->ez + cell * rst_cubic;
-    const double ez = rst_clamp((w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]), 0, 1);
-    const double twice_chi = t->chi_low * 2, full = twice_chi * (1 + ez);
-    const double share = (twice_chi - 1) * v_n, width = share + share * ez; /* little waits for ez */
-    pair->ez = ez;
-    if (sliding - v_n > width) { /* psi > psi_c */
-        pair->ex = rst_clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
-        return;
-    }
-    const int64_t node = rst_psi_find(t, sliding, v_n, width, &s, &quotient, &closed);
-    closed *= full * quotient - 1; /* (27), from psi = 1 on */
-    pair->ex = rst_clamp(sum_two_axes(t, w, cell * rst_cubic, node, s) + closed, -1, 1);
-}
-
 static inline void evaluate(const restitute_table *t, double speed, double gamma, double chi, double sliding,
                             double v_n, restitute_table_value *pair)
 {
     if (t->two_axes)
-        evaluate_two_axes(t, speed, sliding, v_n, pair);
+        rst_two_axes_pair(t, speed, sliding, v_n, pair);
     else if (t->n_cells > 0)
         rst_cells_pair(t, speed, gamma, chi, sliding, v_n, pair);
     else
@@ -152,6 +119,7 @@ double rst_table_rebound(const restitute_table *table, double speed, double gamm
 {
     struct place p;
     if (table->n_cells > 0) return rst_cells_rebound(table, speed, gamma);
+    if (table->two_axes) return rst_two_axes_rebound(table, speed);
     find_place(table, speed, gamma, &p);
     return rebound(table, &p);
 }

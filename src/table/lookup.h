@@ -25,7 +25,9 @@ void rst_cells_pairs(const restitute_table *t, int n, const struct rst_asked *as
 /* The same of ez alone. */
 void rst_cells_rebounds(const restitute_table *t, int n, const struct rst_asked *asked, double *ez);
 
-/* Up to rst_block pairs from a table of two axes. */
+/* ez from a table of two axes; a pair; and up to rst_block pairs. */
+double rst_two_axes_rebound(const restitute_table *t, double speed);
+void rst_two_axes_pair(const restitute_table *t, double speed, double sliding, double v_n, restitute_table_value *pair);
 void rst_two_axes_pairs(const restitute_table *t, int n, const double *speed, const double *sliding, const double *v_n,
                         double *ez, double *ex);
 

@@ -1,15 +1,98 @@
-/* Many places of a table of two axes, speed and psi, at once: step by step for all of a block, so that no place waits
- * for another one and that compilers may take vectors. The same operations as for one place (lookup.c), so the same
- * bits. SPDX-License-Identifier: BSD-3-Clause */
+/* Looking up in a table of two axes, speed and psi: one place, or a block of them with the same bits. The polynomials
+ * are those of rst_table_set_polynomials: 1/(1 + ez) in each cell of speed, and in each cell of speed and psi what ex
+ * exceeds the closed form of slip to the end by (27), which is taken at psi = 1 for psi < 1. With 1/(1 + ez) nothing is
+ * divided on the way from the speed to y = (psi - 1)/((2 chi - 1)(1 + ez)), and no branch is taken anywhere: on which
+ * side of psi = 1 and of psi_c a place is cannot be foreseen. SPDX-License-Identifier: BSD-3-Clause */
 #include "lookup.h"
 
-/* Where the places of a block are. */
+static const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
+
+/* ---- one place. What is waited for is kept short, and numbers stand in pairs where that spares instructions. */
+
+/* What follows the first `leading` bits of the fractions of two numbers, as numbers in [1, 2). */
+static inline rst_two behind(int leading, rst_two number)
+{
+    const rst_whole_two ones = {one, one}, fractions = {fraction, fraction};
+    return (rst_two)(((rst_whole_two)number << leading & fractions) | ones);
+}
+
+/* The same of one. */
+static inline double behind_one(int leading, double number)
+{
+    const int64_t bits = (int64_t)((uint64_t)rst_bits_of(number) << leading & (uint64_t)fraction) | one;
+    double m;
+    memcpy(&m, &bits, sizeof m);
+    return m;
+}
+
+/* Bits of u + rst_cells_begin that are the cell of psi, times the bytes of a patch. */
+static inline int64_t patch_of(double u)
+{
+    enum { bits_of_patch = 7, shift = 52 - rst_bits_of_cell - bits_of_patch };
+    return rst_bits_of(u) >> shift & ((int64_t)rst_most_psi_cells << bits_of_patch);
+}
+
+/* For two powers of psi. */
+static inline rst_two sum_along_speed(const double *c, rst_two x, rst_two x2, rst_two x3)
+{
+    return (rst_two_at(c) + rst_two_at(c + 4) * x) + (rst_two_at(c + 8) * x2 + rst_two_at(c + 12) * x3);
+}
+
+static inline rst_two clamp_both(rst_two value, double low, double high)
+{
+    return rst_two_smaller(rst_two_larger(value, rst_two_of(low)), rst_two_of(high));
+}
+
+void rst_two_axes_pair(const restitute_table *t, double speed, double sliding, double v_n, restitute_table_value *pair)
+{
+    const struct rst_octaves *axis = &t->speed;
+    const int slips = sliding > v_n;
+    const struct rst_psi_cells *cells = &t->psi_cells[slips];
+    const double twice_chi = t->chi_low * 2, share = (twice_chi - 1) * v_n + rst_least;
+    /* q, and what is square y (1 + ez) */
+    const rst_two part = (rst_two){rst_smaller(sliding, v_n), rst_smaller(sliding - v_n, 4 * share) * cells->square[0]} /
+                         (rst_two){rst_larger(sliding, v_n) + rst_least, share};
+
+    const rst_two number = rst_two_smaller(rst_two_larger(rst_two_of(speed), t->low), t->high);
+    const int64_t cell = (rst_bits_of(number[0]) >> axis->shift) - axis->first;
+    const rst_two x = behind(52 - axis->shift, number), x2 = x * x, x3 = x2 * x;
+    const double *power = t->inverse[cell];
+    const rst_two sums = rst_two_at(power) + rst_two_at(power + 2) * x;
+    const rst_two inverse = clamp_both(rst_two_of(sums[0]) + x2 * rst_two_of(sums[1]), 0.5, 1);
+
+    const rst_two beyond = rst_two_of(part[1]) * inverse;
+    const rst_two along = rst_two_smaller(beyond, cells->square);
+    const rst_two up = cells->soft + along, down = cells->total - along;
+    const rst_two u = rst_two_of(sqrt(rst_two_smaller(up, down)[0]) + (part[0] * cells->of_psi + cells->begin));
+    const rst_two y = behind(rst_bits_of_cell, u), first = {1, y[0]}, last = first * (y * y);
+
+    const double full = 1 / inverse[0], aside = full * (twice_chi * (part[0] * cells->closed + cells->open)) - 1;
+    const rst_whole_two kept = (rst_whole_two)(beyond <= cells->square); /* up to psi_c */
+    double(*patches)[4][4] = t->patch + cell * t->cells_of_psi + t->first_cell[slips + (up[0] > down[0])];
+    const double *c = (const double *)(const void *)((const char *)patches + patch_of(u[0]));
+    const rst_two terms = first * sum_along_speed(c, x, x2, x3) + last * sum_along_speed(c + 2, x, x2, x3);
+    const rst_two ex = (rst_two)((rst_whole_two)(terms + rst_two_turned(terms)) & kept);
+    pair->ez = full - 1;
+    pair->ex = clamp_both(rst_two_of(aside) + ex, -1, 1)[0];
+}
+
+double rst_two_axes_rebound(const restitute_table *t, double speed)
+{
+    const double number = rst_clamp(speed, t->speed.low, t->speed.high), x = behind_one(52 - t->speed.shift, number);
+    const double *power = t->inverse[(rst_bits_of(number) >> t->speed.shift) - t->speed.first];
+    return 1 / rst_clamp((power[0] + power[2] * x) + x * x * (power[1] + power[3] * x), 0.5, 1) - 1;
+}
+
+/* ---- a block of places, step by step for all of it, so that no place waits for another one and that compilers may
+ * take vectors */
+
 struct seats {
-    double weight[4][rst_block]; /* along the speed */
-    double share[4][rst_block];  /* along psi */
-    int64_t cell[rst_block];     /* first node of the speed */
-    int64_t node[rst_block];     /* first node of psi */
-    double full[rst_block], quotient[rst_block], closed[rst_block], kept[rst_block]; /* kept: 0 beyond psi_c */
+    double speed[3][rst_block]; /* powers of the place in a cell of speed, from the first on */
+    double psi[rst_block];      /* place in a cell of psi */
+    int64_t row[rst_block];     /* cell of speed */
+    int64_t patch[rst_block];
+    double full[rst_block], inverse[rst_block]; /* 1 + ez and 1 over it */
+    double closed[rst_block], kept[rst_block];  /* (27); 0 beyond psi_c, where nothing else is added */
 };
 
 /* a < b ? a : b and a > b ? a : b, which compilers know how to do for many at once. */
@@ -23,84 +106,70 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* rst_cubic_weights of many. */
-static void weights(int n, const double *restrict s, double w[restrict 4][rst_block])
+static void find_speeds(const restitute_table *t, int n, const double *restrict speed, struct seats *restrict at)
 {
+    const int shift = t->speed.shift;
     for (int i = 0; i < n; i++) {
-        const double a = s[i] - 1, b = s[i] - 2, c = s[i] - 3, ab = s[i] * a, bc = b * c;
-        w[0][i] = a * bc * (-1.0 / 6);
-        w[1][i] = s[i] * bc * 0.5;
-        w[2][i] = ab * c * -0.5;
-        w[3][i] = ab * b * (1.0 / 6);
+        const double number = smaller(larger(speed[i], t->speed.low), t->speed.high);
+        const double x = behind_one(52 - shift, number);
+        at->row[i] = (rst_bits_of(number) >> shift) - t->speed.first;
+        at->speed[0][i] = x;
+        at->speed[1][i] = x * x;
+        at->speed[2][i] = x * x * x;
+    }
+    for (int i = 0; i < n; i++) {
+        const double *power = t->inverse[at->row[i]], x = at->speed[0][i], x2 = at->speed[1][i];
+        at->inverse[i] = (power[0] + power[2] * x) + x2 * (power[1] + power[3] * x);
+    }
+    for (int i = 0; i < n; i++) {
+        at->inverse[i] = smaller(larger(at->inverse[i], 0.5), 1);
+        at->full[i] = 1 / at->inverse[i];
     }
 }
 
-static void find_speeds(const restitute_table *t, int n, const double *restrict speed, struct seats *restrict at,
-                        double *restrict ez)
-{
-    double s[rst_block];
-    for (int i = 0; i < n; i++)
-        s[i] = rst_octaves_find(&t->speed, speed[i], &at->cell[i]);
-    weights(n, s, at->weight);
-    for (int i = 0; i < n; i++) {
-        at->cell[i] *= rst_cubic;
-        const double *v = t->ez + at->cell[i];
-        ez[i] = (at->weight[0][i] * v[0] + at->weight[1][i] * v[1]) + (at->weight[2][i] * v[2] + at->weight[3][i] * v[3]);
-    }
-    for (int i = 0; i < n; i++)
-        ez[i] = smaller(larger(ez[i], 0), 1);
-}
-
-/* rst_psi_find of many: u is the place in cells, of which the stick side begins at 0 and both halves of the slip side
- * too. */
 static void find_psi(const restitute_table *t, int n, const double *restrict sliding, const double *restrict v_n,
-                     const double *restrict ez, struct seats *restrict at)
+                     struct seats *restrict at)
 {
-    double s[rst_block], u[rst_block], upper[rst_block], width[rst_block];
-    const double twice_chi = t->chi_low * 2, of_psi = t->psi_cells[0].of_psi, of_root = t->psi_cells[1].of_root;
+    double u[rst_block], part[rst_block];
+    const struct rst_psi_cells stick = t->psi_cells[0], slip = t->psi_cells[1];
+    const double twice_chi = t->chi_low * 2, square = slip.square[0], soft = slip.soft[0], total = slip.total[0];
     for (int i = 0; i < n; i++) {
-        at->full[i] = twice_chi * (1 + ez[i]);
-        const double share = (twice_chi - 1) * v_n[i], beyond = sliding[i] - v_n[i];
-        width[i] = share + share * ez[i];
-        const double y = smaller(larger(beyond, 0), width[i]) / (width[i] + rst_least), other = 1 - y;
-        const double root = sqrt(smaller(other, y) + rst_soft * rst_soft) - rst_soft;
-        at->quotient[i] = smaller(sliding[i], v_n[i]) / (larger(sliding[i], v_n[i]) + rst_least);
-        at->closed[i] = sliding[i] > v_n[i] ? 1 : 0;
-        upper[i] = other < y ? 1 : 0;
-        u[i] = root * of_root * at->closed[i] + at->quotient[i] * of_psi * (1 - at->closed[i]);
+        const double slips = sliding[i] > v_n[i] ? 1 : 0, share = (twice_chi - 1) * v_n[i] + rst_least;
+        const double q = smaller(sliding[i], v_n[i]) / (larger(sliding[i], v_n[i]) + rst_least);
+        const double beyond = smaller(larger(sliding[i] - v_n[i], 0), 4 * share) * square / share * at->inverse[i];
+        const double along = smaller(beyond, square), up = soft + along, down = total - along;
+        u[i] = slips * (sqrt(smaller(up, down)) + slip.begin) + (1 - slips) * (q * stick.of_psi + stick.begin);
+        part[i] = slips + slips * (up > down ? 1 : 0);
+        at->kept[i] = beyond <= square ? 1 : 0;
+        at->closed[i] = at->full[i] * (twice_chi * (q * slips + (1 - slips))) - 1;
     }
-    for (int i = 0; i < n; i++)
-        at->kept[i] = sliding[i] - v_n[i] > width[i] ? 0 : 1;
     for (int i = 0; i < n; i++) {
-        const int32_t cell = (int32_t)u[i];
-        s[i] = (u[i] - (double)cell) * rst_cubic;
-        at->node[i] = t->start[(int)(at->closed[i] + upper[i])] + (int64_t)cell * rst_cubic;
+        at->psi[i] = behind_one(rst_bits_of_cell, u[i]);
+        at->patch[i] = at->row[i] * t->cells_of_psi + t->first_cell[(int)part[i]] + rst_psi_cell(u[i]);
     }
-    weights(n, s, at->share);
 }
 
 static void sum_up(const restitute_table *t, int n, const struct seats *restrict at, double *restrict ex)
 {
-    const int64_t stride = t->n_psi;
     for (int i = 0; i < n; i++) {
-        const double *v = t->ex + at->cell[i] * stride + at->node[i];
-        const double w0 = at->weight[0][i], w1 = at->weight[1][i], w2 = at->weight[2][i], w3 = at->weight[3][i];
-        double c[4];
+        const double *c = t->patch[at->patch[i]][0], y = at->psi[i], y2 = y * y;
+        const double x = at->speed[0][i], x2 = at->speed[1][i], x3 = at->speed[2][i];
+        double sum[4];
         for (int j = 0; j < 4; j++)
-            c[j] = (w0 * v[j] + w1 * v[stride + j]) + (w2 * v[2 * stride + j] + w3 * v[3 * stride + j]);
-        ex[i] = (at->share[0][i] * c[0] + at->share[1][i] * c[1]) + (at->share[2][i] * c[2] + at->share[3][i] * c[3]);
+            sum[j] = (c[j] + c[4 + j] * x) + (c[8 + j] * x2 + c[12 + j] * x3);
+        ex[i] = (sum[0] + y2 * sum[2]) + (y * sum[1] + (y * y2) * sum[3]);
     }
-    for (int i = 0; i < n; i++) {
-        const double closed = at->closed[i] * (at->full[i] * at->quotient[i] - 1);
-        ex[i] = smaller(larger(at->kept[i] * ex[i] + closed, -1), 1);
-    }
+    for (int i = 0; i < n; i++)
+        ex[i] = smaller(larger(at->closed[i] + at->kept[i] * ex[i], -1), 1);
 }
 
 void rst_two_axes_pairs(const restitute_table *t, int n, const double *speed, const double *sliding, const double *v_n,
                         double *ez, double *ex)
 {
     struct seats at;
-    find_speeds(t, n, speed, &at, ez);
-    find_psi(t, n, sliding, v_n, ez, &at);
+    find_speeds(t, n, speed, &at);
+    find_psi(t, n, sliding, v_n, &at);
     sum_up(t, n, &at, ex);
+    for (int i = 0; i < n; i++)
+        ez[i] = at.full[i] - 1;
 }

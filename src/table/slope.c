@@ -101,6 +101,10 @@ void rst_table_slope(const restitute_table *t, double speed, double gamma, doubl
         rst_cell_slope(t, speed, gamma, chi, psi, slope);
         return;
     }
+    if (t->two_axes) {
+        rst_two_axes_slope(t, speed, psi, slope);
+        return;
+    }
     const struct directions d = {find_direction(&t->speed, speed), find_direction(&t->gamma, gamma)};
     const double ez = sum_ez(t, &d, d.speed.w);
     double chi_w[4] = {1}, s;

@@ -13,7 +13,11 @@
  *
  * For psi <= 1 ex itself is kept, beyond it what it exceeds the closed form of full slip by (27): 0 at psi_c. In cells
  * of a tree that is psi ex - y ez beyond psi = 1, which is ex at psi = 1 and 0 at psi_c, where ex is ez/psi_c:
- * continuous there whatever the error of ez. SPDX-License-Identifier: BSD-3-Clause */
+ * continuous there whatever the error of ez.
+ *
+ * A table of two axes, speed and psi, has polynomials besides its nodes, so that a lookup reads one run of memory: in
+ * each cell of speed one of 1/(1 + ez), in each cell of speed and psi one of what ex exceeds the closed form by, that at
+ * psi = 1 where psi is smaller: so both sides meet at psi = 1. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
 
@@ -53,12 +57,23 @@ struct rst_octaves {
     double scale;     /* 3/2^shift */
 };
 
-/* Cells over the length of psi in [0, 1] and of r in [0, r(1/2)], next below that, on one side of psi = 1, 0 on the
- * other; how much of the closed form of slip to the end is kept aside. What is not foreseen is looked up, not branched
- * for. */
+/* Cells of psi on one side of psi = 1. A place is counted in cells,
+ *
+ *     u = sqrt(m) - sqrt(soft) + of_psi q,  m = min(soft + square y, soft + square (1 - y)),
+ *
+ * with q = psi or 1/psi: of_root r(y) or of_root r(1 - y) beyond psi = 1, where of_psi is 0, and of_psi psi below it,
+ * where square and soft are. begin + sqrt(m) + of_psi q = rst_cells_begin + u is a number whose leading bits are the
+ * cell; closed: how much of the closed form of slip to the end is kept aside. What is not foreseen is looked up, not
+ * branched for. */
 struct rst_psi_cells {
-    double of_psi, of_root, of_closed;
+    rst_two square, soft, total; /* each twice; total: soft + square */
+    double of_root, of_psi, begin;
+    double closed, open; /* open: 1 - closed */
 };
+
+/* So many bits of the fraction of such a number are the cell. */
+enum { rst_bits_of_cell = 8, rst_most_psi_cells = 255 };
+static const double rst_cells_begin = 256;
 
 struct restitute_table {
     int of_contact;
@@ -87,6 +102,13 @@ struct restitute_table {
     struct rst_psi_cells psi_cells[2]; /* stick and slip side */
     double *ez;          /* [speed][gamma] */
     double *ex;          /* [speed][gamma][psi][chi] */
+
+    /* two axes; by powers of the place in [1, 2) of a cell: */
+    double (*inverse)[4];  /* [cell of speed]: 1/(1 + ez); powers 0, 2, 1, 3 */
+    double (*patch)[4][4]; /* [cell of speed][cell of psi][power for speed][power for psi]: ex less the closed form */
+    rst_two low, high;     /* ends of speed, each twice */
+    int64_t first_cell[3]; /* of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
+    int64_t cells_of_psi;  /* of all three */
 
     int64_t
         n_cells; /* > 0: trees; leaves of `tangent`, and n_speed too, while n_gamma are the coefficients of a leaf */
@@ -118,6 +140,9 @@ double rst_chi_node(const restitute_table *form, int64_t i);
 /* Make room for a table whose sizes are set in `form`; NULL: out of memory. */
 restitute_table *rst_table_allocate(const restitute_table *form);
 
+/* Set the polynomials of two axes from the values at the nodes. */
+void rst_table_set_polynomials(restitute_table *table);
+
 /* h: delta1 h(gamma) = 1/3 is about where ex turns sharply; a power of gamma for small gamma, gamma itself for large.
  * */
 double rst_table_h(double gamma);
@@ -137,6 +162,13 @@ void rst_table_evaluate(const restitute_table *table, double speed, double gamma
 
 /* ez alone. */
 double rst_table_rebound(const restitute_table *table, double speed, double gamma);
+
+static inline int64_t rst_bits_of(double number)
+{
+    int64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return bits;
+}
 
 /* Cell and place in it, in [0, 3). */
 static inline double rst_octaves_find(const struct rst_octaves *axis, double number, int64_t *cell)
@@ -235,43 +267,29 @@ static const double rst_soft = 1.0 / 64;
 /* Smallest divisor: nothing is divided by 0, for programs that trap that. */
 static const double rst_least = 0x1p-1000;
 
-/* Where psi = sliding/v_n is on either side of 1, up to psi_c = 1 + width/v_n. Both sides go the same way without a
- * branch, since which one it is cannot be foreseen. */
-struct rst_side {
-    int slips, upper; /* upper: y > 1/2 */
-    double quotient;  /* psi, or 1/psi for psi > 1 */
-    double y;         /* 0 for psi <= 1 */
-    double root;      /* r(y), or r(1 - y) of the upper half */
-};
-
-static inline struct rst_side rst_side_find(double sliding, double v_n, double width)
+/* Cell of psi in begin + u. */
+static inline int64_t rst_psi_cell(double u)
 {
-    const int slips = sliding > v_n;
-    const double beyond = sliding - v_n, ratio = (beyond > 0 ? beyond : 0) / (width + rst_least);
-    const double y = ratio < 1 ? ratio : 1, other = 1 - y;
-    const double root = sqrt((other < y ? other : y) + rst_soft * rst_soft) - rst_soft;
-    const double larger = slips ? sliding : v_n, smaller = slips ? v_n : sliding;
-    return (struct rst_side){.slips = slips,
-                             .upper = other < y,
-                             .quotient = smaller / (larger + rst_least),
-                             .y = y,
-                             .root = root};
+    return rst_bits_of(u) >> (52 - rst_bits_of_cell) & rst_most_psi_cells;
 }
 
-/* First node of the cell, and place s in [0, 3] in it, for psi = sliding/v_n up to psi_c = 1 + width/v_n; `quotient` as
- * of rst_side; closed: 1 from psi = 1 on, 0 below. */
+/* First node of the cell, and place s in [0, 3) in it, for psi = sliding/v_n up to psi_c = 1 + width/v_n; quotient:
+ * psi, or 1/psi beyond psi = 1; closed: 1 from psi = 1 on, 0 below. Both sides go the same way without a branch, since
+ * which one it is cannot be foreseen. */
 static inline int64_t rst_psi_find(const restitute_table *t, double sliding, double v_n, double width, double *s,
                                    double *quotient, double *closed)
 {
-    const struct rst_side at = rst_side_find(sliding, v_n, width);
-    /* below the number of cells even at their end */
-    const struct rst_psi_cells *cells = &t->psi_cells[at.slips];
-    const double u = at.root * cells->of_root + at.quotient * cells->of_psi;
-    const int64_t cell = (int64_t)u;
-    *s = (u - (double)cell) * rst_cubic;
-    *quotient = at.quotient;
-    *closed = cells->of_closed;
-    return t->start[at.slips + (at.slips & at.upper)] + cell * rst_cubic;
+    const int slips = sliding > v_n;
+    const struct rst_psi_cells *cells = &t->psi_cells[slips];
+    const double beyond = rst_clamp(sliding - v_n, 0, width) * cells->square[0];
+    const double along = rst_smaller(beyond / (width + rst_least), cells->square[0]);
+    const double up = cells->soft[0] + along, down = cells->total[0] - along;
+    *quotient = rst_smaller(sliding, v_n) / (rst_larger(sliding, v_n) + rst_least);
+    const double u = sqrt(rst_smaller(up, down)) + (*quotient * cells->of_psi + cells->begin);
+    const int64_t cell = rst_psi_cell(u);
+    *s = (u - (rst_cells_begin + (double)cell)) * rst_cubic;
+    *closed = cells->closed;
+    return t->start[slips + (up > down)] + cell * rst_cubic;
 }
 
 /* r(1/2) */
