@@ -1,4 +1,4 @@
-!> The normal problem of the method `sync` where nothing in it is abrupt: one polynomial a phase.
+!> The normal problem of the method `sync` where nothing in it is abrupt: one polynomial a phase. Not for a dashpot alone (eta).
 !>
 !> Compression and restitution are found at Chebyshev's points by sweeps (modules rst_sync_going_*; rst_sync_coming_* if memory
 !> lasts long, otherwise rst_sync_fading_*). Columns of `curve`, their series: A/y, D', g_k P_k, g_k M_k by y in the compression;
@@ -25,10 +25,10 @@ contains
   !> depth: the largest, roughly. closeness: see normal_levels. turn: s_m and, unless memory lasts long, T, and delay and lead, see
   !> turn_round in rst_sync_fading_*, otherwise 0. spread: slopes of y
   !> over u = tan(phi/2) at both ends, for rst_sync_sample. lacks: what series leave out, and sweeps unfinished.
-  pure subroutine follow_curve(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+  pure subroutine follow_curve(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
                                inverse, lacks, failed)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
+    real(dp), intent(in) :: depth, g_inf, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn(4), spread(2), lacks(2)
     real(dp), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
     real(dp), intent(out) :: layer(n_terms, 2), x_kept(n_terms), inverse(0:p, 0:p, n_terms)
@@ -37,16 +37,16 @@ contains
     integer(ip) :: k
     turn(2:) = 0
     layer = 0
-    call compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, inverse, &
+    call compress(depth, g_inf, n_terms, g, tau, closeness, turn(1), going, layer(:, 1), x_kept, inverse, &
                   unfinished(1), failed)
     if (failed) return
-    if (eta > 0 .or. any(turn(1) > mirrored*tau)) then
+    if (any(turn(1) > mirrored*tau)) then
       call fit_going(n_terms, turn(1), going, curve)
       do k = 1, n_terms
         going(p, 2 + n_terms + k) = going(p, 2 + n_terms + k) + layer(k, 1)/growth_of(turn(1)/tau(k))
       end do
-      call retreat(g_inf, eta, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, inverse, turn(3), &
-                   turn(4), turn(2), coming, layer(:, 2), unfinished(2), failed)
+      call retreat(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, layer(:, 1), x_kept, inverse, turn(3), turn(4), &
+                   turn(2), coming, layer(:, 2), unfinished(2), failed)
     else
       call come_back(g_inf, n_terms, g, tau, closeness, turn(1), going, curve, coming, unfinished(2), failed)
       call fit_going(n_terms, turn(1), going, curve)

@@ -4,7 +4,7 @@
 !> 0. So is the edge of contact there but for what is felt of springs that relax at once, while as a function of the edge time has a
 !> sharp bend where dashpots rule, behind the turning point. So unknown are the squares B of the edge at Chebyshev's points in z,
 !> and T. Edges are free (THEORY 4.5) where
-!>   G_inf (D - B) + sum_k (M_k - E_k M_k(t)) + eta D' = 0,     int f dX = (2/3) G_inf B^(3/2) + sum_k E_k P_k(t),
+!>   G_inf (D - B) + sum_k (M_k - E_k M_k(t)) = 0,     int f dX = (2/3) G_inf B^(3/2) + sum_k E_k P_k(t),
 !> t(B) being when the compression had that edge and E_k = exp(-(s-t)/tau_k). Where E_k is felt t is found with B, in terms of
 !> (1 - t/s_m)^2, which is to B as 1 to 1 nearly, at the turning point too. What the edges lack of being free gives Newton's step of
 !> B and T; forces follow, from them the motion.
@@ -38,10 +38,10 @@ contains
   !> delay, lead: see turn_round. going: of the compression; its last row is all that there is at the turning point. loading:
   !> series, layer: what its M_k have beside them. Columns of `coming`: B, D, D', g_k M_k without left(k)*exp(-(s-s_m)/tau_k).
   !> x_kept, inverse: see solve_again.
-  pure subroutine retreat(g_inf, eta, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, inverse, delay, lead, &
+  pure subroutine retreat(g_inf, n_terms, g, tau, closeness, turn, going, loading, layer, x_kept, inverse, delay, lead, &
                           lasts, coming, left, unfinished, failed)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
+    real(dp), intent(in) :: g_inf, g(n_terms), tau(n_terms), closeness, turn, going(0:p, 2 + 2*n_terms)
     real(dp), intent(in) :: loading(0:p, 2 + 2*n_terms), layer(n_terms)
     real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms), delay, lead, lasts
     real(dp), intent(out) :: coming(0:p, 3 + n_terms), left(n_terms), unfinished
@@ -51,7 +51,7 @@ contains
     real(dp), dimension(0:p) :: guess, step !! of T and B
     type(steps_type) :: before
     integer(ip) :: sweep, l
-    call turn_round(g_inf, eta, n_terms, g, tau, turn, going(p, 1), delay, lead, lasts, edges)
+    call turn_round(g_inf, n_terms, g, tau, turn, going(p, 1), delay, lead, lasts, edges)
     coming(0, 2) = going(p, 1)
     coming(:, 3:) = 0
     x_kept = 0
@@ -66,7 +66,7 @@ contains
       least = max(least, lasts*passed(1) + turn*edges%ago(1))
       if (sweep == 1 .or. least < felt_until*longest_tau) call find_edges(loading, edges)
       call weigh(g_inf, n_terms, g, tau, least, turn, lasts, loading, layer, edges, force(1:), excess, stiffness, rate)
-      call move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
+      call move(g_inf, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
       if (.not. rate(p) < 0) return
       later = max(-0.3_dp*lasts, min(0.3_dp*lasts, -excess(p)/rate(p)))
       step(0) = later
@@ -102,14 +102,14 @@ contains
   !> Nearly what a Kelvin-Voigt solid of that stiffness and viscosity would do if the force stayed as it is at the turning point:
   !> with delay = viscosity/stiffness it is (s - s_m + delay)^2 = (s_m - t)^2 + delay^2. Forces fall, and so
   !> edges are ahead of that, by `lead`, where springs settle at once.
-  pure subroutine turn_round(g_inf, eta, n_terms, g, tau, turn, depth, delay, lead, lasts, edges)
+  pure subroutine turn_round(g_inf, n_terms, g, tau, turn, depth, delay, lead, lasts, edges)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), turn, depth
+    real(dp), intent(in) :: g_inf, g(n_terms), tau(n_terms), turn, depth
     real(dp), intent(out) :: delay, lead, lasts
     type(edges_type), intent(out) :: edges
     real(dp) :: stiffness, viscosity, part, settling
     integer(ip) :: k, l
-    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
+    call soften(g_inf, 0.0_dp, n_terms, g, tau, depth, stiffness, viscosity)
     delay = viscosity/stiffness
     lasts = turn + prolonged*delay
     part = 2*delay/lasts
@@ -215,9 +215,9 @@ contains
   end subroutine weigh
 
   !> The motion by the forces, and the rest of what the edges lack; force: then D''.
-  pure subroutine move(g_inf, eta, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
+  pure subroutine move(g_inf, n_terms, g, tau, lasts, force, going, x_kept, inverse, coming, left, excess, rate)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g_inf, eta, g(n_terms), tau(n_terms), lasts, going(0:p, 2 + 2*n_terms)
+    real(dp), intent(in) :: g_inf, g(n_terms), tau(n_terms), lasts, going(0:p, 2 + 2*n_terms)
     real(dp), intent(inout) :: force(0:p), coming(0:p, 3 + n_terms), left(n_terms), excess(p), rate(p)
     real(dp), intent(inout) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms)
     real(dp) :: held(p)
@@ -227,8 +227,8 @@ contains
     coming(1:, 2) = coming(0, 2) + lasts*returned(coming(:p - 1, 3))
     !$omp simd
     do l = 1, p
-      excess(l) = excess(l) + (g_inf*coming(l, 2) + eta*coming(l, 3))
-      rate(l) = rate(l) + (g_inf*coming(l, 3) + eta*force(l))
+      excess(l) = excess(l) + g_inf*coming(l, 2)
+      rate(l) = rate(l) + g_inf*coming(l, 3)
     end do
     do k = 1, n_terms
       call remember(lasts, g(k), tau(k), coming(:, 3), going(p, 2 + n_terms + k), x_kept(k), inverse(:, :, k), &

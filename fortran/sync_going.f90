@@ -51,9 +51,9 @@ contains
   !> s_m goes like the force to a negative power, 3/2 for springs; a step of a power of 0.4 takes that into account.
   !> Columns of `going`: D, D', g_k P_k, g_k M_k without the layer. x_kept, inverse: see solve_again. unfinished: what
   !> the last sweep left to be changed, about.
-  pure subroutine compress(depth, g_inf, eta, n_terms, g, tau, closeness, turn, going, layer, x_kept, inverse, unfinished, failed)
+  pure subroutine compress(depth, g_inf, n_terms, g, tau, closeness, turn, going, layer, x_kept, inverse, unfinished, failed)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: depth, g_inf, eta, g(n_terms), tau(n_terms), closeness
+    real(dp), intent(in) :: depth, g_inf, g(n_terms), tau(n_terms), closeness
     real(dp), intent(out) :: turn, going(0:p, 2 + 2*n_terms), layer(n_terms)
     real(dp), intent(out) :: x_kept(n_terms), inverse(0:p, 0:p, n_terms), unfinished
     logical, intent(out) :: failed
@@ -65,7 +65,7 @@ contains
     failed = .true.
     x_kept = 0
     going(0, :) = 0
-    call start(depth, g_inf, eta, n_terms, g, tau, turn, d, v)
+    call start(depth, g_inf, n_terms, g, tau, turn, d, v)
     a = sqrt(d)
     do k = 1, n_terms
       if (turn < longest*tau(k)) then
@@ -76,7 +76,7 @@ contains
       end if
     end do
     guess(0) = turn
-    call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), guess(1:))
+    call press(g_inf, n_terms, d, a, going(:, 3:), guess(1:))
     previous = huge(1.0_dp)
     rate_before = best_rate
     do sweep = 1, most_sweeps
@@ -117,7 +117,7 @@ contains
       rate_before = rate
       previous = change
       step(0) = turn
-      call press(g_inf, eta, n_terms, d, a, v, going(:, 3:), step(1:))
+      call press(g_inf, n_terms, d, a, going(:, 3:), step(1:))
       step = step - guess
       call accelerate(step, before, guess)
     end do
@@ -133,15 +133,15 @@ contains
   end subroutine compress
 
   !> s_m, D and D', nearly: what an elastic impact would do, and what dashpots change, by their share of the force.
-  pure subroutine start(depth, g_inf, eta, n_terms, g, tau, turn, d, v)
-    real(dp), intent(in) :: depth, g_inf, eta
+  pure subroutine start(depth, g_inf, n_terms, g, tau, turn, d, v)
+    real(dp), intent(in) :: depth, g_inf
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: turn, d(p), v(p)
     real(dp) :: stiffness, viscosity, part, lag, largest, delay
-    call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
+    call soften(g_inf, 0.0_dp, n_terms, g, tau, depth, stiffness, viscosity)
     part = viscosity/(stiffness*depth)
-    lag = lag_of(eta, n_terms, g, tau, depth)/depth
+    lag = lag_of(n_terms, g, tau, depth)/depth
     turn = depth*(elastic_time + part*(0.29_dp - 0.42_dp*lag/(lag + 0.17_dp))/(1 + 0.13_dp*part))
     largest = depth*(1 - 0.085_dp*part/(0.25_dp + part))
     delay = turn/largest - elastic_time
@@ -150,14 +150,14 @@ contains
   end subroutine start
 
   !> Forces at the points.
-  pure subroutine press(g_inf, eta, n_terms, d, a, v, held, force)
+  pure subroutine press(g_inf, n_terms, d, a, held, force)
     integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g_inf, eta, d(p), a(p), v(p), held(0:p, n_terms)
+    real(dp), intent(in) :: g_inf, d(p), a(p), held(0:p, n_terms)
     real(dp), intent(out) :: force(p)
     integer(ip) :: k, l
     !$omp simd
     do l = 1, p
-      force(l) = a(l)*((2.0_dp/3.0_dp)*g_inf*d(l) + eta*v(l))
+      force(l) = a(l)*((2.0_dp/3.0_dp)*g_inf*d(l))
     end do
     do k = 1, n_terms
       !$omp simd

@@ -68,15 +68,15 @@ contains
     end do
   end subroutine soften
 
-  !> Relaxation time of what is viscous at that age, 0 if nothing is.
-  pure function lag_of(eta, n_terms, g, tau, depth) result(lag)
-    real(dp), intent(in) :: eta, depth
+  !> Relaxation time of what is viscous at that age without a dashpot alone, 0 if nothing is.
+  pure function lag_of(n_terms, g, tau, depth) result(lag)
+    real(dp), intent(in) :: depth
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: lag, viscosity, share
     integer(ip) :: k
     lag = 0
-    viscosity = eta + tiny(1.0_dp)
+    viscosity = tiny(1.0_dp)
     do k = 1, n_terms
       share = g(k)*tau(k)/(1 + 0.8_dp*tau(k)/depth)**2
       lag = lag + share*tau(k)

@@ -59,11 +59,11 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_follow_curve(p, depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
+  pure subroutine rst_follow_curve(p, depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
                                    x_kept, inverse, lacks, failed) &
     bind(c, name="rst_follow_curve"//RST_WIDTH)
     integer(c_int64_t), intent(in), value :: p, n_terms
-    real(c_double), intent(in), value :: depth, g_inf, eta, closeness
+    real(c_double), intent(in), value :: depth, g_inf, closeness
     real(c_double), intent(in) :: g(n_terms), tau(n_terms)
     real(c_double), intent(out) :: turn(4), spread(2), lacks(2)
     real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
@@ -72,29 +72,29 @@ contains
     logical :: fails
     select case (p)
     case (8)
-      call follow_curve_8(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+      call follow_curve_8(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
                           inverse, lacks, fails)
     case (12)
-      call follow_curve_12(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+      call follow_curve_12(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
                            inverse, lacks, fails)
     case default
-      call follow_curve_16(depth, g_inf, eta, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
+      call follow_curve_16(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
                            inverse, lacks, fails)
     end select
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_follow_curve
 
-  pure subroutine rst_sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, failed) &
+  pure subroutine rst_sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, layer, n, level, trace, node, failed) &
     bind(c, name="rst_sample_curve"//RST_WIDTH)
     integer(c_int64_t), intent(in), value :: p, n_terms, n
-    real(c_double), intent(in), value :: g_inf, eta
+    real(c_double), intent(in), value :: g_inf
     real(c_double), intent(in) :: turn(4), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
     type(node_type), intent(out) :: node(0:n)
     integer(c_int64_t), intent(out) :: failed
     logical :: fails
-    call sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, fails)
+    call sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, layer, n, level, trace, node, fails)
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_sample_curve
 

@@ -22,9 +22,9 @@ module rst_sync_sample
 contains
 
   !> n levels a phase. turn, spread, curve, layer: see follow_curve. failed: a time was not found.
-  pure subroutine sample_curve(p, turn, spread, g_inf, eta, n_terms, g, tau, curve, layer, n, level, trace, node, failed)
+  pure subroutine sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, layer, n, level, trace, node, failed)
     integer(ip), intent(in) :: p, n_terms, n
-    real(dp), intent(in) :: turn(4), spread(2), g_inf, eta, g(n_terms), tau(n_terms)
+    real(dp), intent(in) :: turn(4), spread(2), g_inf, g(n_terms), tau(n_terms)
     real(dp), intent(in) :: curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
     type(level_type), intent(out) :: level(0:2*n)
     type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
@@ -43,11 +43,11 @@ contains
       trace(k, 0) = trace_type(0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)
     end do
     do first = 1, n, lanes
-      call sample_compression(p, turn(1), c, g_inf, eta, n_terms, tau, curve, layer(:, 1), rise(:p), n, first, level, trace, node)
+      call sample_compression(p, turn(1), c, g_inf, n_terms, tau, curve, layer(:, 1), rise(:p), n, first, level, trace, node)
     end do
     do first = 1, n, lanes
       if (turn(2) > 0) then
-        call find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve(:, 4 + 2*n_terms:), layer(:, 2), n, first, node, &
+        call find_restitution(p, turn, c, g_inf, n_terms, g, tau, curve(:, 4 + 2*n_terms:), layer(:, 2), n, first, node, &
                               level, trace, failed)
         if (failed) return
       else
@@ -122,9 +122,9 @@ contains
     y = y + others
   end function summed
 
-  pure subroutine sample_compression(p, turn, c, g_inf, eta, n_terms, tau, curve, layer, rise, n, first, level, trace, node)
+  pure subroutine sample_compression(p, turn, c, g_inf, n_terms, tau, curve, layer, rise, n, first, level, trace, node)
     integer(ip), intent(in) :: p, n_terms, n, first
-    real(dp), intent(in) :: turn, c(3), g_inf, eta, tau(n_terms), curve(0:p, 2 + 2*n_terms), layer(n_terms), rise(0:p)
+    real(dp), intent(in) :: turn, c(3), g_inf, tau(n_terms), curve(0:p, 2 + 2*n_terms), layer(n_terms), rise(0:p)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     type(node_type), intent(inout) :: node(0:n)
@@ -139,8 +139,8 @@ contains
     width = (radius + y*summed(p, rise, t))*slope
     radius = radius*y
     depth = radius*radius
-    force = radius*((2.0_dp/3.0_dp)*g_inf*depth + eta*velocity)
-    fresh = g_inf*depth + eta*velocity
+    force = radius*((2.0_dp/3.0_dp)*g_inf*depth)
+    fresh = g_inf*depth
     do k = 1, n_terms
       held = summed(p, curve(:, 2 + k), t)
       force = force + held
@@ -193,9 +193,9 @@ contains
   end subroutine sample_restitution
 
   !> The same by time: where the edge is on the nodes is found by Newton's steps.
-  pure subroutine find_restitution(p, turn, c, g_inf, eta, n_terms, g, tau, curve, layer, n, first, node, level, trace, failed)
+  pure subroutine find_restitution(p, turn, c, g_inf, n_terms, g, tau, curve, layer, n, first, node, level, trace, failed)
     integer(ip), intent(in) :: p, n_terms, n, first
-    real(dp), intent(in) :: turn(4), c(3), g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
+    real(dp), intent(in) :: turn(4), c(3), g_inf, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
@@ -209,10 +209,10 @@ contains
       radius(q) = node(max(n - first - q + 1, 0_ip))%radius
     end do
     ago = turn(1)*(1 - y*y)
-    passed = guess_times(turn, lag_of(eta, n_terms, g, tau, turn(1)), ago)
+    passed = guess_times(turn, lag_of(n_terms, g, tau, turn(1)), ago)
     sharpness = sharp(min(p/4, 4_ip))
     do step = 1, most_steps
-      call weigh_edges(p, turn(2), g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, depth, &
+      call weigh_edges(p, turn(2), g_inf, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, depth, &
                        velocity, force, excess, rate)
       beyond = -huge(1.0_dp)
       !$omp simd reduction(max: beyond)
@@ -259,10 +259,10 @@ contains
   end function guess_times
 
   !> What the edges lack of being free at those times, and its slope in time; the motion then. force: D''.
-  pure subroutine weigh_edges(p, lasts, g_inf, eta, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, &
+  pure subroutine weigh_edges(p, lasts, g_inf, n_terms, g, tau, curve, layer, n, first, last, radius, ago, passed, trace, &
                               depth, velocity, force, excess, rate)
     integer(ip), intent(in) :: p, n_terms, n, first, last
-    real(dp), intent(in) :: lasts, g_inf, eta, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
+    real(dp), intent(in) :: lasts, g_inf, g(n_terms), tau(n_terms), curve(0:p, 2 + n_terms), layer(n_terms)
     real(dp), dimension(lanes), intent(in) :: radius, ago, passed
     type(trace_type), intent(inout) :: trace(n_terms, 0:2*n)
     real(dp), dimension(lanes), intent(out) :: depth, velocity, force, excess, rate
@@ -273,9 +273,9 @@ contains
     depth = summed(p, curve(:, 1), t)
     velocity = summed(p, curve(:, 2), t)
     force = (2.0_dp/3.0_dp)*g_inf*radius*radius*radius
-    excess = g_inf*(depth - radius*radius) + eta*velocity
+    excess = g_inf*(depth - radius*radius)
     rate = g_inf*velocity
-    drag = eta
+    drag = 0
     do k = 1, n_terms
       memory = summed(p, curve(:, 2 + k), t)
       excess = excess + memory

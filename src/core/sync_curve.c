@@ -72,9 +72,9 @@ static int is_short(const struct rst_solid *solid, double lasts)
     return 0;
 }
 
-/* A solid with a dashpot stays at levels: its motion is known as well as polynomials, but runs alone on levels from them keep
- * to their law too rarely (of 20 000 Kelvin-Voigt impacts at 2.5e-6 one in ten was told too low an error of e_x, by 10 times at
- * most; with levels one in seventy, by 3). */
+/* A solid with a dashpot stays at levels: runs alone on levels from polynomials kept to their law too rarely there (of
+ * 20 000 Kelvin-Voigt impacts at 2.5e-6 one in ten was told too low an error of e_x, by 10 times at most; with levels one
+ * in seventy, by 3). */
 int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid)
 {
     const struct rst_solid *s = &problem->solid;
@@ -98,7 +98,7 @@ void rst_sync_follow_curve(const struct rst_problem *problem, double *room, doub
         const size_t rows = (size_t)p + 1;
         double *curve = room, *going = curve + rows * (5 + 3 * terms), *coming = going + rows * (2 + 2 * terms);
         if (allowed < (many ? error_of_many : degrees[i].error)) continue;
-        normal->kernel->follow_curve(p, depth, s->g_inf, s->eta, s->n_terms, s->g, s->tau, closeness, normal->turn,
+        normal->kernel->follow_curve(p, depth, s->g_inf, s->n_terms, s->g, s->tau, closeness, normal->turn,
                                      normal->spread, going, coming, curve, layer, layer + 2 * terms, layer + 3 * terms,
                                      lacks, &failed);
         if (failed) return;
@@ -130,7 +130,7 @@ double rst_sync_curve_force(const struct rst_problem *problem, const struct norm
     struct sync_trace *trace = (struct sync_trace *)(level + 2 * n + 1);
     struct sync_node *node = (struct sync_node *)(trace + terms * (2 * n + 1));
     int64_t failed;
-    normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g,
+    normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g,
                                  s->tau, normal->curve, normal->layer, few_levels, level, trace, node, &failed);
     return failed ? NAN : rst_sync_largest_force(level, few_levels);
 }

@@ -104,7 +104,7 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
     const struct rst_solid *s = &problem->solid;
     int64_t failed = 0;
     if (normal->degree > 0)
-        normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->eta, s->n_terms, s->g,
+        normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g,
                                      s->tau, normal->curve, normal->layer, rung->levels, rung->level, rung->trace,
                                      rung->node, &failed);
     else

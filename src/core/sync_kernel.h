@@ -14,11 +14,11 @@ typedef void sync_dense_levels(const struct sync_grid *grid, double g_inf, doubl
                                const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
                                struct sync_level *level, struct sync_trace *trace, struct sync_node *node,
                                int64_t *failed);
-typedef void sync_follow_curve(int64_t p, double depth, double g_inf, double eta, int64_t n_terms, const double *g,
+typedef void sync_follow_curve(int64_t p, double depth, double g_inf, int64_t n_terms, const double *g,
                                const double *tau, double closeness, double turn[4], double spread[2], double *going,
                                double *coming, double *curve, double *layer, double *x_kept, double *inverse,
                                double lacks[2], int64_t *failed);
-typedef void sync_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf, double eta,
+typedef void sync_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf,
                                int64_t n_terms, const double *g, const double *tau, const double *curve,
                                const double *layer, int64_t n, struct sync_level *level, struct sync_trace *trace,
                                struct sync_node *node, int64_t *failed);
