@@ -43,14 +43,18 @@ def stick_nodes(table):
     return 3 * table.attrs["stick_cells"] + 1
 
 
+def by_inverse(table):
+    """Whether cubics are of 1/(1 + ez) and of what ex exceeds the closed form of full slip by, on both sides of psi = 1."""
+    return table.attrs["slip_cells"] > 0 and 0.5 < table.attrs["own_chi"] <= 2
+
+
 def ez_at(table, v_n):
-    """ez, and where its nodes are; beyond the ends of the table those of the ends. Where psi_c goes with the speed, the cubic
-    is one of 1/(1 + ez)."""
+    """ez, and where its nodes are; beyond the ends of the table those of the ends."""
     speed = table["speed"][:]
     v_n = min(max(v_n, table.attrs["range_first_low"]), table.attrs["range_first_high"])
     first, weights = cubic(speed, v_n)
     nodes = table["ez"][first : first + 4, 0]
-    ez = 1 / (weights @ (1 / (1 + nodes))) - 1 if len(table["psi"]) > stick_nodes(table) else weights @ nodes
+    ez = 1 / (weights @ (1 / (1 + nodes))) - 1 if by_inverse(table) else weights @ nodes
     return float(min(max(ez, 0), 1)), first, weights
 
 
@@ -66,8 +70,10 @@ def pair_at(table, v_n, v_t):
     kept = table["ex"][first : first + 4, 0, :, 0]
     if psi <= 1:
         column, by_psi = cubic(place[:stick], psi)
-        closed = full - 1 if len(place) > stick else 0  # as on the other side of psi = 1
-        kept = kept - (2 * chi * (1 + table["ez"][first : first + 4]) - 1 if len(place) > stick else 0)
+        closed = 0
+        if by_inverse(table):  # as on the other side of psi = 1
+            closed = full - 1
+            kept = kept - (2 * chi * (1 + table["ez"][first : first + 4]) - 1)
     else:
         y = (psi - 1) / (critical - 1)
         half = (len(place) - stick) // 2
@@ -75,7 +81,8 @@ def pair_at(table, v_n, v_t):
         column, by_psi = cubic(root(lower), root(min(y, 1 - y)))
         column += stick + (half if y > 0.5 else 0)
         closed = full / psi - 1
-    return ez, float(weights @ kept[:, column : column + 4] @ by_psi) + closed
+    ex = float(weights @ kept[:, column : column + 4] @ by_psi) + closed
+    return ez, min(max(ex, -1), 1)
 
 
 def find_leaf(leaves, chain, octave, root_of_w, sheet, gamma, places):

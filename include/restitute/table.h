@@ -277,7 +277,10 @@ RESTITUTE_API int restitute_table_builder_restore(restitute_table_builder *build
 /** All of a table in plain numbers, to send or to store it (table_files.h does). Speed and gamma are divided by octaves:
  *  `parts` cells in each (a power of 2), as wide as each other, from `low` to `high`, which are seams; a cell has four nodes, evenly
  *  spaced, those at its ends shared. psi: `stick_cells` such cells of psi from 0 to 1, then `slip_cells` of r(y) = sqrt(y + c^2) - c, c = 1/64, from y = 0
- *  to 1/2, then as many of r(1 - y); y = (psi - 1)/(psi_c - 1). */
+ *  to 1/2, then as many of r(1 - y); y = (psi - 1)/(psi_c - 1).
+ *
+ *  In a cell values are products of cubics through its nodes. In a table of speed (or delta1) and psi alone with 1/2 < chi <= 2 and a slip side they are
+ *  cubics of 1/(1 + ez), and of ex - (2 chi (1 + ez)/max(1, psi) - 1): psi_c - 1 = (2 chi - 1)(1 + ez) is then found without a division. */
 typedef struct restitute_table_data {
     size_t struct_size; /**< set by @ref restitute_table_data_init */
     int64_t of_contact; /**< nonzero: of one contact; then the first axis is the speed (m/s), else delta1 */

@@ -48,20 +48,23 @@ double rst_slip_y(double r)
     return fmin(0.5, r * (r + 2 * rst_soft));
 }
 
-/* Places are kept by less than 1e-9 of a cell within the first and the last one, so that no rounding, in whatever
- * direction, leads beyond. y = 1 leads to the same place as y = 0, since total - square is soft without rounding. */
+/* Places are kept by 2^-42 of a cell behind the start of the first one and before the end of the last one, so that no
+ * rounding, in whatever direction, leads beyond. y = 1 leads to the same place as y = 0, since total - square is soft
+ * without rounding. */
 static void set_psi_cells(restitute_table *form)
 {
-    const double part = 1 - 0x1p-38, begin = rst_cells_begin + 0x1p-42;
-    const double of_root = part * (double)form->slip_cells / rst_largest_r, square = of_root * of_root;
+    const double begin = rst_cells_begin + 0x1p-42, less = 0x1p-40;
+    const double of_root = fmax((double)form->slip_cells - less, 0) / rst_largest_r, square = of_root * of_root;
     const double total = square + rst_soft * rst_soft * square, soft = total - square;
-    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = part * (double)form->stick_cells, .begin = begin, .open = 1};
+    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = fmax((double)form->stick_cells - less, 0), .begin = begin, .open = 1};
     form->psi_cells[1] = (struct rst_psi_cells){.square = rst_two_of(square),
                                                 .soft = rst_two_of(soft),
                                                 .total = rst_two_of(total),
                                                 .of_root = of_root,
                                                 .begin = begin - sqrt(soft),
                                                 .closed = 1};
+    form->share = (2 * form->chi_low - 1) / square;
+    form->limit = 4 * square;
 }
 
 void rst_table_count(restitute_table *form)
@@ -84,7 +87,7 @@ void rst_table_count(restitute_table *form)
     form->start[2] = form->start[1] + half;
     form->n_psi = form->start[2] + half;
     form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->slip_cells > 0 &&
-                     2 * form->chi_low > 1;
+                     form->chi_low > 0.5 && form->chi_low <= rst_most_chi_of_two_axes;
     form->first_cell[0] = 0;
     form->first_cell[1] = form->stick_cells;
     form->first_cell[2] = form->stick_cells + form->slip_cells;
@@ -184,7 +187,7 @@ static void set_inverse(const double ez[4], double inverse[4])
 {
     double power[4];
     set_shifted_cubic((double[]){1 / (1 + ez[0]), 1 / (1 + ez[1]), 1 / (1 + ez[2]), 1 / (1 + ez[3])}, power);
-    inverse[0] = power[0], inverse[1] = power[2], inverse[2] = power[1], inverse[3] = power[3];
+    memcpy(inverse, (double[]){power[0], power[2], power[1], power[3]}, sizeof power);
 }
 
 void rst_table_set_polynomials(restitute_table *t)

@@ -48,9 +48,9 @@ void rst_two_axes_pair(const restitute_table *t, double speed, double sliding, d
     const struct rst_octaves *axis = &t->speed;
     const int slips = sliding > v_n;
     const struct rst_psi_cells *cells = &t->psi_cells[slips];
-    const double twice_chi = t->chi_low * 2, share = (twice_chi - 1) * v_n + rst_least;
-    /* q, and what is square y (1 + ez) */
-    const rst_two part = (rst_two){rst_smaller(sliding, v_n), rst_smaller(sliding - v_n, 4 * share) * cells->square[0]} /
+    /* q, and square y (1 + ez), or 0; nothing is lost by its limit, since 1 + ez <= 2 */
+    const double share = t->share * v_n + rst_least, beyond_one = rst_smaller(sliding - v_n, share * t->limit);
+    const rst_two part = (rst_two){rst_smaller(sliding, v_n), beyond_one * cells->closed} /
                          (rst_two){rst_larger(sliding, v_n) + rst_least, share};
 
     const rst_two number = rst_two_smaller(rst_two_larger(rst_two_of(speed), t->low), t->high);
@@ -66,7 +66,8 @@ void rst_two_axes_pair(const restitute_table *t, double speed, double sliding, d
     const rst_two u = rst_two_of(sqrt(rst_two_smaller(up, down)[0]) + (part[0] * cells->of_psi + cells->begin));
     const rst_two y = behind(rst_bits_of_cell, u), first = {1, y[0]}, last = first * (y * y);
 
-    const double full = 1 / inverse[0], aside = full * (twice_chi * (part[0] * cells->closed + cells->open)) - 1;
+    const double q = part[0] * cells->closed + cells->open; /* 1 for psi <= 1 */
+    const double full = 1 / inverse[0], aside = full * (2 * t->chi_low * q) - 1;
     const rst_whole_two kept = (rst_whole_two)(beyond <= cells->square); /* up to psi_c */
     double(*patches)[4][4] = t->patch + cell * t->cells_of_psi + t->first_cell[slips + (up[0] > down[0])];
     const double *c = (const double *)(const void *)((const char *)patches + patch_of(u[0]));
@@ -132,11 +133,11 @@ static void find_psi(const restitute_table *t, int n, const double *restrict sli
 {
     double u[rst_block], part[rst_block];
     const struct rst_psi_cells stick = t->psi_cells[0], slip = t->psi_cells[1];
-    const double twice_chi = t->chi_low * 2, square = slip.square[0], soft = slip.soft[0], total = slip.total[0];
+    const double square = slip.square[0], soft = slip.soft[0], total = slip.total[0], twice_chi = 2 * t->chi_low;
     for (int i = 0; i < n; i++) {
-        const double slips = sliding[i] > v_n[i] ? 1 : 0, share = (twice_chi - 1) * v_n[i] + rst_least;
+        const double slips = sliding[i] > v_n[i] ? 1 : 0, share = t->share * v_n[i] + rst_least;
         const double q = smaller(sliding[i], v_n[i]) / (larger(sliding[i], v_n[i]) + rst_least);
-        const double beyond = smaller(larger(sliding[i] - v_n[i], 0), 4 * share) * square / share * at->inverse[i];
+        const double beyond = smaller(sliding[i] - v_n[i], share * t->limit) * slips / share * at->inverse[i];
         const double along = smaller(beyond, square), up = soft + along, down = total - along;
         u[i] = slips * (sqrt(smaller(up, down)) + slip.begin) + (1 - slips) * (q * stick.of_psi + stick.begin);
         part[i] = slips + slips * (up > down ? 1 : 0);

@@ -4,6 +4,7 @@
 #ifndef RST_TABLE_SELECT_H
 #define RST_TABLE_SELECT_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #if defined(__SSE2__)
@@ -46,6 +47,7 @@ static inline double rst_if_larger(double a, double b, double yes, double no)
 typedef double rst_two __attribute__((__vector_size__(16)));
 typedef double rst_kept_two __attribute__((__vector_size__(16), __aligned__(8), __may_alias__));
 typedef int64_t rst_whole_two __attribute__((__vector_size__(16)));
+_Static_assert(_Alignof(rst_two) <= _Alignof(max_align_t), "such numbers are kept in memory from malloc");
 #else
 #error "select.h needs the vector types of gcc and clang"
 #endif

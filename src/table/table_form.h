@@ -16,8 +16,8 @@
  * continuous there whatever the error of ez.
  *
  * A table of two axes, speed and psi, has polynomials besides its nodes, so that a lookup reads one run of memory: in
- * each cell of speed one of 1/(1 + ez), in each cell of speed and psi one of what ex exceeds the closed form by, that at
- * psi = 1 where psi is smaller: so both sides meet at psi = 1. SPDX-License-Identifier: BSD-3-Clause */
+ * each cell of speed one of 1/(1 + ez), in each cell of speed and psi one of what ex exceeds the closed form by. For
+ * psi <= 1 that is the closed form at psi = 1, so that both sides meet there. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
 
@@ -62,7 +62,7 @@ struct rst_octaves {
  *     u = sqrt(m) - sqrt(soft) + of_psi q,  m = min(soft + square y, soft + square (1 - y)),
  *
  * with q = psi or 1/psi: of_root r(y) or of_root r(1 - y) beyond psi = 1, where of_psi is 0, and of_psi psi below it,
- * where square and soft are. begin + sqrt(m) + of_psi q = rst_cells_begin + u is a number whose leading bits are the
+ * where square and soft are 0. begin + sqrt(m) + of_psi q = rst_cells_begin + u is a number whose leading bits are the
  * cell; closed: how much of the closed form of slip to the end is kept aside. What is not foreseen is looked up, not
  * branched for. */
 struct rst_psi_cells {
@@ -74,6 +74,10 @@ struct rst_psi_cells {
 /* So many bits of the fraction of such a number are the cell. */
 enum { rst_bits_of_cell = 8, rst_most_psi_cells = 255 };
 static const double rst_cells_begin = 256;
+
+/* The closed form has 2 chi (1 + ez): an error of 1/(1 + ez) between nodes is felt by ex so many times. Spheres of any
+ * kind have chi below 7/4; beyond, ex itself is interpolated. */
+static const double rst_most_chi_of_two_axes = 2;
 
 struct restitute_table {
     int of_contact;
@@ -107,6 +111,7 @@ struct restitute_table {
     double (*inverse)[4];  /* [cell of speed]: 1/(1 + ez); powers 0, 2, 1, 3 */
     double (*patch)[4][4]; /* [cell of speed][cell of psi][power for speed][power for psi]: ex less the closed form */
     rst_two low, high;     /* ends of speed, each twice */
+    double share, limit;   /* (2 chi - 1)/square and 4 square of psi_cells[1] */
     int64_t first_cell[3]; /* of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
     int64_t cells_of_psi;  /* of all three */
 
@@ -281,8 +286,8 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
 {
     const int slips = sliding > v_n;
     const struct rst_psi_cells *cells = &t->psi_cells[slips];
-    const double beyond = rst_clamp(sliding - v_n, 0, width) * cells->square[0];
-    const double along = rst_smaller(beyond / (width + rst_least), cells->square[0]);
+    const double y = rst_clamp(sliding - v_n, 0, width) / (width + rst_least);
+    const double along = rst_smaller(y, 1) * cells->square[0];
     const double up = cells->soft[0] + along, down = cells->total[0] - along;
     *quotient = rst_smaller(sliding, v_n) / (rst_larger(sliding, v_n) + rst_least);
     const double u = sqrt(rst_smaller(up, down)) + (*quotient * cells->of_psi + cells->begin);
