@@ -12,9 +12,9 @@ struct edge {
 static const struct edge no_axis = {.f = {1}};
 
 /* stretch: how the place u in the root goes with that number. */
-static void set_edge(double u, int halvings, double stretch, struct edge *e)
+static void set_edge(uint64_t u, int halvings, double stretch, struct edge *e)
 {
-    const double place = rst_tree_place(u, ldexp(1, halvings));
+    const double place = rst_tree_place(u, halvings);
     rst_serendipity_functions(place, e->f);
     rst_serendipity_slopes(place, e->df);
     for (int i = 0; i < rst_places; i++)
@@ -35,7 +35,7 @@ static double rebound(const restitute_table *t, const struct rst_spot *spot, dou
     const struct rst_shape shape = t->rebound.shape[leaf];
     const double *v = t->ez + leaf * rst_pair_functions;
     struct edge w, gamma;
-    set_edge(spot->w, t->rebound.halvings[RST_ALONG_W][shape.depth], stretch, &w);
+    set_edge(spot->w, t->rebound.halvings[shape.depth][RST_ALONG_W], stretch, &w);
     set_edge(spot->gamma, shape.level, 0, &gamma);
     double ez = 0, by_delta1 = 0;
     for (int64_t n = 0; n < t->of_ez.count; n++) {
@@ -50,16 +50,17 @@ static double rebound(const restitute_table *t, const struct rst_spot *spot, dou
 /* Where in the tree of ex, and how the place on the sheet goes with psi, or beyond psi = 1 with y. */
 struct seat {
     int64_t sheet;
-    double chi, psi, y, stretch;
+    uint64_t chi, psi;
+    double y, stretch;
 };
 
-static struct seat find_seat(const restitute_table *t, double chi, double psi, double width)
+static struct seat find_seat(const restitute_table *t, double chi, double psi, double ez)
 {
-    const struct rst_sheet sheet = rst_sheet_find(psi, 1, width);
+    const struct rst_sheet sheet = rst_sheet_find(psi, 1, rst_slip_beyond(chi, psi, 1), ez);
     struct seat seat = {.sheet = sheet.number, .psi = sheet.place, .y = sheet.y, .stretch = 1};
     if (seat.sheet > 0)
         seat.stretch = 0.25 * rst_slip_sheets / rst_largest_r / sqrt(fmin(seat.y, 1 - seat.y) + rst_soft * rst_soft);
-    if (t->n_chi > 1) seat.chi = fmin(rst_below_one, (chi - t->chi_low) / (t->chi_high - t->chi_low));
+    if (t->n_chi > 1) seat.chi = rst_tree_bits(fmin(rst_below_number, (chi - t->chi_low) / (t->chi_high - t->chi_low)));
     return seat;
 }
 
@@ -79,10 +80,10 @@ static struct kept sum_cell(const restitute_table *t, const struct rst_spot *spo
     const float *v = t->ex_cells + leaf * t->of_ex.count;
     struct edge w, gamma, chi = no_axis, psi;
     struct kept sum = {0, 0, 0};
-    set_edge(spot->w, tree->halvings[RST_ALONG_W][depth], stretch, &w);
+    set_edge(spot->w, tree->halvings[depth][RST_ALONG_W], stretch, &w);
     set_edge(spot->gamma, tree->shape[leaf].level, 0, &gamma);
-    if (t->n_chi > 1) set_edge(seat->chi, tree->halvings[RST_ALONG_CHI][depth], 0, &chi);
-    set_edge(seat->psi, tree->halvings[RST_ALONG_PSI][depth], seat->stretch, &psi);
+    if (t->n_chi > 1) set_edge(seat->chi, tree->halvings[depth][RST_ALONG_CHI], 0, &chi);
+    set_edge(seat->psi, tree->halvings[depth][RST_ALONG_PSI], seat->stretch, &psi);
     for (int64_t n = 0; n < t->of_ex.count; n++) {
         const int8_t *at = t->of_ex.at[n];
         const double part = gamma.f[at[RST_G]] * chi.f[at[RST_C]] * (double)v[n];
@@ -118,7 +119,7 @@ void rst_cell_slope(const restitute_table *t, double delta1, double gamma, doubl
         slope->ex_psi = -full / psi / psi;
         return;
     }
-    const struct seat seat = find_seat(t, chi, psi, critical - 1);
+    const struct seat seat = find_seat(t, chi, psi, ez);
     const struct kept kept = sum_cell(t, &spot, stretch, &seat);
     slope->ex_speed = kept.by_delta1;
     slope->ex_psi = kept.by_psi;

@@ -170,7 +170,7 @@ static int set_cells(const restitute_table_data *d, restitute_table *form, resti
         return refuse(error, "number of cells");
     const double octaves = (double)form->gamma.cells;
     if (d->w_width < narrowest_root || d->w_width > widest_root || d->w_first < -farthest_root ||
-        d->w_first > farthest_root || d->w_roots <= 0 || d->w_roots > farthest_root ||
+        d->w_first > farthest_root || d->w_roots <= 0 || d->w_roots > rst_most_roots ||
         octaves * (double)d->w_roots * rst_sheets * (1 << rst_finest_part) > most_parts)
         return refuse(error, "roots of w");
     form->w = (struct rst_w_axis){

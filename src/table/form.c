@@ -56,7 +56,8 @@ static void set_psi_cells(restitute_table *form)
     const double begin = rst_cells_begin + 0x1p-42, less = 0x1p-40;
     const double of_root = fmax((double)form->slip_cells - less, 0) / rst_largest_r, square = of_root * of_root;
     const double total = square + rst_soft * rst_soft * square, soft = total - square;
-    form->psi_cells[0] = (struct rst_psi_cells){.of_psi = fmax((double)form->stick_cells - less, 0), .begin = begin, .open = 1};
+    form->psi_cells[0] = (struct rst_psi_cells){
+        .of_psi = fmax((double)form->stick_cells - less, 0), .begin = begin, .open = 1};
     form->psi_cells[1] = (struct rst_psi_cells){.square = rst_two_of(square),
                                                 .soft = rst_two_of(soft),
                                                 .total = rst_two_of(total),
@@ -109,8 +110,8 @@ double rst_table_h(double gamma)
 
 void rst_w_axis_logs(struct rst_w_axis *w)
 {
-    w->begin = (double)w->first;
-    w->end = (double)w->roots * rst_below_one;
+    w->begin = (double)w->first - rst_roots_begin;
+    w->end = rst_roots_begin + (double)w->roots - 0x1p-40;
     for (int i = 0; i < 5; i++)
         w->series[i] = (i % 2 ? -1 : 1) * w->scale / ((i + 1) * log(2));
     for (int i = 0; i < rst_log_parts; i++) {

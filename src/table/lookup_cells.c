@@ -20,8 +20,8 @@ enum { line = 64 }; /* bytes that come at once */
 /* A place on its way. */
 struct seat {
     struct rst_spot spot;
-    double width; /* rst_slip_width */
-    double chi;   /* in [0, 1) of its axis */
+    double beyond; /* rst_slip_beyond */
+    uint64_t chi;  /* in [0, 1) of its axis, as rst_tree_bits */
     struct rst_sheet sheet;
     uint32_t code;
     int32_t next; /* on the way to the leaf */
@@ -30,14 +30,14 @@ struct seat {
 static inline double sum_rebound(const restitute_table *t, const struct rst_spot *spot, int64_t cell)
 {
     const struct rst_shape shape = t->rebound.shape[cell];
-    const double w = rst_tree_place(spot->w, t->rebound.times[shape.depth][RST_ALONG_W]);
-    const double gamma = rst_tree_place(spot->gamma, rst_tree_parts[shape.level]);
+    const double w = rst_tree_place(spot->w, shape.depth); /* all halvings are along w */
+    const double gamma = rst_tree_place(spot->gamma, shape.level);
     return rst_clamp(rst_sum_rebound(t->ez + cell * rst_pair_functions, w, gamma), 0, 1);
 }
 
 static inline double find_rebound(const restitute_table *t, const struct rst_spot *spot)
 {
-    const uint32_t code = rst_tree_code_alone(spot->w_part);
+    const uint32_t code = rst_tree_code_alone(spot->w);
     return sum_rebound(t, spot, rst_tree_find(&t->rebound, spot->octave, spot->root, 0, spot->gamma, code));
 }
 
@@ -48,28 +48,30 @@ static inline double closed_form(double chi, double ez, double v_n, double slidi
 }
 
 /* chi is in the table's range. */
-static inline double chi_place(const restitute_table *t, double chi)
+static inline uint64_t chi_place(const restitute_table *t, double chi)
 {
-    return t->n_chi > 1 ? rst_clamp((chi - t->chi_low) / (t->chi_high - t->chi_low), 0, rst_below_one) : 0;
+    if (t->n_chi == 1) return 0;
+    return rst_tree_bits(rst_clamp((chi - t->chi_low) / (t->chi_high - t->chi_low), 0, rst_below_number));
 }
 
 /* Bits of a place on a sheet. */
 static inline void set_code(const restitute_table *t, struct seat *s)
 {
     const struct rst_tree *tree = &t->tangent;
-    s->code = rst_tree_code_of(tree, RST_ALONG_W, s->spot.w_part) | rst_tree_code(tree, RST_ALONG_CHI, s->chi) |
-              rst_tree_code_of(tree, RST_ALONG_PSI, s->sheet.part);
+    s->code = rst_tree_code(tree, RST_ALONG_W, s->spot.w) | rst_tree_code(tree, RST_ALONG_CHI, s->chi) |
+              rst_tree_code(tree, RST_ALONG_PSI, s->sheet.place);
 }
 
 /* Places by value: they are in registers, and what has just been written in parts is slow to read as a whole. */
-static inline double sum_tangential(const restitute_table *t, int64_t cell, double psi, double chi, double w,
-                                    double gamma)
+static inline double sum_tangential(const restitute_table *t, int64_t cell, uint64_t psi, uint64_t chi, uint64_t w,
+                                    uint64_t gamma)
 {
     const struct rst_shape shape = t->tangent.shape[cell];
-    const double *times = t->tangent.times[shape.depth];
-    const rst_four u = {(float)rst_tree_place(psi, times[RST_ALONG_PSI]),
-                        (float)rst_tree_place(chi, times[RST_ALONG_CHI]), (float)rst_tree_place(w, times[RST_ALONG_W]),
-                        (float)rst_tree_place(gamma, rst_tree_parts[shape.level])};
+    const int8_t *halvings = t->tangent.halvings[shape.depth];
+    const rst_four u = {rst_tree_place_single(psi, halvings[RST_ALONG_PSI]),
+                        rst_tree_place_single(chi, halvings[RST_ALONG_CHI]),
+                        rst_tree_place_single(w, halvings[RST_ALONG_W]),
+                        rst_tree_place_single(gamma, shape.level)};
     if (t->n_chi == 1) return rst_sum_without_chi(t->ex_cells + cell * rst_functions_without_chi, u);
     return rst_sum_cell(t->ex_cells + cell * rst_most_functions, u);
 }
@@ -113,16 +115,15 @@ void rst_cells_pair(const restitute_table *t, double delta1, double gamma, doubl
     struct seat s;
     rst_spot_find(t, delta1, gamma, &s.spot);
     fetch_fans(t, &s.spot);
-    const double ez = find_rebound(t, &s.spot);
-    pair->ez = ez;
     chi = rst_chi_in_table(t, chi);
-    const double width = rst_slip_width(chi, ez, v_n);
-    if (sliding > v_n + width) {
+    const double beyond = rst_slip_beyond(chi, sliding, v_n), ez = find_rebound(t, &s.spot);
+    pair->ez = ez;
+    if (beyond > 1 + ez) {
         pair->ex = closed_form(chi, ez, v_n, sliding);
         return;
     }
     s.chi = chi_place(t, chi);
-    s.sheet = rst_sheet_find(sliding, v_n, width);
+    s.sheet = rst_sheet_find(sliding, v_n, beyond, ez);
     set_code(t, &s);
     const int64_t cell = rst_tree_find(&t->tangent, s.spot.octave, s.spot.root, s.sheet.number, s.spot.gamma, s.code);
     pair->ex = ex_of(&s.sheet, sum_tangential(t, cell, s.sheet.place, s.chi, s.spot.w, s.spot.gamma), ez);
@@ -136,7 +137,7 @@ static void find_spots(const restitute_table *t, int n, const struct rst_asked *
     for (int i = 0; i < n; i++) {
         struct rst_spot *spot = &s[i].spot;
         rst_spot_find(t, a[i].speed, a[i].gamma, spot);
-        s[i].code = rst_tree_code_alone(spot->w_part);
+        s[i].code = rst_tree_code_alone(spot->w);
         s[i].next = rst_tree_first(tree, *rst_tree_start(tree, spot->octave, spot->root, spot->gamma), s[i].code);
     }
 }
@@ -158,24 +159,23 @@ static int find_rebounds(const restitute_table *t, int n, const struct rst_asked
         ez[i] = sum_rebound(t, &s[i].spot, rst_tree_rest(&t->rebound, s[i].next, 1, s[i].code));
         const double chi = rst_chi_in_table(t, a[i].chi), sliding = a[i].sliding;
         s[i].chi = chi_place(t, chi);
-        s[i].width = rst_slip_width(chi, ez[i], a[i].v_n);
-        const double end = a[i].v_n + s[i].width;
-        ex[i] = closed_form(chi, ez[i], rst_if_larger(sliding, end, a[i].v_n, 0),
-                            rst_if_larger(sliding, end, sliding, 1)); /* v_t may be 0 */
+        s[i].beyond = rst_slip_beyond(chi, sliding, a[i].v_n);
+        ex[i] = closed_form(chi, ez[i], rst_if_larger(s[i].beyond, 1 + ez[i], a[i].v_n, 0),
+                            rst_if_larger(s[i].beyond, 1 + ez[i], sliding, 1)); /* v_t may be 0 */
         kept[count] = i;
-        count += !(sliding > end);
+        count += !(s[i].beyond > 1 + ez[i]);
     }
     return count;
 }
 
 static void find_sheets(const restitute_table *t, int n, const int *kept, const struct rst_asked *asked,
-                        struct seat *seats)
+                        const double *ez, struct seat *seats)
 {
     const struct rst_tree *tree = &t->tangent;
     for (int k = 0; k < n; k++) {
         const struct rst_asked *a = &asked[kept[k]];
         struct seat *s = &seats[kept[k]];
-        s->sheet = rst_sheet_select(a->sliding, a->v_n, s->width);
+        s->sheet = rst_sheet_select(a->sliding, a->v_n, s->beyond, ez[kept[k]]);
         set_code(t, s);
         const int32_t *start = rst_tree_start(tree, s->spot.octave, s->spot.root, s->spot.gamma);
         s->next = rst_tree_first(tree, start[s->sheet.number], s->code);
@@ -198,7 +198,7 @@ void rst_cells_pairs(const restitute_table *t, int n, const struct rst_asked *a,
     int kept[rst_block];
     find_spots(t, n, a, s);
     const int count = find_rebounds(t, n, a, s, ez, ex, kept);
-    find_sheets(t, count, kept, a, s);
+    find_sheets(t, count, kept, a, ez, s);
     find_leaves(t, count, kept, s);
     for (int k = 0; k < count; k++) {
         const struct seat *at = &s[kept[k]];

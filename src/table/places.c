@@ -34,7 +34,7 @@ static double place_in_root(const struct rst_tree *t, const struct rst_leaf *l, 
     int64_t part = 0;
     for (int64_t d = 0; d < l->depth; d++)
         if (t->chain[d] == (int8_t)along) part = 2 * part + (l->path >> (l->depth - 1 - d) & 1);
-    return ldexp((double)part + 0.25 * place, -t->halvings[along][l->depth]);
+    return ldexp((double)part + 0.25 * place, -t->halvings[l->depth][along]);
 }
 
 /* As rst_sheet_find takes it: psi, or 1 + y. */

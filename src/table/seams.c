@@ -90,12 +90,12 @@ static int64_t leaf_at(const struct harvest *h, const double at[rst_cell_axes])
     const struct rst_tree *t = h->tree;
     const int64_t most[rst_cell_axes] = {t->of.roots, t->of.octaves, 1, t->of.sheets};
     int64_t whole[rst_cell_axes];
-    double part[rst_cell_axes];
+    uint64_t part[rst_cell_axes];
     uint32_t code = 0;
     for (int a = 0; a < rst_cell_axes; a++) {
         whole[a] = (int64_t)floor(at[a] / rst_lattice);
         if (whole[a] < 0 || whole[a] >= most[a]) return -1;
-        part[a] = at[a] / rst_lattice - (double)whole[a];
+        part[a] = rst_tree_bits(at[a] / rst_lattice - (double)whole[a]);
         if (a != RST_G) code |= rst_tree_code(t, along[a], part[a]);
     }
     const int64_t leaf = rst_tree_find(t, whole[RST_G], whole[RST_W], whole[RST_P], part[RST_G], code);

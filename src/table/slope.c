@@ -1,5 +1,5 @@
-/* A pair of any contact, with its derivatives on request: the same polynomials as in lookup.c, differentiated. Cells and two axes have
- * files of their own.
+/* A pair of any contact, with its derivatives on request: the same polynomials as in lookup.c, differentiated. Cells
+ * and two axes have files of their own.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "slope.h"
 

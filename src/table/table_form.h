@@ -37,12 +37,17 @@ enum {
     rst_log_parts = 64
 };
 
+/* A number of roots, at most rst_most_roots, is kept as rst_roots_begin and that: the root is then so many of the bits
+ * of the fraction, and the others are the place in it. */
+enum { rst_bits_of_root = 11, rst_most_roots = 2047 };
+static const double rst_roots_begin = 2048;
+
 /* log2 of w = delta1 h(gamma), divided into roots of a tree. */
 struct rst_w_axis {
     int64_t first, roots;                              /* the first begins at log2 w = first 2^width */
     int64_t width;                                     /* log2 of the octaves of a root */
     double scale;                                      /* 2^-width */
-    double begin, end;                                 /* `first`; below `roots` */
+    double begin, end;                                 /* `first` and below `roots`, less and plus rst_roots_begin */
     double series[5];                                  /* of log2(1 + r) times `scale`, from the first power on */
     double inverse[rst_log_parts], log[rst_log_parts]; /* of the middles of parts of [1, 2]; times `scale` */
 };
@@ -196,8 +201,9 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
-/* Place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as that of libm. The
- * logarithm of the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128, up to r^5. */
+/* rst_roots_begin and the place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as
+ * that of libm. The logarithm of the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128,
+ * up to r^5. */
 static inline double rst_w_place(const struct rst_w_axis *w, double number)
 {
     const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
@@ -214,29 +220,11 @@ static inline double rst_w_place(const struct rst_w_axis *w, double number)
     return (octaves + w->log[part]) + (r * (series[0] + series[1] * r) + high);
 }
 
-/* Octave of gamma, which is on the axis, and place in it. */
-static inline double rst_gamma_place(const struct rst_octaves *axis, double gamma, int64_t *octave)
-{
-    const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
-    int64_t bits, reduced;
-    double m;
-    gamma = rst_clamp(gamma, axis->low, axis->high); /* NaN as well */
-    memcpy(&bits, &gamma, sizeof bits);
-    reduced = (bits & fraction) | one;
-    memcpy(&m, &reduced, sizeof m);
-    *octave = (bits >> 52) - axis->first;
-    return m - 1;
-}
-
-/* Places in [0, 1) of an octave of gamma and of a root of w. */
+/* Places in [0, 1) of an octave of gamma and of a root of w, as rst_tree_bits. */
 struct rst_spot {
     int64_t octave, root;
-    double gamma, w;
-    int32_t w_part; /* rst_tree_part of it */
+    uint64_t gamma, w;
 };
-
-/* The largest number below 1 */
-static const double rst_below_one = 1 - 0x1p-53;
 
 /* h at a place in an octave. */
 static inline double rst_h(const double h[4], double x)
@@ -246,14 +234,14 @@ static inline double rst_h(const double h[4], double x)
 
 static inline void rst_spot_find(const restitute_table *t, double delta1, double gamma, struct rst_spot *spot)
 {
-    const double x = rst_gamma_place(&t->gamma, gamma, &spot->octave);
-    const double w = rst_clamp(delta1, t->speed.low, t->speed.high) * rst_h(t->h[spot->octave], x);
-    const double u = rst_clamp(rst_w_place(&t->w, w), 0, t->w.end);
-    const int64_t part = (int64_t)(u * (1 << rst_most_halvings)); /* one conversion for root and part */
-    spot->root = part >> rst_most_halvings;
-    spot->w_part = (int32_t)(part & ((1 << rst_most_halvings) - 1));
-    spot->w = u - (double)spot->root;
-    spot->gamma = x;
+    const int64_t bits = rst_bits_of(rst_clamp(gamma, t->gamma.low, t->gamma.high)); /* NaN as well */
+    spot->octave = (bits >> 52) - t->gamma.first;
+    spot->gamma = (uint64_t)bits << 12;
+    const double h = rst_h(t->h[spot->octave], rst_tree_place(spot->gamma, 0));
+    const double u = rst_w_place(&t->w, rst_clamp(delta1, t->speed.low, t->speed.high) * h);
+    const uint64_t along = (uint64_t)rst_bits_of(rst_clamp(u, rst_roots_begin, t->w.end)) << 12;
+    spot->root = (int64_t)(along >> (64 - rst_bits_of_root));
+    spot->w = along << rst_bits_of_root;
 }
 
 /* First node of the cell of chi, which is in the table's range, and place s in [0, 3] in it. */
@@ -300,17 +288,18 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
 /* r(1/2) */
 static const double rst_largest_r = 0.6916543936097672;
 
-/* What psi_c exceeds 1 by, times v_n. */
-static inline double rst_slip_width(double chi, double ez, double v_n)
+/* What psi = sliding/v_n exceeds 1 by over what psi_c does without rebound: y (1 + ez), up to some number beyond 2.
+ * All of it can be found while ez is not known yet. */
+static inline double rst_slip_beyond(double chi, double sliding, double v_n)
 {
-    return (rst_larger(2 * chi - 1, 0) * v_n) * (1 + ez);
+    const double share = rst_larger(2 * chi - 1, 0) * v_n + rst_least;
+    return rst_clamp(sliding - v_n, 0, 4 * share) / share;
 }
 
-/* y, from psi = 1 at 0 to psi_c at 1. */
-static inline double rst_slip_part(double sliding, double v_n, double width)
-{
-    return rst_clamp(rst_larger(sliding - v_n, 0) / (width + rst_least), 0, 1);
-}
+/* A place on the sheets one after the other is kept as rst_sheets_begin and that: the sheet is then so many of the
+ * bits of the fraction. The end is below the number of sheets. */
+enum { rst_bits_of_sheet = 3 };
+static const double rst_sheets_begin = 8, rst_sheets_end = 5 - 0x1p-48, rst_below_sheet = 1 - 0x1p-48;
 
 /* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do
  * behind the square root. */
@@ -318,44 +307,46 @@ static inline double rst_slip_place(double y)
 {
     const double half = 0.5 * rst_slip_sheets, scale = half / rst_largest_r, from_middle = 0.5 - y;
     const double root = sqrt((0.5 + rst_soft * rst_soft) - fabs(from_middle));
-    const double start = (1 + half) - copysign(half + rst_soft * scale, from_middle);
-    return rst_clamp(start + copysign(scale, from_middle) * root, 1, 5 * rst_below_one);
+    const double start = (rst_sheets_begin + 1 + half) - copysign(half + rst_soft * scale, from_middle);
+    const double place = start + copysign(scale, from_middle) * root;
+    return rst_clamp(place, rst_sheets_begin + 1, rst_sheets_begin + rst_sheets_end);
 }
 
-/* Sheet of a tree and place in [0, 1) on it; y, and what the kept value is times: 1, and 1/psi beyond psi = 1. */
+/* Sheet of a tree and place in [0, 1) on it, as rst_tree_bits; y, and what the kept value is times: 1, and 1/psi beyond
+ * psi = 1. */
 struct rst_sheet {
     int64_t number;
-    int32_t part; /* rst_tree_part of the place */
-    double place, y, quotient;
+    uint64_t place;
+    double y, quotient;
 };
 
 static inline struct rst_sheet rst_sheet_of(double u, double y, double quotient)
 {
-    const int32_t part = rst_tree_part(u), number = part >> rst_most_halvings; /* one conversion for both */
-    return (struct rst_sheet){.number = number,
-                              .part = part & ((1 << rst_most_halvings) - 1),
-                              .place = u - (double)number,
+    const uint64_t bits = (uint64_t)rst_bits_of(u) << 12;
+    return (struct rst_sheet){.number = (int64_t)(bits >> (64 - rst_bits_of_sheet)),
+                              .place = bits << rst_bits_of_sheet,
                               .y = y,
                               .quotient = quotient};
 }
 
-/* For psi = sliding/v_n up to psi_c = 1 + width/v_n. What follows waits for the place, so a guess of the side is
- * faster than both sides, even if every other one is wrong. */
-static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double width)
+/* For psi = sliding/v_n up to psi_c; beyond: rst_slip_beyond, at most 1 + ez. What follows waits for the place, so a
+ * guess of the side is faster than both sides, even if every other one is wrong. */
+static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double beyond, double ez)
 {
-    if (!(sliding > v_n)) return rst_sheet_of(sliding / (v_n + rst_least) * rst_below_one, 0, 1);
-    const double y = rst_slip_part(sliding, v_n, width);
+    if (!(sliding > v_n)) return rst_sheet_of(rst_sheets_begin + sliding / (v_n + rst_least) * rst_below_sheet, 0, 1);
+    const double y = rst_smaller(beyond / (1 + ez), 1);
     return rst_sheet_of(rst_slip_place(y), y, v_n / sliding);
 }
 
 /* The same, to the bit, by both sides and a selection: where many are found one after the other nothing waits, and a
  * wrong guess costs more. */
-static inline struct rst_sheet rst_sheet_select(double sliding, double v_n, double width)
+static inline struct rst_sheet rst_sheet_select(double sliding, double v_n, double beyond, double ez)
 {
     const double larger = rst_if_larger(sliding, v_n, sliding, v_n + rst_least);
     const double part = rst_if_larger(sliding, v_n, v_n, sliding) / larger; /* 1/psi or psi */
-    const double y = rst_slip_part(sliding, v_n, width);
-    return rst_sheet_of(rst_if_larger(sliding, v_n, rst_slip_place(y), part * rst_below_one), y,
+    const double y = rst_smaller(beyond / (1 + ez), 1);
+    const double stick = rst_sheets_begin + part * rst_below_sheet;
+    return rst_sheet_of(rst_if_larger(sliding, v_n, rst_slip_place(y), stick), y,
                         rst_if_larger(sliding, v_n, part, 1));
 }
 

@@ -13,12 +13,9 @@ void rst_tree_begin(struct rst_roots of, const int8_t *chain, int64_t length, st
     memcpy(tree->chain, chain, (size_t)length);
     for (int64_t d = 0; d < rst_deepest; d++)
         for (int a = 0; a < rst_alongs; a++)
-            tree->halvings[a][d + 1] = (int8_t)(tree->halvings[a][d] + (d < length && chain[d] == a));
-    for (int64_t d = 0; d <= rst_deepest; d++)
-        for (int a = 0; a < rst_alongs; a++)
-            tree->times[d][a] = (double)(INT64_C(1) << tree->halvings[a][d]);
+            tree->halvings[d + 1][a] = (int8_t)(tree->halvings[d][a] + (d < length && chain[d] == a));
     for (int64_t d = 0; d < length; d++) {
-        const int bit = rst_most_halvings - 1 - tree->halvings[chain[d]][d], half = rst_most_halvings / 2;
+        const int bit = rst_most_halvings - 1 - tree->halvings[d][chain[d]], half = rst_most_halvings / 2;
         for (int i = 0; i < 1 << half; i++)
             if (i >> bit % half & 1) tree->spread[chain[d]][bit < half][i] |= UINT32_C(1) << (rst_deepest - 1 - d);
     }
@@ -187,7 +184,6 @@ int rst_tree_plant(struct rst_tree *t, const struct rst_leaf *leaf, int64_t leav
     t->part_bits = 0;
     for (int64_t i = 0; i < leaves; i++)
         if (leaf[i].level > t->part_bits) t->part_bits = leaf[i].level;
-    t->parts = (double)(INT64_C(1) << t->part_bits);
     int64_t *finest = finest_levels(t, leaf, leaves);
     const int64_t most = finest ? most_fans(t, leaf, leaves, finest) : 0;
     int status = !finest ? 1 : most >= INT32_MAX ? 2 : make_room(t, leaves, most);
