@@ -114,7 +114,7 @@ typedef struct restitute_table_slope {
 
 /** The pair of an impact, from the table of one contact.
  *
- *  @param normal_speed      m/s, approaching, in [0, infinity)
+ *  @param normal_speed      m/s, approaching, in [0, infinity); what is below 1e-280 counts as 0
  *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), finite; its sign does not matter
  *  @return OK; ERROR_DOMAIN for a speed out of its range or a table without a contact; ERROR_NULL
  *
@@ -324,7 +324,7 @@ typedef struct restitute_table_data {
                               `cells`, coefficients of a cell: 136 (50 without a range of chi), and places of chi and psi: 5
                               (1), 5; cells of chi and psi are not used */
     int64_t rebound_cells; /**< of ez */
-    int64_t w_width, w_first, w_roots; /**< w_roots roots along w, the first from log2 w = w_first 2^w_width on */
+    int64_t w_width, w_first, w_roots; /**< w_roots <= 2047 roots along w, the first from log2 w = w_first 2^w_width on */
     int64_t chain_length, chain[32];   /**< along what a root of ex is halved, time after time: 0 w, 1 chi, 2 psi. Those
                                           of ez: always w, up to 12 times */
     const int64_t *leaves, /**< [cell][7]: octave of gamma, root of w, sheet of psi; depth, path; level, part. The

@@ -20,8 +20,7 @@ enum { rebound_along = 8, rebound_inside = 12, tangent_along = 4, tangent_inside
 /* Rounds of checks that may fail, and tables whose seams may tell before the checks do. */
 enum { most_rounds = 12, most_seam_rounds = 2 };
 
-/* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5, nor so narrow that
- * there were too many of them. */
+/* A root of log2 w is as wide as the range, but no wider than 2^1 octaves and no narrower than 2^-5. */
 enum { widest = 1, narrowest = -5 };
 
 /* Nodes of cells at the ends of the range of delta1 lie outside, no farther than by this factor, since a root spans 2
@@ -71,10 +70,7 @@ int rst_cells_create(struct restitute_table_builder *b, restitute_error *error)
     if (!c) return out_of_memory(error);
     rst_octaves_set(b->seam_low[1], b->seam_high[1], 0, &c->gamma);
     const double *range = b->family.range[0];
-    for (int64_t width = width_of(range); width <= widest; width++) {
-        rst_w_axis_set(range[0] / beyond_range, range[1] * beyond_range, &c->gamma, width, &c->w);
-        if (c->w.roots <= rst_most_roots) break;
-    }
+    rst_w_axis_set(range[0] / beyond_range, range[1] * beyond_range, &c->gamma, width_of(range), &c->w);
     c->growing = &c->rebound;
     c->rebound.beyond = beyond_range;
     c->tangent.beyond = 1;

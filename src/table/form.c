@@ -63,8 +63,9 @@ static void set_psi_cells(restitute_table *form)
                                                 .total = rst_two_of(total),
                                                 .of_root = of_root,
                                                 .begin = begin - sqrt(soft),
-                                                .closed = 1};
-    form->share = (2 * form->chi_low - 1) / square;
+                                                .closed = 1,
+                                                .small = rst_small};
+    form->share = rst_small * ((2 * form->chi_low - 1) / square);
     form->limit = 4 * square;
 }
 

@@ -92,6 +92,7 @@ evaluate_general(const restitute_table *t, double speed, double gamma, double ch
     chi = rst_chi_in_table(t, chi);
     const double ez = rebound(t, &p), full = 2 * chi * (1 + ez), critical = 2 * chi > 1 ? full - ez : 1;
     pair->ez = ez;
+    if (v_n > 1) sliding /= v_n, v_n = 1; /* nothing overflows */
     if (sliding > critical * v_n)
         pair->ex = rst_clamp(full * (v_n / sliding) - 1, -1, 1); /* (27) */
     else

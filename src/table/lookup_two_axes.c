@@ -19,10 +19,7 @@ static inline rst_two behind(int leading, rst_two number)
 /* The same of one. */
 static inline double behind_one(int leading, double number)
 {
-    const int64_t bits = (int64_t)((uint64_t)rst_bits_of(number) << leading & (uint64_t)fraction) | one;
-    double m;
-    memcpy(&m, &bits, sizeof m);
-    return m;
+    return rst_tree_number((uint64_t)rst_bits_of(number) << 12, leading);
 }
 
 /* Bits of u + rst_cells_begin that are the cell of psi, times the bytes of a patch. */
@@ -48,10 +45,11 @@ void rst_two_axes_pair(const restitute_table *t, double speed, double sliding, d
     const struct rst_octaves *axis = &t->speed;
     const int slips = sliding > v_n;
     const struct rst_psi_cells *cells = &t->psi_cells[slips];
-    /* q, and square y (1 + ez), or 0; nothing is lost by its limit, since 1 + ez <= 2 */
-    const double share = t->share * v_n + rst_least, beyond_one = rst_smaller(sliding - v_n, share * t->limit);
-    const rst_two part = (rst_two){rst_smaller(sliding, v_n), beyond_one * cells->closed} /
-                         (rst_two){rst_larger(sliding, v_n) + rst_least, share};
+    /* q, and square y (1 + ez) or 0; nothing is lost by the limit, since 1 + ez <= 2 */
+    const double share = t->share * v_n + rst_least;
+    const double more = rst_smaller((sliding - v_n) * cells->small, share * t->limit);
+    const rst_two divisor = {rst_larger(sliding, v_n) + rst_least, share};
+    const rst_two part = (rst_two){rst_smaller(sliding, v_n), more} / divisor;
 
     const rst_two number = rst_two_smaller(rst_two_larger(rst_two_of(speed), t->low), t->high);
     const int64_t cell = (rst_bits_of(number[0]) >> axis->shift) - axis->first;
@@ -137,7 +135,8 @@ static void find_psi(const restitute_table *t, int n, const double *restrict sli
     for (int i = 0; i < n; i++) {
         const double slips = sliding[i] > v_n[i] ? 1 : 0, share = t->share * v_n[i] + rst_least;
         const double q = smaller(sliding[i], v_n[i]) / (larger(sliding[i], v_n[i]) + rst_least);
-        const double beyond = smaller(sliding[i] - v_n[i], share * t->limit) * slips / share * at->inverse[i];
+        const double more = smaller((sliding[i] - v_n[i]) * (slips * rst_small), share * t->limit);
+        const double beyond = more / share * at->inverse[i];
         const double along = smaller(beyond, square), up = soft + along, down = total - along;
         u[i] = slips * (sqrt(smaller(up, down)) + slip.begin) + (1 - slips) * (q * stick.of_psi + stick.begin);
         part[i] = slips + slips * (up > down ? 1 : 0);

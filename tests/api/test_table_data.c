@@ -110,6 +110,7 @@ static void look_up_odd(const restitute_table *table, const struct form *form, u
         assert_int_equal(restitute_table_pair(table, v_n[i], v_t[i], &one), RESTITUTE_OK);
         assert_int_equal(restitute_table_pair_of(table, NULL, v_n[i], v_t[i], &other, &slope), RESTITUTE_OK);
         CHECK(one.ez >= 0 && one.ez <= 1 && fabs(one.ex) <= 1, "ez %.17g, ex %.17g", one.ez, one.ex);
+        CHECK(form->psi_factor <= DBL_MAX || one.ex == -1, "without friction, v_n %g: ex %.17g", v_n[i], one.ex);
         CHECK(one.ez == ez[i] && one.ex == ex[i] && one.ez == other.ez && one.ex == other.ex,
               "chi %.17g, v_n %.17g, v_t %.17g: one %.17g %.17g, many %.17g %.17g", form->chi, v_n[i], v_t[i], one.ez,
               one.ex, ez[i], ex[i]);
