@@ -8,13 +8,9 @@
 #include "select.h"
 #include "serendipity.h"
 
-/* Numbers that are added at once, and such as they stand in a cell. */
-#if defined(__GNUC__)
+/* Four numbers that are added at once, and four as they stand in a cell. */
 typedef float rst_four __attribute__((__vector_size__(16)));
 typedef float rst_kept_four __attribute__((__vector_size__(16), __aligned__(4), __may_alias__));
-#else
-#error "cell_sum.h needs the vector types of gcc and clang"
-#endif
 
 static inline rst_four rst_four_at(const float *c)
 {

@@ -205,7 +205,7 @@ static void errors_do_not_grow_with_chi(void **state)
     }
 }
 
-/* Speeds above the table's are taken as its end, however large they are. */
+/* Speeds above the table's are taken as its end, however large they are: the same but for rounding. */
 static void enormous_speeds(void **state)
 {
     static const double chi[] = {7.0 / 6, 1000};

@@ -56,7 +56,7 @@ static void continuous(void **state)
         const double v = random_log(&random, 1e-3, 10), critical = restitute_critical_psi(chi, look_up(table, v, 0).ez);
         CHECK_NEAR(ex_at(v, 1 + 1e-12), ex_at(v, 1 - 1e-12), 1e-10, "psi = 1, v_n = %g", v);
         CHECK_NEAR(ex_at(v, critical * (1 + 1e-12)), ex_at(v, critical * (1 - 1e-12)), 1e-10, "psi_c, v_n = %g", v);
-        const double middle = 0.5 * (1 + critical); /* y = 1/2 */
+        const double middle = 0.5 * (1 + critical); /* y = 1/2, where cells end 1e-12 of their width early */
         CHECK_NEAR(ex_at(v, middle * (1 + 1e-15)), ex_at(v, middle * (1 - 1e-15)), 1e-12, "y = 1/2, v_n = %g", v);
         CHECK_NEAR(ex_at(v, critical * 1.0000001), 2 * chi * (1 + look_up(table, v, 0).ez) / (critical * 1.0000001) - 1,
                    1e-12, "the closed form beyond psi_c, v_n = %g", v);
