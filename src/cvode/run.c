@@ -585,6 +585,7 @@ static int advance(struct run *run)
     const int64_t first = run->scene.n_entered;
     const enum integrator_return what = integrator_advance(run->integrator, &run->time, run->y);
     if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, integrator_text(run->integrator));
+    if (run->sample) run->sample(run);
     if (run->shears && admit(run, run->time))
         return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
     int status = run->setup->n_nodes == 0 && !run->scene.restitution ? extend_trace(run, from) : RESTITUTE_OK;
