@@ -68,7 +68,7 @@ static int check_options(const restitute_options *options, restitute_error *erro
     status = rst_check_range(options->tolerance, 1e-8, 0.1, "tolerance", error);
     if (!status && options->elements != 0)
         status = rst_check_range((double)options->elements, 4, 1e6, "elements", error);
-    if (!status && options->time_step != 0) status = rst_check_positive(options->time_step, 0, "time_step", error);
+    if (!status) status = rst_check_within(options->time_step, rst_lengths, 0, "time_step", error);
     if (!status && options->time_step > 0 && !options->method->takes_time_step)
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
                             "time_step = %g: must be 0 with the method %s, which chooses its steps itself",

@@ -30,12 +30,14 @@ static double denser_sphere(const restitute_scene *scene)
                                                         : fmax(first, sphere_density(scene->mass2, scene->radius2));
 }
 
-/* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves
- * do not travel: the ratio is infinite. */
-static double shear_wave_speed(const restitute_scene *scene, double time)
+/* Normal speed over the speed of shear waves in what deforms; the modulus is that at the time scale of the impact. A
+ * mere dashpot has none by then, and its waves do not travel: the ratio is infinite. */
+static double speed_ratio(const restitute_scene *scene, double time)
 {
+    const double none = 1e-100; /* Pa; what fades has no end before it underflows */
     double density = scene->density > 0 ? scene->density : denser_sphere(scene);
-    return sqrt(restitute_material_modulus(scene->material, time) / density);
+    double modulus = restitute_material_modulus(scene->material, time);
+    return modulus > none ? scene->normal_speed / sqrt(modulus / density) : INFINITY;
 }
 
 void rst_judge_validity(const restitute_options *options, const restitute_scene *scene,
@@ -47,7 +49,7 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     if (!scene) return;
     double depth = outcome->max_indentation * numbers->length_z;
     double radius = outcome->max_contact_radius * numbers->length_x;
-    result->speed_ratio = scene->normal_speed / shear_wave_speed(scene, numbers->time);
+    result->speed_ratio = speed_ratio(scene, numbers->time);
     result->radius_ratio = radius / numbers->radius;
     result->displacement_ratio = fabs(rst_sliding_speed(scene)) * (depth / scene->normal_speed) / radius;
     result->dundurs_beta = restitute_material_dundurs(scene->material);

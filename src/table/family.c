@@ -89,9 +89,10 @@ static int set_contact(const restitute_table_family *given, struct rst_family *f
 {
     restitute_scene plain;
     const restitute_scene *scene = given->scene;
-    int status = check_range(given->speed, "speed (m/s)", DBL_MIN, 1e12, 1e15, error);
+    int status = check_range(given->speed, "speed (m/s)", rst_sizes.low, 1e12, 1e15, error);
     if (status) return status;
-    if (scene->struct_size != sizeof *scene || !scene->material || !(scene->friction >= 0)) {
+    if (scene->struct_size != sizeof *scene || !scene->material ||
+        (scene->friction != 0 && !(scene->friction >= rst_least_friction))) {
         restitute_numbers numbers; /* the core says what is wrong */
         restitute_numbers_init(&numbers);
         status = restitute_scene_numbers(scene, &numbers, error);

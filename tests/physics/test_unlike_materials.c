@@ -194,7 +194,7 @@ static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state
         restitute_material_destroy(pair);
     }
     for (double ratio = 1e10; ratio < 1e31; ratio *= 1e5) {
-        struct chain polymer = {1e4, 3, {1e8, 1e6, 1e5}, {1e-6, 1e-3, 1e-1}}, hard = {1e8 * ratio, 0, {0}, {0}};
+        struct chain polymer = {1e-6, 3, {1e-2, 1e-4, 1e-5}, {1e-6, 1e-3, 1e-1}}, hard = {1e-2 * ratio, 0, {0}, {0}};
         restitute_material *a = material_of(&polymer, 0.5), *b = material_of(&hard, 0.5), *pair = pair_of(a, b);
         for (double t = 1e-8; t < 1e3; t *= 10) {
             double soft = restitute_material_modulus(a, t);
