@@ -114,8 +114,9 @@ typedef struct restitute_table_slope {
 
 /** The pair of an impact, from the table of one contact.
  *
- *  @param normal_speed      m/s, approaching, in [0, infinity); what is below 1e-280 counts as 0
- *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), finite; its sign does not matter
+ *  @param normal_speed      m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
+ *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), in [-1e100, 1e100]; its sign does not
+ *                           matter
  *  @return OK; ERROR_DOMAIN for a speed out of its range or a table without a contact; ERROR_NULL
  *
  *      restitute_table_value pair;
@@ -156,7 +157,7 @@ RESTITUTE_API int restitute_table_contact_of(const restitute_table *table, const
 /** The pair of an impact of another contact, and its derivatives.
  *
  *  @param contact  NULL: the table's own
- *  @param slope    optional, NULL: not wanted
+ *  @param slope    optional, NULL: not wanted; at speeds below 1e-100 m/s that at 0
  *  @return as @ref restitute_table_pair */
 RESTITUTE_API int restitute_table_pair_of(const restitute_table *table, const restitute_table_contact *contact,
                                           double normal_speed, double tangential_speed, restitute_table_value *pair,
