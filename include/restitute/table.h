@@ -59,8 +59,8 @@ typedef struct restitute_table restitute_table;
 typedef struct restitute_table_family {
     size_t struct_size;           /**< set by @ref restitute_table_family_init */
     const restitute_scene *scene; /**< the contact; NULL (default): the ranges below. Not used after the build */
-    double speed[2];              /**< m/s, lowest and highest normal speed; 0 < lowest <= highest, highest/lowest up
-                                     to 1e15; default 1e-4, 100 */
+    double speed[2];              /**< m/s, lowest and highest normal speed; 1e-50 <= lowest <= highest <= 1e12,
+                                     highest/lowest up to 1e15; default 1e-4, 100 */
     double chi[2];                /**< in [1/3, 1000]; default 7/6, 7/6 */
     double delta1[2];             /**< > 0 or both 0, up to 1e6, highest/lowest up to 1e12; default 1e-3, 100 */
     double gamma[2];              /**< > 0, up to 1e6, highest/lowest up to 1e12; or both 0 (Kelvin-Voigt) or both

@@ -108,7 +108,7 @@ static bool solve(const struct settings *settings, const struct problem *problem
     if (done) done = bem_fields_write(settings, fields, why);
     bem_fields_release(fields);
     if (!done) return false;
-    if (*status != RESTITUTE_OK) complain("remark: %s", restitute_status_text(*status));
+    if (error.message[0]) complain("remark: %s", error.message);
     return true;
 }
 

@@ -55,7 +55,9 @@ static bool solve(struct single *single, struct reason *why)
     if (restitute_solver_create(&settings->solver, &solver, &error) < 0) return refuse(why, "%s", error.message);
     single->status = problem_solve(solver, &single->problem, &single->result, &single->ledger, NULL, &error);
     restitute_solver_destroy(solver);
-    return single->status >= 0 ? true : refuse(why, "%s", error.message);
+    if (single->status < 0) return refuse(why, "%s", error.message);
+    if (error.message[0]) complain("remark: %s", error.message);
+    return true;
 }
 
 /* "label   value unit   (value2 unit2)"; the second part only for a scene, whose scale is not 0. */

@@ -222,6 +222,9 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     struct rst_outcome outcome;
     struct rst_history samples;
     struct merged merged = {0};
+    restitute_result found;
+    restitute_result_init(&found);
+    rst_done(error);
     int status = solve_merged(solver, input, ledger != NULL, &problem, &outcome, &merged, error);
     if (status < 0) return status;
     if (history) {
@@ -230,15 +233,15 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     }
     struct rst_units units = rst_units_of(&problem, input->scene, &input->numbers);
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
-    if (result) {
-        rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, result);
-        result->method = solver->options.method->name;
-        rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, result);
-    }
+    rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, &found);
+    found.method = solver->options.method->name;
+    rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
+    if (result) *result = found;
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);
     if (outcome.sunk && status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
+    rst_name_limits(&solver->options, &found, error);
     return status;
 }
 

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "report.h"
+
 const char *restitute_flag_text(int flag)
 {
     switch (flag) {
@@ -57,4 +59,20 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     if (!(result->radius_ratio <= options->radius_limit)) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
     if (!(result->displacement_ratio <= options->displacement_limit)) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
     if (!(fabs(result->dundurs_beta) <= options->dundurs_limit)) result->flags |= RESTITUTE_FLAG_COUPLED;
+}
+
+void rst_name_limits(const restitute_options *options, const restitute_result *result, restitute_error *error)
+{
+    const struct {
+        const char *name;
+        double value, limit;
+        int flag;
+    } limits[] = {{"v_z0/wave speed", result->speed_ratio, options->speed_limit, RESTITUTE_FLAG_FAST},
+                  {"contact radius/R", result->radius_ratio, options->radius_limit, RESTITUTE_FLAG_LARGE_CONTACT},
+                  {"slide/contact radius", result->displacement_ratio, options->displacement_limit,
+                   RESTITUTE_FLAG_LONG_SLIDE},
+                  {"|Dundurs' beta|", fabs(result->dundurs_beta), options->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
+        if (result->flags & limits[i].flag)
+            rst_remark(error, "%s = %.3g passes the limit %g", limits[i].name, limits[i].value, limits[i].limit);
 }
