@@ -71,6 +71,38 @@ static void ratios_are_what_they_say(void **state)
     restitute_material_destroy(steel);
 }
 
+/* Of two spheres the denser one has the slower waves, whichever is the first; of a partner held fast nothing is known. */
+static void wave_speed_is_that_of_the_denser_sphere(void **state)
+{
+    (void)state;
+    restitute_material *steel;
+    CHECK(restitute_material_elastic(8e10, 0.3, &steel, NULL) == 0, "steel");
+    restitute_scene scene = steel_ball_on(steel, 2, 1);
+    scene.radius2 = scene.radius1;
+    for (double factor = 0.1; factor < 20; factor *= 100) { /* lighter, then denser than 7800 */
+        scene.mass2 = factor * scene.mass1;
+        CHECK_NEAR(solve_scene(default_options(), &scene).result.speed_ratio, 2 / sqrt(8e10 / (7800 * fmax(1, factor))),
+                   1e-12, "partner %g times as dense", factor);
+    }
+    scene.mass2 = INFINITY;
+    CHECK_NEAR(solve_scene(default_options(), &scene).result.speed_ratio, 2 / sqrt(8e10 / 7800), 1e-12, "held fast");
+    restitute_material_destroy(steel);
+}
+
+/* Waves do not travel in a mere dashpot, nor in a solid that has forgotten all by the time of the impact. */
+static void no_modulus_no_waves(void **state)
+{
+    (void)state;
+    restitute_material *oil, *fluid;
+    CHECK(restitute_material_prony(0, 100, 0, NULL, NULL, 0.5, &oil, NULL) == 0, "oil");
+    CHECK(restitute_material_maxwell(1e9, 1e-3, 0.5, &fluid, NULL) == 0, "fluid");
+    restitute_scene in_oil = steel_ball_on(oil, 2, 1), in_fluid = steel_ball_on(fluid, 2, 1);
+    CHECK(isinf(solve_scene(default_options(), &in_oil).result.speed_ratio), "oil");
+    CHECK(isinf(solve_scene(default_options(), &in_fluid).result.speed_ratio), "fluid");
+    restitute_material_destroy(oil);
+    restitute_material_destroy(fluid);
+}
+
 static void flags_have_texts(void **state)
 {
     (void)state;
@@ -139,6 +171,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_flag_has_a_scene_that_trips_it_alone),
         cmocka_unit_test(ratios_are_what_they_say),
+        cmocka_unit_test(wave_speed_is_that_of_the_denser_sphere),
+        cmocka_unit_test(no_modulus_no_waves),
         cmocka_unit_test(flags_have_texts),
         cmocka_unit_test(limits_that_are_passed_are_named),
         cmocka_unit_test(limits_stand_behind_other_remarks),
