@@ -224,6 +224,13 @@ static bool write_result(struct batch *batch, struct reason *why)
     return false;
 }
 
+/* What is written stays, unless that is no row at all. */
+static int stop(struct batch *batch, const struct reason *why)
+{
+    if (batch->path && batch->done == 0) partial_remove(&batch->partial);
+    return complain("%s%s", why->text, batch->path && batch->done ? "; continue with --resume when that is mended" : "");
+}
+
 static int finish(struct batch *batch)
 {
     const struct settings *settings = batch->settings;
@@ -233,20 +240,13 @@ static int finish(struct batch *batch)
                  batch->path ? "; continue with --resume" : "");
         return EXIT_INTERRUPTED;
     }
-    if (!write_result(batch, &why)) return complain("%s", why.text);
+    if (!write_result(batch, &why)) return stop(batch, &why);
     if (settings->text[TEXT_FIGURE] &&
         !figure_of_grid(settings->text[TEXT_FIGURE], settings, &batch->cases, &batch->materials, batch->rows, &why))
         return complain("%s", why.text);
     if (batch->failed == 0) return EXIT_DONE;
     complain("%zu of %zu rows failed; the column status says why", batch->failed, batch->cases.rows);
     return EXIT_SOME_FAILED;
-}
-
-/* What is written stays, unless that is no row at all. */
-static int stop(struct batch *batch, const struct reason *why)
-{
-    if (batch->path && batch->done == 0) partial_remove(&batch->partial);
-    return complain("%s%s", why->text, batch->path && batch->done ? "; continue with --resume when that is mended" : "");
 }
 
 int batch_run(const struct settings *settings)

@@ -49,6 +49,10 @@ bool unfinished_open(const char *output, bool resume, struct unfinished *u, stru
     memset(u, 0, sizeof *u);
     const int problem = rst_place_find(output, &place);
     if (problem) return refuse(why, "%.200s: cannot be written: %s", output, strerror(problem));
+    if (place.through) {
+        rst_place_release(&place);
+        return refuse(why, "%.200s: is not a regular file, which a run that can be continued needs", output);
+    }
     u->path = path_with_suffix(place.target, ".partial");
     while (again) {
         again = false;
@@ -115,7 +119,7 @@ bool unfinished_commit(struct unfinished *u, const char *output, size_t lines, s
     off_t length;
     if (!scan(u, &found, &length)) return fails(u, "read", errno, why);
     if (found != lines)
-        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it; remove it to start anew", u->path,
+        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it", u->path,
                       found, lines);
     if (fsync(u->file) != 0) return fails(u, "written", errno, why);
     int problem = rst_place_find(output, &place);
