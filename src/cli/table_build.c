@@ -205,7 +205,9 @@ static int finish(struct build *b, restitute_table *table, int status, const res
     restitute_table_info_init(&info);
     restitute_table_describe(table, &info, NULL);
     const int failed = restitute_table_write(table, b->settings->text[TABLE_OUTPUT], &written) < 0;
-    if (failed) return complain("%s", written.message);
+    if (failed)
+        return complain("%s%s", written.message,
+                        b->partial.empty ? "" : "; continue with --resume when that is mended");
     unfinished_remove(&b->partial);
     char name[1000];
     snprintf(name, sizeof name, "%s", b->settings->text[TABLE_OUTPUT]);
