@@ -1,5 +1,5 @@
-/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial every ten seconds and
- * when a signal asks to stop.
+/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial after a second, then every
+ * ten, and when a signal asks to stop.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -180,7 +180,7 @@ static int run(struct build *b, restitute_table_builder *builder, restitute_tabl
                struct reason *why)
 {
     const double start = seconds();
-    double written = start, last = start;
+    double written = start - 9, last = start; /* put down after a second, then every ten */
     size_t piece = 64;
     int status = RESTITUTE_OK;
     while (!*table && !interrupted && status >= 0) {

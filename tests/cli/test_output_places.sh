@@ -88,7 +88,7 @@ if [ -e /proc/self/fd/1 ]; then
     "$RESTITUTE" pair --input cases.csv --output seven 7>redirected 2>err || fail "an open file by its name"
     cmp plain.csv redirected || fail "an open file by its name gets something else"
     ln -s /proc/self/fd/0 stdin
-    refused 'Bad file descriptor' pair --psi 1 --output stdin
+    refused '--output = stdin: cannot be written: Bad file descriptor' pair --psi 1 --output stdin
     refused 'a table needs a file' table build --delta1 0.1:0.2 --gamma 0 --tolerance 1e-2 --output stdout
     refused '--resume: needs --output FILE' pair --input cases.csv --output stdout --resume
 fi
