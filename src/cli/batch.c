@@ -224,11 +224,10 @@ static bool write_result(struct batch *batch, struct reason *why)
     return false;
 }
 
-/* What is written stays, unless that is no row at all. */
-static int stop(struct batch *batch, const struct reason *why)
+/* What is written stays, be it a part of the first rows. */
+static int stop(const struct batch *batch, const struct reason *why)
 {
-    if (batch->path && batch->done == 0) partial_remove(&batch->partial);
-    return complain("%s%s", why->text, batch->path && batch->done ? "; continue with --resume when that is mended" : "");
+    return complain("%s%s", why->text, batch->path ? "; continue with --resume when that is mended" : "");
 }
 
 static int finish(struct batch *batch)

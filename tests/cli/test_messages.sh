@@ -20,10 +20,11 @@ harmless() {
     echo "${csi}31m,0"
     printf '"line\nend",0\n'
     printf '\377\376,0\n'
+    printf '1\303\033[1m\177,0\n'
 } >cases.csv
 expect 1 pair --input cases.csv --output out.csv
 harmless err
-has err '\x1b[31mred' '\xc2\x9b31m' 'line\x0aend' '\xff\xfe'
+has err '\x1b[31mred' '\xc2\x9b31m' 'line\x0aend' '\xff\xfe' '1\xc3\x1b[1m\x7f'
 has out.csv "$bad" "${csi}31m"
 
 # Options, file names, columns, names in material files.

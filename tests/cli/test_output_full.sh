@@ -32,6 +32,12 @@ expect 1 $run --output out.csv --resume
 cmp out.csv whole.csv || fail "continued with room: other rows"
 absent out.csv.partial out.csv.partial.json
 
+# There is room for a part of the first rows.
+narrow 4 2 pair --input cases.csv --method sync --threads 100 --output first.csv
+has err 'File too large; continue with --resume'
+expect 1 $run --output first.csv --resume
+cmp first.csv whole.csv || fail "continued from a part of the first rows: other rows"
+
 # Nothing at all can be written; the old result and its record stay.
 echo old >out.csv
 echo old >out.csv.meta.json

@@ -49,6 +49,9 @@ clash '--output = p.csv' '--partner ./p.csv' history --material steel.json --par
 series="--material polyisobutylene.json $body"
 clash '--output = polyisobutylene.csv' 'prony_csv polyisobutylene.csv' pair $series --velocity 1 --output polyisobutylene.csv
 clash '--output = polyisobutylene.csv' 'prony_csv polyisobutylene.csv' pair $series $grid --output polyisobutylene.csv
+cp polyisobutylene.json polyisobutylene.csv sub
+clash '--output = sub/polyisobutylene.csv' 'prony_csv sub/polyisobutylene.csv' \
+    pair --material sub/polyisobutylene.json $body --velocity 1 --output sub/polyisobutylene.csv
 clash '--output = polyisobutylene.csv' 'prony_csv' history $series --velocity 1 --output polyisobutylene.csv
 
 # What the cells name, whether it is there or not.
