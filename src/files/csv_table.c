@@ -77,21 +77,48 @@ static const char *cell_text(const restitute_csv *csv, size_t cell)
     return (const char *)csv->text.items + ((const size_t *)csv->cells.items)[cell];
 }
 
+/* A column by its name, for sorting; like names stay in the order of the columns. */
+struct named_column {
+    const char *name;
+    size_t column;
+};
+
+static int by_name(const void *left, const void *right)
+{
+    const struct named_column *a = left, *b = right;
+    const int order = strcmp(a->name, b->name);
+    return order ? order : (a->column > b->column) - (a->column < b->column);
+}
+
+/* The first column whose name one before it has; `columns` if there is none. */
+static size_t first_repeated(struct named_column *names, size_t columns)
+{
+    size_t first = columns;
+    qsort(names, columns, sizeof *names, by_name);
+    for (size_t i = 1; i < columns; i++)
+        if (names[i].column < first && strcmp(names[i].name, names[i - 1].name) == 0) first = names[i].column;
+    return first;
+}
+
 /* The header: every column has a name, and none has another's. */
 static int check_names(struct reading *reading)
 {
     const restitute_csv *csv = reading->csv;
-    for (size_t i = 0; i < csv->columns; i++) {
-        const char *name = cell_text(csv, i);
-        if (!*name)
-            return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
-                              reading->name, reading->line, i + 1);
-        for (size_t k = 0; k < i; k++)
-            if (strcmp(name, cell_text(csv, k)) == 0)
-                return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
-                                  reading->name, reading->line, name);
+    struct named_column *names = malloc(csv->columns * sizeof *names);
+    if (!names) return no_memory(reading);
+    int status = RESTITUTE_OK;
+    for (size_t i = 0; i < csv->columns && status == RESTITUTE_OK; i++) {
+        names[i] = (struct named_column){cell_text(csv, i), i};
+        if (!*names[i].name)
+            status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
+                                reading->name, reading->line, i + 1);
     }
-    return RESTITUTE_OK;
+    const size_t repeated = status == RESTITUTE_OK ? first_repeated(names, csv->columns) : csv->columns;
+    if (repeated < csv->columns)
+        status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
+                            reading->name, reading->line, cell_text(csv, repeated));
+    free(names);
+    return status;
 }
 
 static void on_row_end(int terminator, void *data)

@@ -240,6 +240,27 @@ static void many_rows(void **state)
     restitute_csv_destroy(csv);
 }
 
+/* A header of a million names, compared each with each, would outlast the time that a test has. */
+static void many_columns(void **state)
+{
+    (void)state;
+    enum { columns = 1000000, width = 9 };
+    char *text = malloc((size_t)columns * width + 1), *at = text;
+    CHECK(text != NULL, "no memory");
+    for (int i = 0; i < columns; i++)
+        at += sprintf(at, "c%07d,", i);
+    at[-1] = '\n';
+    restitute_csv *csv = read_text(text);
+    assert_int_equal(restitute_csv_columns(csv), columns);
+    assert_string_equal(restitute_csv_name(csv, columns - 1), "c0999999");
+    restitute_csv_destroy(csv);
+    text[(size_t)width * (columns - 1) + width - 2] = '0'; /* c0999999 -> c0999990 */
+    write_table(text, strlen(text));
+    check_refused(TABLE, RESTITUTE_ERROR_FORMAT, (const char *[]){"line 1", "column c0999990 appears twice", NULL},
+                  "the last of a million names repeated");
+    free(text);
+}
+
 static void long_cell(void **state)
 {
     (void)state;
@@ -280,6 +301,7 @@ static void malformed_tables(void **state)
         {"quoted empty name", "a,\"\"\n", {"line 1", "column 2"}},
         {"name missing at the end", "#\na,b,\n1,2,3\n", {"line 2", "column 3"}},
         {"repeated name", "# x\nalpha,beta,alpha\n", {"line 2", "alpha", "twice"}},
+        {"two repeated names: the first that repeats is named", "z,b,b,a,z,a\n", {"line 1", "column b", "twice"}},
         {"repeated name, one quoted", "alpha,\"alpha\"\n", {"line 1", "alpha", "twice"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -529,6 +551,7 @@ int main(void)
         cmocka_unit_test_teardown(fingerprint, remove_table),
         cmocka_unit_test_teardown(standard_input, remove_table),
         cmocka_unit_test_teardown(many_rows, remove_table),
+        cmocka_unit_test_teardown(many_columns, remove_table),
         cmocka_unit_test_teardown(long_cell, remove_table),
         cmocka_unit_test_teardown(malformed_tables, remove_table),
         cmocka_unit_test_teardown(nul_byte, remove_table),
