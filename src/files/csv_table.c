@@ -186,11 +186,10 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     return reading->status;
 }
 
-int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
+int csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error)
 {
-    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
     struct file_text text;
-    int status = file_text_read(path, &text, error);
+    int status = file_text_read(path, most, &text, error);
     if (status != RESTITUTE_OK) return status;
     restitute_csv *table = calloc(1, sizeof *table);
     struct reading reading = {table, file_name_for_message(path), 0, 0, RESTITUTE_OK, error};
@@ -207,6 +206,12 @@ int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *e
     }
     free(text.bytes);
     return status;
+}
+
+int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
+{
+    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
+    return csv_read_bounded(path, FILE_TEXT_OF_TABLE, csv, error);
 }
 
 void restitute_csv_destroy(restitute_csv *csv)

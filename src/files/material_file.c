@@ -299,7 +299,7 @@ static int read_json_material(const char *path, restitute_material **material, r
                               restitute_error *error)
 {
     struct file_text text;
-    int status = file_text_read(path, &text, error);
+    int status = file_text_read(path, FILE_TEXT_OF_MATERIAL, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
     struct material_file file = {path, file_name_for_message(path), text.bytes, NULL, 0, error};

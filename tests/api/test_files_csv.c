@@ -1,5 +1,7 @@
 /* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict reading of numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include <float.h>
 #include <locale.h>
 #include <stdlib.h>
@@ -7,7 +9,7 @@
 
 #include <restitute/files.h>
 
-#include "../support/check.h"
+#include "../support/odd_files.h"
 #include "../support/random.h"
 
 /* Every test writes this one file in the current directory; the teardown removes it. */
@@ -333,6 +335,20 @@ static void unreadable_files(void **state)
     check_refused("100%s%n.csv", RESTITUTE_ERROR_FILE, (const char *[]){"100%s%n.csv", NULL}, "path like a format");
 }
 
+static void endless_files(void **state)
+{
+    (void)state;
+    const char fifo[] = "test_files_csv_fifo";
+    make_fifo(fifo);
+    check_refused(fifo, RESTITUTE_ERROR_FILE, (const char *[]){fifo, "not a regular file", NULL}, "a FIFO");
+    unlink(fifo);
+    check_refused("/dev/zero", RESTITUTE_ERROR_FILE, (const char *[]){"/dev/zero", "not a regular file", NULL},
+                  "a device");
+    if (sizeof(off_t) > 4 && make_sparse(TABLE, (off_t)4294967297))
+        check_refused(TABLE, RESTITUTE_ERROR_FILE, (const char *[]){TABLE, "4294967297", "4294967296", NULL},
+                      "too large");
+}
+
 static void null_arguments(void **state)
 {
     (void)state;
@@ -556,6 +572,7 @@ int main(void)
         cmocka_unit_test_teardown(malformed_tables, remove_table),
         cmocka_unit_test_teardown(nul_byte, remove_table),
         cmocka_unit_test(unreadable_files),
+        cmocka_unit_test_teardown(endless_files, remove_table),
         cmocka_unit_test(null_arguments),
         cmocka_unit_test_teardown(random_bytes, remove_table),
         cmocka_unit_test_teardown(changed_bytes, remove_table),
