@@ -147,6 +147,17 @@ static void on_row_end(int terminator, void *data)
     }
 }
 
+/* What the parser did not like, unless a cell or a row was refused before. */
+static void parser_stopped(struct reading *reading, struct csv_parser *parser)
+{
+    if (reading->status != RESTITUTE_OK) return;
+    if (csv_error(parser) == CSV_ENOMEM)
+        no_memory(reading);
+    else
+        reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
+                                     reading->line, csv_strerror(csv_error(parser)));
+}
+
 /* Feed the text line by line: libcsv knows no comments and counts no lines. A # inside quotes is no comment. */
 static void feed_lines(struct csv_parser *parser, struct reading *reading, const struct file_text *text)
 {
@@ -159,9 +170,7 @@ static void feed_lines(struct csv_parser *parser, struct reading *reading, const
         const size_t length = newline ? (size_t)(newline - at) + 1 : (size_t)(end - at);
         reading->line++;
         if (quoted || *at != '#') {
-            if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length)
-                reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
-                                             reading->line, csv_strerror(csv_error(parser)));
+            if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length) parser_stopped(reading, parser);
             for (size_t i = 0; i < length; i++)
                 quoted ^= at[i] == '"';
         }
