@@ -248,7 +248,8 @@ RESTITUTE_API void restitute_table_builder_destroy(restitute_table_builder *buil
  *
  *  @param impacts  about how many, > 0
  *  @param table    set when the build is finished; otherwise untouched: let it be NULL before the first call
- *  @return as @ref restitute_table_build; OK also if more calls are needed
+ *  @return as @ref restitute_table_build; OK also if more calls are needed. A call that failed, for want of memory say,
+ *          may be made again: nothing that was solved is lost
  *
  *      restitute_table *table = NULL;
  *      while (!table && !interrupted && status >= 0)

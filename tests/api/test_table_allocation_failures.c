@@ -1,6 +1,8 @@
 /* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs untouched, and the same
  * objects give the right result afterwards, bit by bit, and leave nothing behind. Lookups take no memory at all.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
 #include "../support/cells.h"
 #include "../support/failing_allocator.h"
 #include "../support/table.h"

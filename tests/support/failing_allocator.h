@@ -3,11 +3,13 @@
  * CAN_FAIL is 0, and tests are to be skipped.
  *
  * A subject is a call of the library. It is made with its first allocation failing, then with its second, and so on until
- * none fails any more; and all that once more with all allocations failing from there on.
+ * none fails any more; and all that once more with all allocations failing from there on. Those who include this ask for
+ * the GNU C library's own functions first.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_FAILING_ALLOCATOR_H
 #define TEST_FAILING_ALLOCATOR_H
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,10 +29,11 @@
 #define CAN_FAIL 1
 #endif
 
-/* Allocations are counted while armed; number `failing` fails, and with `for_good` all behind it. `live`: blocks not yet
- * freed. One thread. Volatile, since compilers take malloc for a function that changes no variable. */
+/* Allocations are counted while armed, with `ours_alone` those that our libraries and libcsv ask for themselves; number
+ * `failing` fails, and with `for_good` all behind it. `live`: blocks not yet freed. One thread. Volatile, since compilers
+ * take malloc for a function that changes no variable. */
 static volatile struct {
-    int armed, for_good;
+    int armed, ours_alone, for_good;
     long count, failing, live;
 } allocator;
 
@@ -44,9 +47,18 @@ void __libc_free(void *block);
 /* Or the libraries, and what they call, would take those of the C library. */
 #define SEEN_BY_LIBRARIES __attribute__((visibility("default")))
 
-static int allocation_fails(void)
+/* Whether the code at this address is ours: of the program itself, or of such a library. */
+static int is_ours(void *code)
 {
-    if (!allocator.armed) return 0;
+    Dl_info found, program;
+    if (!dladdr(code, &found) || !dladdr((void *)(uintptr_t)is_ours, &program)) return 0;
+    const char *slash = strrchr(found.dli_fname, '/'), *name = slash ? slash + 1 : found.dli_fname;
+    return found.dli_fbase == program.dli_fbase || !strncmp(name, "librestitute", 12) || !strncmp(name, "libcsv", 6);
+}
+
+static int allocation_fails(void *caller)
+{
+    if (!allocator.armed || (allocator.ours_alone && !is_ours(caller))) return 0;
     const long number = ++allocator.count, failing = allocator.failing; /* 0: none */
     if (number != failing && !(allocator.for_good && failing && number > failing)) return 0;
     errno = ENOMEM;
@@ -61,33 +73,33 @@ static void *counted(void *block)
 
 SEEN_BY_LIBRARIES void *malloc(size_t size)
 {
-    return allocation_fails() ? NULL : counted(__libc_malloc(size));
+    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_malloc(size));
 }
 
 SEEN_BY_LIBRARIES void *calloc(size_t count, size_t size)
 {
-    return allocation_fails() ? NULL : counted(__libc_calloc(count, size));
+    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_calloc(count, size));
 }
 
 SEEN_BY_LIBRARIES void *realloc(void *block, size_t size)
 {
-    if (allocation_fails()) return NULL;
+    if (allocation_fails(__builtin_return_address(0))) return NULL;
     return block ? __libc_realloc(block, size) : counted(__libc_realloc(block, size));
 }
 
 SEEN_BY_LIBRARIES void *aligned_alloc(size_t alignment, size_t size)
 {
-    return allocation_fails() ? NULL : counted(__libc_memalign(alignment, size));
+    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_memalign(alignment, size));
 }
 
 SEEN_BY_LIBRARIES void *memalign(size_t alignment, size_t size)
 {
-    return aligned_alloc(alignment, size);
+    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_memalign(alignment, size));
 }
 
 SEEN_BY_LIBRARIES int posix_memalign(void **block, size_t alignment, size_t size)
 {
-    void *found = aligned_alloc(alignment, size);
+    void *found = allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_memalign(alignment, size));
     if (!found) return ENOMEM;
     *block = found;
     return 0;
