@@ -4,7 +4,8 @@
  *  Link restitute::files. It needs Jansson and libcsv; the core needs neither. The rules of restitute.h hold here too:
  *  every function returns a @ref restitute_status, a failed call leaves its outputs untouched, nothing is printed, and
  *  the optional last argument names the file, the line, the offending value and its allowed range. Numbers are read
- *  with a point, whatever locale the program has set.
+ *  with a point, whatever locale the program has set. Where there is no memory left this component returns ERROR_MEMORY; what
+ *  Jansson does is its own matter.
  *
  *      restitute_material *rubber;
  *      restitute_error error;
@@ -57,12 +58,13 @@ RESTITUTE_API void restitute_material_info_init(restitute_material_info *info);
  *
  *  All moduli are shear moduli, G = E/(2(1 + nu)); ranges are those of @ref restitute_material_prony. Unknown and repeated
  *  keys are refused.
+ *  Both files are regular ones of at most 64 MiB: a FIFO, a device and what is larger are refused by name.
  *
  *  @param path      the file
  *  @param material  the new material, for @ref restitute_material_destroy
  *  @param error     optional
- *  @return ERROR_FILE (cannot be read), ERROR_FORMAT (not of the form above), ERROR_DOMAIN (a value out of its range),
- *          ERROR_NULL, ERROR_MEMORY */
+ *  @return ERROR_FILE (cannot be read, not regular, too large), ERROR_FORMAT (not of the form above), ERROR_DOMAIN (a
+ *          value out of its range), ERROR_NULL, ERROR_MEMORY */
 RESTITUTE_API int restitute_material_read(const char *path, restitute_material **material, restitute_error *error);
 
 /** The same, with what else the file says.
@@ -82,10 +84,10 @@ typedef struct restitute_csv restitute_csv;
 /** Read a table (RFC 4180: commas, optional double quotes; LF or CRLF). Empty lines and lines that begin with # are
  *  skipped, spaces around unquoted cells dropped.
  *
- *  @param path   the file; "-" is standard input
+ *  @param path   a regular file; "-" is standard input, of whatever kind; either has at most 4 GiB
  *  @param csv    the new table, for @ref restitute_csv_destroy; it may have no rows
  *  @param error  optional
- *  @return ERROR_FILE; ERROR_FORMAT for an empty file, a row with more or fewer cells than the header, a stray quote,
+ *  @return ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT for an empty file, a row with more or fewer cells than the header, a stray quote,
  *          an empty or repeated column name; ERROR_NULL, ERROR_MEMORY
  *
  *      restitute_csv *table;

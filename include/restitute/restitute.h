@@ -396,7 +396,9 @@ RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitut
  *  @param results   optional: n results, each prepared by @ref restitute_result_init
  *  @param statuses  optional: n statuses, one a case
  *  @param threads   in [0, 1024]; 0: as many as OpenMP offers (OMP_NUM_THREADS), 1: the calling thread alone. Never more
- *                   than n; always the calling thread alone where the library was built without OpenMP
+ *                   than n; always the calling thread alone where the library was built without OpenMP. Where OpenMP
+ *                   cannot start the threads it ends the program, and in a child of a process that has used them
+ *                   (fork) it waits for them for ever: 1 never enters OpenMP and is safe there
  *  @param error     optional: of the case that gave the return value, e.g. "impact[17]: psi = -1: must be in [0, 1e12]"
  *  @return OK if all cases are OK; else the status of the first failed case by index; if none failed, that of the first
  *          with a remark. A call that is refused as a whole (ERROR_NULL, ERROR_MEMORY, ERROR_DOMAIN of options or threads,

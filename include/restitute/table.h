@@ -74,7 +74,8 @@ RESTITUTE_API void restitute_table_family_init(restitute_table_family *family);
 typedef struct restitute_table_options {
     size_t struct_size; /**< set by @ref restitute_table_options_init */
     double tolerance;   /**< largest absolute error of ez and of ex, in [1e-7, 0.1]; default 1e-5 */
-    int threads; /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all */
+    int threads; /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all. OpenMP ends a
+                    program whose threads it cannot start, and hangs in a child (fork) of one that used them; 1 never enters it */
     int64_t max_impacts; /**< most impacts that may be solved, > 0; default 2e7. A build that reaches it gives its best
                             with TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if there is none yet */
 } restitute_table_options;
@@ -248,7 +249,8 @@ RESTITUTE_API void restitute_table_builder_destroy(restitute_table_builder *buil
  *
  *  @param impacts  about how many, > 0
  *  @param table    set when the build is finished; otherwise untouched: let it be NULL before the first call
- *  @return as @ref restitute_table_build; OK also if more calls are needed
+ *  @return as @ref restitute_table_build; OK also if more calls are needed. A call that failed, for want of memory say,
+ *          may be made again: nothing that was solved is lost
  *
  *      restitute_table *table = NULL;
  *      while (!table && !interrupted && status >= 0)

@@ -10,6 +10,8 @@
  *  A file is an ordinary HDF5 file, which h5py, h5dump or MATLAB read, behind a user block of 512 bytes: one line of text that says what it is,
  *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
  *  HDF5: a damaged or cut file is refused, or it gives the same table.
+ *  The checksum stops accidents, not strangers, who can compute it: HDF5 then reads what they made. Do not open files of strangers.
+ *  What is read is a regular file of at most 4 GiB, and room is made for no more values than it has bytes.
  *
  *  How files are written. HDF5 makes them in memory and never sees the disk. A file is written beside its place as
  *  PATH.restitute-N.tmp and gets its name when it is complete; on any failure the old file stays and nothing else is left. Symbolic
@@ -17,6 +19,8 @@
  *  0666 less the umask. A read-only file is refused. A device, a pipe, or an open file that /dev/stdout names is written through and
  *  never replaced; folders, sockets and block devices are refused. The temporary file is locked (flock): what a killed
  *  process left is removed by the next call with that path.
+ *
+ *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
  *
  *  Schema 3. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
  *  `error_ex` (verified), `impacts`, `checks`, and the members of @ref restitute_table_data of the same names. Datasets, each with
@@ -47,7 +51,7 @@ RESTITUTE_API int restitute_table_write(const restitute_table *table, const char
 /** Read a table. It looks up the bits that the written one does.
  *
  *  @param table  the new table, for @ref restitute_table_destroy
- *  @return OK; ERROR_FILE (cannot be read); ERROR_FORMAT (damaged, cut, of another schema, or no table at all); ERROR_NULL,
+ *  @return OK; ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT (damaged, cut, of another schema, or no table at all); ERROR_NULL,
  *          ERROR_MEMORY */
 RESTITUTE_API int restitute_table_read(const char *path, restitute_table **table, restitute_error *error);
 

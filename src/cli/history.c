@@ -138,7 +138,7 @@ int history_run(const struct settings *given)
     struct settings chosen = *given;
     const struct settings *settings = &chosen;
     struct event_table events = {0};
-    struct materials materials = {NULL, NULL};
+    struct materials materials = {0};
     struct problem problem;
     struct reason why;
     restitute_history history;

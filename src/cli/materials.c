@@ -1,8 +1,11 @@
 /* The materials of a run.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700
+
 #include "materials.h"
 
 #include <jansson.h>
+#include <search.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -25,6 +28,30 @@ static char *series_of(const char *path)
     return series;
 }
 
+static int by_path(const void *left, const void *right)
+{
+    return strcmp(((const struct material_entry *)left)->path, ((const struct material_entry *)right)->path);
+}
+
+static int by_members(const void *left, const void *right)
+{
+    const struct material_pair *a = left, *b = right;
+    const int order = strcmp(a->first->path, b->first->path);
+    return order ? order : strcmp(a->second->path, b->second->path);
+}
+
+/* What the tree has under this key; NULL: nothing. */
+static void *known(const void *key, void **tree, int (*order)(const void *, const void *))
+{
+    void **node = tfind(key, tree, order);
+    return node ? *node : NULL;
+}
+
+static void keep(const void *item, void **tree, int (*order)(const void *, const void *))
+{
+    if (!tsearch(item, tree, order)) out_of_memory();
+}
+
 static struct material_entry *read_entry(const char *path)
 {
     struct material_entry *entry = allocate(1, sizeof *entry);
@@ -41,13 +68,13 @@ static struct material_entry *read_entry(const char *path)
 
 const struct material_entry *materials_get(struct materials *materials, const char *path, struct reason *why)
 {
-    struct material_entry *entry = materials->first;
-    while (entry && strcmp(entry->path, path) != 0)
-        entry = entry->next;
+    const struct material_entry key = {.path = (char *)path};
+    struct material_entry *entry = known(&key, &materials->by_path, by_path);
     if (!entry) {
         entry = read_entry(path);
         entry->next = materials->first;
         materials->first = entry;
+        keep(entry, &materials->by_path, by_path);
     }
     if (entry->material) return entry;
     *why = entry->why;
@@ -59,9 +86,10 @@ const restitute_material *materials_pair(struct materials *materials, const stru
 {
     const struct material_entry *second = materials_get(materials, partner, why);
     if (!second) return NULL;
-    for (struct material_pair *known = materials->pairs; known; known = known->next)
-        if (known->first == entry && known->second == second) return known->material;
-    struct material_pair *pair = allocate(1, sizeof *pair);
+    const struct material_pair key = {.first = entry, .second = second};
+    struct material_pair *pair = known(&key, &materials->by_members, by_members);
+    if (pair) return pair->material;
+    pair = allocate(1, sizeof *pair);
     restitute_error error;
     if (restitute_material_pair(entry->material, second->material, &pair->material, &error) < 0) {
         free(pair);
@@ -72,6 +100,7 @@ const restitute_material *materials_pair(struct materials *materials, const stru
     pair->second = second;
     pair->next = materials->pairs;
     materials->pairs = pair;
+    keep(pair, &materials->by_members, by_members);
     return pair->material;
 }
 
@@ -80,12 +109,14 @@ void materials_release(struct materials *materials)
     while (materials->pairs) {
         struct material_pair *pair = materials->pairs;
         materials->pairs = pair->next;
+        tdelete(pair, &materials->by_members, by_members);
         restitute_material_destroy(pair->material);
         free(pair);
     }
     while (materials->first) {
         struct material_entry *entry = materials->first;
         materials->first = entry->next;
+        tdelete(entry, &materials->by_path, by_path);
         restitute_material_destroy(entry->material);
         free(entry->path);
         free(entry->series);

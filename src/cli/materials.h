@@ -26,6 +26,7 @@ struct material_pair {
 struct materials {
     struct material_entry *first;
     struct material_pair *pairs;
+    void *by_path, *by_members; /* the same as search trees: a case file may name another material in every row */
 };
 
 /* The material of this file, read on first use. NULL if it cannot be read. It belongs to `materials`. */

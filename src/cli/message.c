@@ -67,13 +67,16 @@ struct number_text number_text(double value)
     return result;
 }
 
+void out_of_memory(void)
+{
+    complain("out of memory");
+    exit(EXIT_USAGE);
+}
+
 void *allocate(size_t count, size_t size)
 {
     void *memory = calloc(count ? count : 1, size ? size : 1);
-    if (!memory) {
-        complain("out of memory");
-        exit(EXIT_USAGE);
-    }
+    if (!memory) out_of_memory();
     return memory;
 }
 

@@ -33,5 +33,6 @@ char *copy_of(const char *text);
 
 /* Memory, zeroed; ends the program if there is none. */
 void *allocate(size_t count, size_t size);
+void out_of_memory(void) __attribute__((noreturn));
 
 #endif

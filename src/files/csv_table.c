@@ -77,21 +77,48 @@ static const char *cell_text(const restitute_csv *csv, size_t cell)
     return (const char *)csv->text.items + ((const size_t *)csv->cells.items)[cell];
 }
 
+/* A column by its name, for sorting; like names stay in the order of the columns. */
+struct named_column {
+    const char *name;
+    size_t column;
+};
+
+static int by_name(const void *left, const void *right)
+{
+    const struct named_column *a = left, *b = right;
+    const int order = strcmp(a->name, b->name);
+    return order ? order : (a->column > b->column) - (a->column < b->column);
+}
+
+/* The first column whose name one before it has; `columns` if there is none. */
+static size_t first_repeated(struct named_column *names, size_t columns)
+{
+    size_t first = columns;
+    qsort(names, columns, sizeof *names, by_name);
+    for (size_t i = 1; i < columns; i++)
+        if (names[i].column < first && strcmp(names[i].name, names[i - 1].name) == 0) first = names[i].column;
+    return first;
+}
+
 /* The header: every column has a name, and none has another's. */
 static int check_names(struct reading *reading)
 {
     const restitute_csv *csv = reading->csv;
-    for (size_t i = 0; i < csv->columns; i++) {
-        const char *name = cell_text(csv, i);
-        if (!*name)
-            return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
-                              reading->name, reading->line, i + 1);
-        for (size_t k = 0; k < i; k++)
-            if (strcmp(name, cell_text(csv, k)) == 0)
-                return rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
-                                  reading->name, reading->line, name);
+    struct named_column *names = malloc(csv->columns * sizeof *names);
+    if (!names) return no_memory(reading);
+    int status = RESTITUTE_OK;
+    for (size_t i = 0; i < csv->columns && status == RESTITUTE_OK; i++) {
+        names[i] = (struct named_column){cell_text(csv, i), i};
+        if (!*names[i].name)
+            status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %zu has no name",
+                                reading->name, reading->line, i + 1);
     }
-    return RESTITUTE_OK;
+    const size_t repeated = status == RESTITUTE_OK ? first_repeated(names, csv->columns) : csv->columns;
+    if (repeated < csv->columns)
+        status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: column %.64s appears twice",
+                            reading->name, reading->line, cell_text(csv, repeated));
+    free(names);
+    return status;
 }
 
 static void on_row_end(int terminator, void *data)
@@ -120,6 +147,17 @@ static void on_row_end(int terminator, void *data)
     }
 }
 
+/* What the parser did not like, unless a cell or a row was refused before. */
+static void parser_stopped(struct reading *reading, struct csv_parser *parser)
+{
+    if (reading->status != RESTITUTE_OK) return;
+    if (csv_error(parser) == CSV_ENOMEM)
+        no_memory(reading);
+    else
+        reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
+                                     reading->line, csv_strerror(csv_error(parser)));
+}
+
 /* Feed the text line by line: libcsv knows no comments and counts no lines. A # inside quotes is no comment. */
 static void feed_lines(struct csv_parser *parser, struct reading *reading, const struct file_text *text)
 {
@@ -132,9 +170,7 @@ static void feed_lines(struct csv_parser *parser, struct reading *reading, const
         const size_t length = newline ? (size_t)(newline - at) + 1 : (size_t)(end - at);
         reading->line++;
         if (quoted || *at != '#') {
-            if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length)
-                reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: %s", reading->name,
-                                             reading->line, csv_strerror(csv_error(parser)));
+            if (csv_parse(parser, at, length, on_cell, on_row_end, reading) != length) parser_stopped(reading, parser);
             for (size_t i = 0; i < length; i++)
                 quoted ^= at[i] == '"';
         }
@@ -159,11 +195,10 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     return reading->status;
 }
 
-int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
+int csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error)
 {
-    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
     struct file_text text;
-    int status = file_text_read(path, &text, error);
+    int status = file_text_read(path, most, &text, error);
     if (status != RESTITUTE_OK) return status;
     restitute_csv *table = calloc(1, sizeof *table);
     struct reading reading = {table, file_name_for_message(path), 0, 0, RESTITUTE_OK, error};
@@ -180,6 +215,12 @@ int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *e
     }
     free(text.bytes);
     return status;
+}
+
+int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
+{
+    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
+    return csv_read_bounded(path, FILE_TEXT_OF_TABLE, csv, error);
 }
 
 void restitute_csv_destroy(restitute_csv *csv)

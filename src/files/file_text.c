@@ -1,11 +1,10 @@
 /* A whole file as text, and its fingerprint.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700
+
 #include "file_text.h"
 
-#include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "whole_file.h"
 
 const char *file_name_for_message(const char *path)
 {
@@ -15,12 +14,13 @@ const char *file_name_for_message(const char *path)
     return length > longest ? path + (length - longest) : path;
 }
 
-/* Read the open stream to its end. On failure errno tells why and nothing is left allocated. */
-static int read_stream(FILE *stream, struct file_text *text)
+/* Standard input has no size to look at before. On failure errno tells why, if 0: too much, and nothing is left. */
+static int read_standard_input(uint64_t most, struct file_text *text)
 {
     char *bytes = NULL;
-    size_t length = 0, capacity = 0;
-    for (;;) {
+    size_t length = 0, capacity = 0, count = 1;
+    errno = 0;
+    while (count > 0 && length <= most) {
         if (capacity - length < 2) {
             capacity = capacity ? 2 * capacity : 16384;
             char *larger = realloc(bytes, capacity);
@@ -31,12 +31,11 @@ static int read_stream(FILE *stream, struct file_text *text)
             }
             bytes = larger;
         }
-        const size_t count = fread(bytes + length, 1, capacity - length - 1, stream);
+        count = fread(bytes + length, 1, capacity - length - 1, stdin);
         length += count;
-        if (count == 0) break;
     }
-    if (ferror(stream)) {
-        const int reason = errno;
+    if (length > most || ferror(stdin)) {
+        const int reason = length > most ? 0 : errno;
         free(bytes);
         errno = reason;
         return RESTITUTE_ERROR_FILE;
@@ -47,19 +46,14 @@ static int read_stream(FILE *stream, struct file_text *text)
     return RESTITUTE_OK;
 }
 
-int file_text_read(const char *path, struct file_text *text, restitute_error *error)
+int file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error)
 {
-    const int standard = strcmp(path, "-") == 0;
-    FILE *stream = standard ? stdin : fopen(path, "rb");
-    if (!stream)
-        return rst_report(error, RESTITUTE_ERROR_FILE, "%s: cannot be read: %s", file_name_for_message(path),
-                          strerror(errno));
-    const int status = read_stream(stream, text);
-    const int reason = errno;
-    if (!standard) fclose(stream);
-    if (status != RESTITUTE_OK)
-        return rst_report(error, status, "%s: cannot be read: %s", file_name_for_message(path), strerror(reason));
-    return RESTITUTE_OK;
+    const char *name = file_name_for_message(path);
+    if (strcmp(path, "-") != 0) return rst_read_whole(path, name, most, &text->bytes, &text->length, error);
+    const int status = read_standard_input(most, text);
+    if (status == RESTITUTE_OK) return status;
+    if (errno) return rst_report(error, status, "%s: cannot be read: %s", name, strerror(errno));
+    return rst_report(error, status, "%s: has more than %llu bytes", name, (unsigned long long)most);
 }
 
 uint64_t file_text_fingerprint(const struct file_text *text, uint64_t start)

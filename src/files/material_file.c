@@ -1,5 +1,6 @@
 /* Materials from .json and .csv files: what the file must hold, checked key by key, then handed to the core.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -299,14 +300,17 @@ static int read_json_material(const char *path, restitute_material **material, r
                               restitute_error *error)
 {
     struct file_text text;
-    int status = file_text_read(path, &text, error);
+    int status = file_text_read(path, FILE_TEXT_OF_MATERIAL, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
     struct material_file file = {path, file_name_for_message(path), text.bytes, NULL, 0, error};
     file.fingerprint = file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+    errno = 0; /* for want of memory Jansson says nothing, or speaks of syntax */
     file.root = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
     if (file.root)
         status = material_from_root(&file, material, info);
+    else if (errno == ENOMEM || reason.text[0] == '\0')
+        status = rst_report(error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file.name);
     else
         status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s line %d column %d: not JSON: %.120s", file.name,
                             reason.line, reason.column, reason.text);

@@ -126,7 +126,7 @@ static int terms_from_table(const restitute_csv *csv, const char *file, struct p
 int prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint, restitute_error *error)
 {
     restitute_csv *csv;
-    int status = restitute_csv_read(path, &csv, error);
+    int status = csv_read_bounded(path, FILE_TEXT_OF_MATERIAL, &csv, error);
     if (status != RESTITUTE_OK) return status;
     status = terms_from_table(csv, file_name_for_message(path), terms, error);
     *fingerprint = restitute_csv_fingerprint(csv);

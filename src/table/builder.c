@@ -110,6 +110,32 @@ double rst_builder_number(const struct restitute_table_builder *b, enum rst_axis
     return exp(b->low[axis] + (b->high[axis] - b->low[axis]) * u);
 }
 
+/* To the first stage. All that is left of what was done is the journal, from which the build goes on. */
+static int begin(struct restitute_table_builder *b, restitute_error *error)
+{
+    restitute_table_destroy(b->draft);
+    rst_memo_clear(&b->memo);
+    rst_cells_free(b->cells);
+    *b = (struct restitute_table_builder){.family = b->family,
+                                          .options = b->options,
+                                          .point = b->point,
+                                          .solved = b->solved,
+                                          .capacity = b->capacity,
+                                          .journal = b->journal,
+                                          .journal_count = b->journal_count,
+                                          .journal_capacity = b->journal_capacity};
+    set_axes(b);
+    set_probes(b);
+    b->filling_tolerance = b->later_tolerance = part_for_filling * b->options.tolerance;
+    int status = RESTITUTE_OK;
+    if (b->active[RST_SPEED] && b->active[RST_GAMMA])
+        status = rst_cells_create(b, error);
+    else if (rst_plan_probes(b))
+        status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    b->begun = status == RESTITUTE_OK;
+    return status;
+}
+
 int restitute_table_builder_create(const restitute_table_family *family, const restitute_table_options *options,
                                    restitute_table_builder **builder, restitute_error *error)
 {
@@ -124,16 +150,7 @@ int restitute_table_builder_create(const restitute_table_family *family, const r
     if (!b) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     b->options = *options;
     status = rst_family_set(family, &b->family, error);
-    if (!status) {
-        set_axes(b);
-        set_probes(b);
-        const int cells = b->active[RST_SPEED] && b->active[RST_GAMMA];
-        b->filling_tolerance = b->later_tolerance = part_for_filling * options->tolerance;
-        if (cells)
-            status = rst_cells_create(b, error);
-        else if (rst_plan_probes(b))
-            status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    }
+    if (!status) status = begin(b, error);
     if (status) {
         restitute_table_builder_destroy(b);
         return status;
@@ -296,7 +313,10 @@ static int piece_solve(const struct restitute_table_builder *b, struct piece *p,
                   : restitute_solve_many(&options, n, p->impacts, p->results, p->statuses, b->options.threads, error);
     if (status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
     for (int64_t i = 0; i < p->count; i++)
-        if (p->statuses[i] < 0 && (status = solve_again(b, p, i, options, error)) < 0) return status;
+        if (p->statuses[i] == RESTITUTE_ERROR_MEMORY)
+            return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for an impact");
+        else if (p->statuses[i] < 0 && (status = solve_again(b, p, i, options, error)) < 0)
+            return status;
     return RESTITUTE_OK;
 }
 
@@ -535,20 +555,21 @@ int restitute_table_builder_run(restitute_table_builder *builder, size_t impacts
     if (!builder || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", builder ? "table" : "builder");
     if (impacts == 0) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "impacts = 0: must be > 0");
     int64_t left = impacts > (size_t)INT64_MAX ? INT64_MAX : (int64_t)impacts;
-    while (builder->stage != RST_FINISHED) {
+    int status = builder->begun ? RESTITUTE_OK : begin(builder, error);
+    while (!status && builder->stage != RST_FINISHED) {
         replay(builder);
         if (builder->next < builder->points) {
             if (left <= 0) return rst_done(error);
             const int64_t before = builder->used, piece = left < largest_piece ? left : largest_piece;
-            const int status = solve_some(builder, piece, error);
-            if (status) return status;
+            status = solve_some(builder, piece, error);
             left -= builder->used - before;
         } else {
-            const int status = next_stage(builder, error);
-            if (status) return status;
+            status = next_stage(builder, error);
         }
     }
-    return hand_over(builder, table, error);
+    if (!status) return hand_over(builder, table, error);
+    builder->begun = 0; /* a stage that stopped half way is not gone on with */
+    return status;
 }
 
 const double *restitute_table_builder_journal(const restitute_table_builder *builder, size_t *count)

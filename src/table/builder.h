@@ -74,6 +74,7 @@ struct restitute_table_builder {
     int64_t n[rst_axes];  /* points */
     struct rst_panels panels[rst_axes];
     int64_t probe[rst_axes];
+    int begun; /* 0: a call failed, and the next one begins anew from the journal */
     enum rst_stage stage;
     int part, rounds, stagnant; /* stagnant: rounds on end that brought little */
 

@@ -292,7 +292,7 @@ static double *psi_rows(const struct restitute_table_builder *b, const restitute
         const int turned = i >= t->start[2];
         const int64_t from_start = i - (turned ? t->start[2] : t->start[1]);
         const double place = slips ? rst_t_of_root(rst_slip_node(t->slip_cells, from_start), turned) : stick;
-        rst_table_weights(slips ? r : l, 1, &place, one);
+        rst_table_weights(slips ? r : l, place, one);
         memcpy(row + i * n + (slips ? l : 0), one, (size_t)(slips ? r : l) * sizeof *one);
     }
     return row;

@@ -13,48 +13,42 @@ module rst_table_interpolation
 
 contains
 
-  !> sin^2 keeps the distance to the lower end exact; the upper end is its mirror image.
   pure subroutine nodes(n, x) bind(c, name="rst_table_nodes")
     integer(ip), intent(in), value :: n
     real(dp), intent(out) :: x(n)
     integer(ip) :: j
-    x(1) = 0
-    do j = 1, n - 1
-      if (2*j <= n - 1) then
-        x(j + 1) = sin(pi*real(j, dp)/real(2*(n - 1), dp))**2
-      else
-        x(j + 1) = 1 - x(n - j)
-      end if
+    do j = 1, n
+      x(j) = node(n, j)
     end do
   end subroutine nodes
 
-  !> One row a point: row(:, i) takes n values at the nodes to the value at point(i).
-  pure subroutine weights(n, m, point, row) bind(c, name="rst_table_weights")
-    integer(ip), intent(in), value :: n, m
-    real(dp), intent(in) :: point(m)
-    real(dp), intent(out) :: row(n, m)
-    real(dp) :: x(n), total
-    integer(ip) :: i, j, hit
-    call nodes(n, x)
-    do i = 1, m
-      hit = 0
-      total = 0
-      do j = 1, n
-        if (.not. abs(point(i) - x(j)) > 0) then
-          hit = j
-          exit
-        end if
-        row(j, i) = sign_of(j)/(point(i) - x(j))
-        if (j == 1 .or. j == n) row(j, i) = row(j, i)/2
-        total = total + row(j, i)
-      end do
-      if (hit > 0) then
-        row(:, i) = 0
-        row(hit, i) = 1
-      else
-        row(:, i) = row(:, i)/total
+  !> x_(j - 1). sin^2 keeps the distance to the lower end exact; the upper end is its mirror image.
+  pure function node(n, j) result(x)
+    integer(ip), intent(in) :: n, j
+    real(dp) :: x
+    x = 0
+    if (j > 1) x = sin(pi*real(min(j - 1, n - j), dp)/real(2*(n - 1), dp))**2
+    if (2*j > n + 1) x = 1 - x
+  end function node
+
+  !> The row that takes n values at the nodes to the value at `point`.
+  pure subroutine weights(n, point, row) bind(c, name="rst_table_weights")
+    integer(ip), intent(in), value :: n
+    real(dp), intent(in), value :: point
+    real(dp), intent(out) :: row(n)
+    integer(ip) :: j
+    real(dp) :: distance
+    do j = 1, n
+      distance = point - node(n, j)
+      if (.not. abs(distance) > 0) then
+        row = 0
+        row(j) = 1
+        return
       end if
+      row(j) = sign_of(j)/distance
+      if (j == 1 .or. j == n) row(j) = row(j)/2
     end do
+    row = row/sum(row)
   end subroutine weights
 
   pure function sign_of(j) result(s)

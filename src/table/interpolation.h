@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 void rst_table_nodes(int64_t n, double *x);
-void rst_table_weights(int64_t n, int64_t m, const double *point, double *row);
+void rst_table_weights(int64_t n, double point, double *row);
 void rst_table_spectrum(int64_t n, double *row);
 void rst_table_last(int64_t n, double *row);
 void rst_table_along(int64_t after, int64_t n, int64_t m, int64_t before, const double *row, const double *a,

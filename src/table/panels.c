@@ -73,7 +73,7 @@ void rst_panels_rows(const struct rst_panels *p, int64_t m, const double *place,
         const double own = fmin(1, fmax(0, (place[i] - low) / width));
         for (int64_t j = 0; j < n; j++)
             row[i * n + j] = 0;
-        rst_table_weights(p->n[panel], 1, &own, row + i * n + first);
+        rst_table_weights(p->n[panel], own, row + i * n + first);
     }
 }
 

@@ -39,28 +39,33 @@ int restitute_table_builder_write(const restitute_table_builder *builder, const 
 }
 
 /* The text of an attribute is what its own length and content say. */
-static int same_text(hid_t file, const char *name, const char *text)
+static int check_text(hid_t file, const char *name, const char *text, const char *path, restitute_error *error)
 {
     const size_t size = strlen(text) + 2;
     char *found = malloc(size);
-    const int same = found && rst_get_text(file, name, size, found) == 0 && strcmp(found, text) == 0;
+    if (!found) return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory", path);
+    const int same = rst_get_text(file, name, size, found) == 0 && strcmp(found, text) == 0;
     free(found);
-    return same;
+    if (same) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%.120s: was begun with other settings or by another version",
+                      path);
 }
 
 static int read_journal(hid_t file, restitute_table_builder *builder, const char *settings, const char *path,
                         restitute_error *error)
 {
-    if (!same_text(file, "settings", settings) || !same_text(file, "restitute_version", restitute_version()))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%.120s: was begun with other settings or by another version",
-                          path);
+    int status = check_text(file, "settings", settings, path, error);
+    if (!status) status = check_text(file, "restitute_version", restitute_version(), path, error);
+    if (status) return status;
     const int64_t count = rst_count_values(file, "impacts", RST_DOUBLES);
     double *journal = count >= 0 ? malloc((size_t)(count + 1) * sizeof *journal) : NULL;
+    if (count >= 0 && !journal)
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory for its impacts", path);
     if (!journal || count % 4 != 0 || (count > 0 && rst_get_values(file, "impacts", RST_DOUBLES, count, journal))) {
         free(journal);
         return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no impacts", path);
     }
-    const int status = restitute_table_builder_restore(builder, journal, (size_t)count / 4, error);
+    status = restitute_table_builder_restore(builder, journal, (size_t)count / 4, error);
     free(journal);
     return status;
 }

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/whole_file.h"
 #include "../output/new_file.h"
 
 enum { block_size = 512 };
@@ -50,32 +51,15 @@ static void make_block(const char *title, int version, uint64_t sum, size_t size
 
 /* ---- reading bytes */
 
-static int fail_reading(restitute_error *error, const char *path)
-{
-    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be read: %s", path, strerror(errno));
-}
+/* No table is larger, and what HDF5 makes of it in memory is bounded by its bytes. */
+static const uint64_t most_bytes = UINT64_C(1) << 32;
 
 static int read_all(const char *path, struct rst_old_file *file, restitute_error *error)
 {
-    struct stat status;
-    FILE *stream = fopen(path, "rb");
-    if (!stream) return fail_reading(error, path);
-    if (fstat(fileno(stream), &status) != 0 || S_ISDIR(status.st_mode)) {
-        if (S_ISDIR(status.st_mode)) errno = EISDIR;
-        fclose(stream);
-        return fail_reading(error, path);
-    }
-    const size_t size = status.st_size > 0 ? (size_t)status.st_size : 0;
-    file->bytes = malloc(size + 1);
-    if (!file->bytes) {
-        fclose(stream);
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory for %zu bytes", path, size);
-    }
-    file->size = fread(file->bytes, 1, size + 1, stream);
-    const int failed = ferror(stream);
-    fclose(stream);
-    if (failed) return fail_reading(error, path);
-    return RESTITUTE_OK;
+    char *bytes = NULL;
+    const int status = rst_read_whole(path, path, most_bytes, &bytes, &file->size, error);
+    if (status == RESTITUTE_OK) file->bytes = (unsigned char *)bytes;
+    return status;
 }
 
 /* Not what was expected: say how far it is from it. */

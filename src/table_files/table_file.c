@@ -202,12 +202,13 @@ static void expect_sets(const restitute_table_data *d, const int64_t n[4], struc
 }
 
 /* A count is compared with that of the file before room is made. */
-static int get_set(hid_t f, struct set *set)
+static int get_set(hid_t f, struct set *set, restitute_error *why)
 {
     const size_t bytes = set->kind == RST_SINGLES ? sizeof(float) : 8;
     if (set->count == 0) return 0;
     if (rst_count_values(f, set->name, set->kind) != set->count) return 1;
     set->value = malloc((size_t)set->count * bytes);
+    if (!set->value) why->status = RESTITUTE_ERROR_MEMORY;
     return !set->value || rst_get_values(f, set->name, set->kind, set->count, set->value);
 }
 
@@ -229,7 +230,7 @@ static int make_table(restitute_table_data *d, const struct set set[SETS], resti
 /* Everything of the file, in `d` and `set`; else why not. */
 static int get_table(hid_t f, restitute_table_data *d, struct set set[SETS], restitute_error *why)
 {
-    const restitute_error missing = {.message = "parts are missing"};
+    const restitute_error missing = {.status = RESTITUTE_ERROR_FORMAT, .message = "parts are missing"};
     int64_t nodes[4];
     *why = missing;
     if (get_attributes(f, d) || get_chain(f, d) || restitute_table_data_nodes(d, nodes, why)) return 1;
@@ -237,7 +238,7 @@ static int get_table(hid_t f, restitute_table_data *d, struct set set[SETS], res
     expect_sets(d, nodes, set);
     int failed = 0;
     for (int i = 0; i < SETS && !failed; i++)
-        failed = get_set(f, &set[i]);
+        failed = get_set(f, &set[i], why);
     return failed;
 }
 
@@ -256,7 +257,7 @@ static int read_table(const char *path, const struct rst_old_file *file, restitu
             path, file->schema, rst_schema);
     restitute_table_data_init(&d);
     const int failed = get_table(file->file, &d, set, &why);
-    const int status = failed ? RESTITUTE_ERROR_FORMAT : make_table(&d, set, table, &why);
+    const int status = failed ? why.status : make_table(&d, set, table, &why);
     for (int i = 0; i < SETS; i++)
         free(set[i].value);
     if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%.120s: out of memory", path);

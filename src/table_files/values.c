@@ -136,8 +136,15 @@ static hid_t open_set(hid_t place, const char *name)
     return H5Lexists(place, name, H5P_DEFAULT) > 0 ? H5Dopen2(place, name, H5P_DEFAULT) : -1;
 }
 
-/* Values are stored as they are, so that there cannot be more of them than bytes in the file: what is made room for is
- * bounded. */
+/* Values are stored as they are, in one piece, as put_set does it: HDF5 makes no room for chunks and opens no other file. */
+static int in_one_piece(hid_t set)
+{
+    const hid_t how = H5Dget_create_plist(set);
+    const int good = how >= 0 && H5Pget_layout(how) == H5D_CONTIGUOUS && H5Pget_external_count(how) == 0;
+    return close_all(good, how, -1, -1) == 0;
+}
+
+/* So there cannot be more of them than bytes in the file: what is made room for is bounded. */
 static int fits(hid_t place, int64_t count)
 {
     hsize_t bytes;
@@ -154,7 +161,8 @@ int64_t rst_count_values(hid_t place, const char *name, enum rst_kind kind)
     const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
     const H5T_class_t wanted = kind == RST_INTEGERS ? H5T_INTEGER : H5T_FLOAT;
     int64_t count = -1;
-    if (type >= 0 && space >= 0 && H5Tget_class(type) == wanted) count = H5Sget_simple_extent_npoints(space);
+    if (type >= 0 && space >= 0 && H5Tget_class(type) == wanted && in_one_piece(set))
+        count = H5Sget_simple_extent_npoints(space);
     close_all(1, set, type, space);
     return fits(place, count) ? count : -1;
 }

@@ -1,5 +1,7 @@
 /* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict reading of numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include <float.h>
 #include <locale.h>
 #include <stdlib.h>
@@ -7,7 +9,7 @@
 
 #include <restitute/files.h>
 
-#include "../support/check.h"
+#include "../support/odd_files.h"
 #include "../support/random.h"
 
 /* Every test writes this one file in the current directory; the teardown removes it. */
@@ -240,6 +242,27 @@ static void many_rows(void **state)
     restitute_csv_destroy(csv);
 }
 
+/* A header of a million names, compared each with each, would outlast the time that a test has. */
+static void many_columns(void **state)
+{
+    (void)state;
+    enum { columns = 1000000, width = 9 };
+    char *text = malloc((size_t)columns * width + 1), *at = text;
+    CHECK(text != NULL, "no memory");
+    for (int i = 0; i < columns; i++)
+        at += sprintf(at, "c%07d,", i);
+    at[-1] = '\n';
+    restitute_csv *csv = read_text(text);
+    assert_int_equal(restitute_csv_columns(csv), columns);
+    assert_string_equal(restitute_csv_name(csv, columns - 1), "c0999999");
+    restitute_csv_destroy(csv);
+    text[(size_t)width * (columns - 1) + width - 2] = '0'; /* c0999999 -> c0999990 */
+    write_table(text, strlen(text));
+    check_refused(TABLE, RESTITUTE_ERROR_FORMAT, (const char *[]){"line 1", "column c0999990 appears twice", NULL},
+                  "the last of a million names repeated");
+    free(text);
+}
+
 static void long_cell(void **state)
 {
     (void)state;
@@ -280,6 +303,7 @@ static void malformed_tables(void **state)
         {"quoted empty name", "a,\"\"\n", {"line 1", "column 2"}},
         {"name missing at the end", "#\na,b,\n1,2,3\n", {"line 2", "column 3"}},
         {"repeated name", "# x\nalpha,beta,alpha\n", {"line 2", "alpha", "twice"}},
+        {"two repeated names: the first that repeats is named", "z,b,b,a,z,a\n", {"line 1", "column b", "twice"}},
         {"repeated name, one quoted", "alpha,\"alpha\"\n", {"line 1", "alpha", "twice"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -309,6 +333,20 @@ static void unreadable_files(void **state)
     strcpy(path + sizeof path - 9, "/end.csv");
     check_refused(path, RESTITUTE_ERROR_FILE, (const char *[]){"/end.csv", NULL}, "endless path");
     check_refused("100%s%n.csv", RESTITUTE_ERROR_FILE, (const char *[]){"100%s%n.csv", NULL}, "path like a format");
+}
+
+static void endless_files(void **state)
+{
+    (void)state;
+    const char fifo[] = "test_files_csv_fifo";
+    make_fifo(fifo);
+    check_refused(fifo, RESTITUTE_ERROR_FILE, (const char *[]){fifo, "not a regular file", NULL}, "a FIFO");
+    unlink(fifo);
+    check_refused("/dev/zero", RESTITUTE_ERROR_FILE, (const char *[]){"/dev/zero", "not a regular file", NULL},
+                  "a device");
+    if (sizeof(off_t) > 4 && make_sparse(TABLE, (off_t)4294967297))
+        check_refused(TABLE, RESTITUTE_ERROR_FILE, (const char *[]){TABLE, "4294967297", "4294967296", NULL},
+                      "too large");
 }
 
 static void null_arguments(void **state)
@@ -529,10 +567,12 @@ int main(void)
         cmocka_unit_test_teardown(fingerprint, remove_table),
         cmocka_unit_test_teardown(standard_input, remove_table),
         cmocka_unit_test_teardown(many_rows, remove_table),
+        cmocka_unit_test_teardown(many_columns, remove_table),
         cmocka_unit_test_teardown(long_cell, remove_table),
         cmocka_unit_test_teardown(malformed_tables, remove_table),
         cmocka_unit_test_teardown(nul_byte, remove_table),
         cmocka_unit_test(unreadable_files),
+        cmocka_unit_test_teardown(endless_files, remove_table),
         cmocka_unit_test(null_arguments),
         cmocka_unit_test_teardown(random_bytes, remove_table),
         cmocka_unit_test_teardown(changed_bytes, remove_table),

@@ -11,6 +11,7 @@
 #include <restitute/files.h>
 
 #include "../support/data.h"
+#include "../support/odd_files.h"
 #include "../support/random.h"
 
 /* The files of the tests, all in the current directory; the teardown removes them. */
@@ -21,6 +22,8 @@
 #define FOLDER_JSON FOLDER "/inside.json"
 #define FOLDER_CSV FOLDER "/" CSV
 #define OTHER STEM ".txt"
+#define FIFO STEM "_fifo.csv"
+#define FIFO_JSON STEM "_fifo.json"
 
 /* The beginning of a material file, on one line. */
 #define HEAD(model) "{\"name\": \"n\", \"poisson_ratio\": 0.25, \"model\": \"" model "\""
@@ -42,7 +45,7 @@ static void write_text(const char *path, const char *text)
 static int remove_files(void **state)
 {
     (void)state;
-    static const char *const paths[] = {JSON, CSV, FOLDER_JSON, FOLDER_CSV, OTHER};
+    static const char *const paths[] = {JSON, CSV, FOLDER_JSON, FOLDER_CSV, OTHER, FIFO, FIFO_JSON};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
         remove(paths[i]);
     rmdir(FOLDER);
@@ -787,6 +790,28 @@ static void unreadable_files(void **state)
     check_refused("%s%n.json", RESTITUTE_ERROR_FILE, (const char *[]){"%s%n.json", NULL}, "path like a format");
 }
 
+/* What a JSON file names is read like the JSON file itself: neither may hang the reader or fill its memory. */
+static void endless_files(void **state)
+{
+    (void)state;
+    const char *const regular = "not a regular file", *const most = "67108864";
+    make_fifo(FIFO);
+    check_refused(FIFO, RESTITUTE_ERROR_FILE, (const char *[]){FIFO, regular, NULL}, "a FIFO");
+    write_text(JSON, HEAD("prony") ", \"prony_csv\": \"" FIFO "\"}");
+    check_refused(JSON, RESTITUTE_ERROR_FILE, (const char *[]){FIFO, regular, NULL}, "names a FIFO");
+    write_text(JSON, HEAD("prony") ", \"prony_csv\": \"/dev/zero\"}");
+    check_refused(JSON, RESTITUTE_ERROR_FILE, (const char *[]){"/dev/zero", regular, NULL}, "names a device");
+    if (make_sparse(CSV, (1 << 26) + 1)) {
+        check_refused(CSV, RESTITUTE_ERROR_FILE, (const char *[]){CSV, "67108865", most, NULL}, "too large");
+        write_text(JSON, HEAD("prony") ", \"prony_csv\": \"" CSV "\"}");
+        check_refused(JSON, RESTITUTE_ERROR_FILE, (const char *[]){CSV, "67108865", most, NULL}, "names a large file");
+    }
+    if (make_sparse(CSV, 1 << 26)) check_refused(CSV, FORMAT, (const char *[]){CSV, "NUL", NULL}, "the largest size");
+    make_fifo(FIFO_JSON);
+    check_refused(FIFO_JSON, RESTITUTE_ERROR_FILE, (const char *[]){FIFO_JSON, regular, NULL},
+                  "a JSON file that is one");
+}
+
 static void other_extensions(void **state)
 {
     (void)state;
@@ -987,6 +1012,7 @@ int main(void)
         TEST(refused_prony_csv),
         TEST(prony_csv_is_a_file),
         TEST(unreadable_files),
+        TEST(endless_files),
         TEST(other_extensions),
         TEST(null_arguments),
         TEST(struct_size),

@@ -1,8 +1,11 @@
 /* What the header promises of batches: the bits of single calls for any number of threads, failures that stop nobody,
  * refusals that touch nothing. SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include <fenv.h>
 #include <string.h>
 
+#include "../support/child.h"
 #include "../support/random.h"
 #include "../support/solve.h"
 
@@ -233,6 +236,38 @@ static void refused_calls_touch_nothing(void **state)
     CHECK(statuses[0] == 99 && statuses[2] == 99, "statuses were touched");
 }
 
+enum { FORKED = 64 };
+
+struct forked {
+    restitute_impact impacts[FORKED];
+    restitute_result results[FORKED];
+};
+
+static int one_thread_gives_the_same(void *of)
+{
+    const struct forked *known = of;
+    static restitute_result results[FORKED];
+    const restitute_options options = to_tolerance(1e-2);
+    for (int i = 0; i < FORKED; i++)
+        results[i] = fresh_result();
+    return restitute_solve_many(&options, FORKED, known->impacts, results, NULL, 1, NULL) == RESTITUTE_OK &&
+           memcmp(results, known->results, sizeof results) == 0;
+}
+
+/* OpenMP's threads do not live on in a child of the process, which waits for them for ever; one thread needs none. */
+static void a_child_goes_on_with_one_thread(void **state)
+{
+    (void)state;
+    static struct forked known;
+    const restitute_options options = to_tolerance(1e-2);
+    for (int i = 0; i < FORKED; i++) {
+        known.impacts[i] = impact_of(7.0 / 6, 0.05 * i, 1, 1);
+        known.results[i] = fresh_result();
+    }
+    CHECK(restitute_solve_many(&options, FORKED, known.impacts, known.results, NULL, 4, NULL) == RESTITUTE_OK, "batch");
+    CHECK(good_in_child(one_thread_gives_the_same, &known), "the child");
+}
+
 static void no_cases_are_done_at_once(void **state)
 {
     (void)state;
@@ -279,6 +314,7 @@ int main(void)
         cmocka_unit_test(failures_stop_nobody_and_the_first_is_named),
         cmocka_unit_test(remarks_are_told_after_failures),
         cmocka_unit_test(refused_calls_touch_nothing),
+        cmocka_unit_test(a_child_goes_on_with_one_thread),
         cmocka_unit_test(no_cases_are_done_at_once),
 #ifdef FE_UPWARD
         cmocka_unit_test(threads_round_as_the_caller_does),

@@ -1,7 +1,10 @@
 /* Building: the same bits for any number of threads and any division into steps, going on from a journal, refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include <string.h>
 
+#include "../support/child.h"
 #include "../support/table.h"
 
 static restitute_table_family family_of(const restitute_scene *scene)
@@ -51,6 +54,36 @@ static void threads_give_the_same_bits(void **state)
     CHECK(same_bits(tables[0], tables[1]) && same_bits(tables[0], tables[2]), "one, two and three threads");
     for (int i = 0; i < 3; i++)
         restitute_table_destroy(tables[i]);
+    restitute_material_destroy(material);
+}
+
+struct forked {
+    restitute_table_family family;
+    restitute_table *table;
+};
+
+static int one_thread_gives_the_same(void *of)
+{
+    const struct forked *known = of;
+    const restitute_table_options options = options_of(1);
+    restitute_table *table = NULL;
+    const int same =
+        restitute_table_build(&known->family, &options, &table, NULL) == RESTITUTE_OK && same_bits(table, known->table);
+    restitute_table_destroy(table);
+    return same;
+}
+
+/* As of batches: the threads of a build are not there in a child of the process. */
+static void a_child_goes_on_with_one_thread(void **state)
+{
+    restitute_material *material;
+    (void)state;
+    const restitute_scene scene = ball_on(0.3, &material);
+    const restitute_table_options options = options_of(4);
+    struct forked known = {.family = family_of(&scene)};
+    CHECK(restitute_table_build(&known.family, &options, &known.table, NULL) == RESTITUTE_OK, "build");
+    CHECK(good_in_child(one_thread_gives_the_same, &known), "the child");
+    restitute_table_destroy(known.table);
     restitute_material_destroy(material);
 }
 
@@ -190,8 +223,11 @@ static void refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(steps_and_journals_give_the_same_bits),
-        cmocka_unit_test(the_material_may_go), cmocka_unit_test(data_makes_the_same_table), cmocka_unit_test(refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_give_the_same_bits),
+                                       cmocka_unit_test(a_child_goes_on_with_one_thread),
+                                       cmocka_unit_test(steps_and_journals_give_the_same_bits),
+                                       cmocka_unit_test(the_material_may_go),
+                                       cmocka_unit_test(data_makes_the_same_table),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

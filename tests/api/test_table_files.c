@@ -1,12 +1,17 @@
 /* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones are refused, and silently.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include <hdf5.h>
+
 #include <restitute/table_files.h>
 
 #include "../support/checksum.h"
+#include "../support/odd_files.h"
 #include "../support/table.h"
 
 static const char path[] = "test_table_files.h5", broken[] = "test_table_files_broken.h5";
@@ -151,6 +156,23 @@ static void refused(const char *text, int status)
     CHECK(strstr(error.message, text), "\"%s\" does not say \"%s\"", error.message, text);
 }
 
+static void endless_files_are_refused(void **state)
+{
+    (void)state;
+    restitute_table *read = NULL;
+    restitute_error error;
+    const char fifo[] = "test_table_files_fifo.h5";
+    make_fifo(fifo);
+    assert_int_equal(restitute_table_read(fifo, &read, &error), RESTITUTE_ERROR_FILE);
+    CHECK(strstr(error.message, "fifo.h5: is not a regular file"), "%s", error.message);
+    unlink(fifo);
+    assert_int_equal(restitute_table_read("/dev/zero", &read, &error), RESTITUTE_ERROR_FILE);
+    CHECK(strstr(error.message, "/dev/zero: is not a regular file"), "%s", error.message);
+    if (sizeof(off_t) > 4 && make_sparse(broken, (off_t)4294967297))
+        refused("has 4294967297 bytes: must be at most 4294967296", RESTITUTE_ERROR_FILE);
+    unlink(broken);
+}
+
 static void foreign_and_later_files_are_refused(void **state)
 {
     (void)state;
@@ -269,13 +291,53 @@ static void sizes_beyond_the_file_are_refused(void **state)
     free(journal);
 }
 
+/* A dataset put down once more in one chunk, as HDF5 does it with compression. */
+static void put_in_chunks(hid_t file, const char *name)
+{
+    hsize_t length[2];
+    double values[1000];
+    const hid_t old = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(old), how = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Sget_simple_extent_npoints(space) <= 1000 && H5Sget_simple_extent_ndims(space) == 2);
+    H5Sget_simple_extent_dims(space, length, NULL);
+    assert_true(H5Dread(old, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    assert_true(H5Dclose(old) >= 0 && H5Ldelete(file, name, H5P_DEFAULT) >= 0);
+    assert_true(H5Pset_chunk(how, 2, length) >= 0);
+    const hid_t set = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    assert_true(H5Dclose(set) >= 0 && H5Sclose(space) >= 0 && H5Pclose(how) >= 0);
+}
+
+/* A chunk that takes no room in the file may take any in memory: values are read only as they are written. */
+static void chunks_are_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(restitute_table_write(table, broken, NULL), RESTITUTE_OK);
+    const hid_t file = H5Fopen(broken, H5F_ACC_RDWR, H5P_DEFAULT);
+    put_in_chunks(file, "ez");
+    assert_true(H5Fclose(file) >= 0);
+    unsigned char *content = calloc(1, 1 << 24);
+    FILE *stream = fopen(broken, "rb");
+    const size_t length = fread(content, 1, 1 << 24, stream);
+    fclose(stream);
+    char *count = strstr((char *)content, "bytes "), rest[512] = "";
+    assert_non_null(count);
+    strcpy(rest, strchr(count, '\n'));
+    memset(count, 0, (size_t)((char *)content + 512 - count));
+    sprintf(count, "bytes %zu%s", length - 512, rest);
+    put_with_checksum(content, length);
+    free(content);
+    refused("parts are missing", RESTITUTE_ERROR_FORMAT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_written_is_read),
                                        cmocka_unit_test(flips_are_refused),
                                        cmocka_unit_test(cuts_are_refused),
+                                       cmocka_unit_test(endless_files_are_refused),
                                        cmocka_unit_test(foreign_and_later_files_are_refused),
                                        cmocka_unit_test(journals),
+                                       cmocka_unit_test(chunks_are_refused),
                                        cmocka_unit_test(sizes_beyond_the_file_are_refused)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,385 @@
+/* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and the same objects give
+ * the right result afterwards, bit by bit, and leave nothing behind.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
+#include "../support/failing_allocator.h"
+#include "../support/solve.h"
+
+enum { terms = 12, samples = 20, cases = 3 };
+
+static restitute_material *rubber, *glue; /* live for the whole program */
+static restitute_solver *solver;
+static restitute_options options;
+static restitute_error error;
+
+/* ------------------------------------------------------------------------------------------------------- materials */
+
+static char place;
+#define UNTOUCHED ((void *)&place)
+
+static int give_material(int status, restitute_material *material, struct given *given)
+{
+    CHECK(status >= 0 || material == UNTOUCHED, "material touched");
+    if (status < 0) return status;
+    give(given, restitute_material_modulus(material, 1e-3));
+    give(given, restitute_material_poisson_ratio(material));
+    give(given, (double)restitute_material_terms(material));
+    restitute_material_destroy(material);
+    return status;
+}
+
+#define MATERIAL(name, ...)                                                                                            \
+    static int name(struct given *given)                                                                               \
+    {                                                                                                                  \
+        int status;                                                                                                    \
+        restitute_material *material = UNTOUCHED;                                                                      \
+        ARMED(status, restitute_material_##name(__VA_ARGS__, &material, &error));                                      \
+        return give_material(status, material, given);                                                                 \
+    }
+
+static const double three_times[] = {1e-2, 1e-4, 1e-3}, three_moduli[] = {1e6, 2e6, 3e6};
+MATERIAL(prony, 1e6, 10, 3, three_times, three_moduli, 0.4)
+MATERIAL(elastic, 1e6, 0.4)
+MATERIAL(standard_solid, 1e6, 2e6, 50, 0.4)
+MATERIAL(kelvin_voigt, 1e6, 50, 0.4)
+MATERIAL(maxwell, 1e6, 50, 0.4)
+MATERIAL(pair, rubber, glue)
+
+static void materials(void **state)
+{
+    (void)state;
+    static const struct subject all[] = {{"prony", NULL, prony, NULL, 0, 0},
+                                         {"elastic", NULL, elastic, NULL, 0, 0},
+                                         {"standard solid", NULL, standard_solid, NULL, 0, 0},
+                                         {"Kelvin-Voigt", NULL, kelvin_voigt, NULL, 0, 0},
+                                         {"Maxwell", NULL, maxwell, NULL, 0, 0},
+                                         {"pair of materials", NULL, pair, NULL, 0, 0}};
+    if (!CAN_FAIL) skip();
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        fail_each_allocation(&all[i]);
+}
+
+/* --------------------------------------------------------------------------------------------------------- solvers */
+
+static void create_solver(void)
+{
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+}
+
+static void destroy_solver(void)
+{
+    restitute_solver_destroy(solver);
+    solver = NULL;
+}
+
+static int solver_create(struct given *given)
+{
+    int status;
+    restitute_solver *made = UNTOUCHED;
+    ARMED(status, restitute_solver_create(&options, &made, &error));
+    CHECK(status >= 0 || made == UNTOUCHED, "solver touched");
+    if (status >= 0) restitute_solver_destroy(made);
+    give(given, status);
+    return status;
+}
+
+/* All outputs of a call, each at first as its init function leaves it. */
+struct outputs {
+    restitute_result result;
+    restitute_ledger ledger;
+    restitute_history history;
+    double array[8][samples];
+};
+
+static void prepare(struct outputs *o)
+{
+    memset(o, 0, sizeof *o); /* the padding too */
+    restitute_result_init(&o->result);
+    restitute_ledger_init(&o->ledger);
+    restitute_history_init(&o->history);
+    o->history.capacity = samples;
+    double **arrays[] = {&o->history.time,
+                         &o->history.indentation,
+                         &o->history.contact_radius,
+                         &o->history.stick_radius,
+                         &o->history.normal_force,
+                         &o->history.tangential_force,
+                         &o->history.normal_velocity,
+                         &o->history.tangential_velocity};
+    for (int i = 0; i < 8; i++)
+        *arrays[i] = o->array[i];
+}
+
+static int give_outputs(int status, const struct outputs *o, const struct outputs *fresh, struct given *given)
+{
+    CHECK(status >= 0 || memcmp(o, fresh, sizeof *o) == 0, "outputs touched");
+    if (status < 0) return status;
+    const restitute_result *r = &o->result;
+    const double numbers[] = {r->ez,
+                              r->ex,
+                              r->error_ez,
+                              r->error_ex,
+                              r->contact_time,
+                              r->max_normal_force,
+                              (double)r->steps,
+                              (double)r->terms_merged,
+                              o->ledger.viscous_z,
+                              o->ledger.friction_x,
+                              o->ledger.residual_x,
+                              (double)o->history.count};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        give(given, numbers[i]);
+    for (int i = 0; i < 8; i++)
+        for (size_t k = 0; k < o->history.count; k++)
+            give(given, o->array[i][k]);
+    return status;
+}
+
+/* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless impact. */
+static restitute_scene scene;
+static int all_outputs;
+
+static int solve_scene_once(struct given *given)
+{
+    struct outputs o, fresh;
+    int status;
+    prepare(&o);
+    memcpy(&fresh, &o, sizeof o);
+    memcpy(&fresh.history, &o.history, sizeof o.history);
+    ARMED(status, restitute_solve_scene(solver, &scene, &o.result, all_outputs ? &o.ledger : NULL,
+                                        all_outputs ? &o.history : NULL, &error));
+    return give_outputs(status, &o, &fresh, given);
+}
+
+static int solve_impact_once(struct given *given)
+{
+    struct outputs o, fresh;
+    int status;
+    const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
+    prepare(&o);
+    memcpy(&fresh, &o, sizeof o);
+    ARMED(status, restitute_solve(solver, &impact, &o.result, all_outputs ? &o.ledger : NULL,
+                                  all_outputs ? &o.history : NULL, &error));
+    return give_outputs(status, &o, &fresh, given);
+}
+
+/* A ball that flies against one at rest. */
+static int collide(struct given *given)
+{
+    restitute_body ball, other;
+    restitute_contact contact;
+    restitute_result result;
+    int status;
+    restitute_body_init(&ball);
+    restitute_contact_init(&contact);
+    restitute_result_init(&result);
+    ball.radius = 0.01;
+    ball.mass = 4e-3;
+    other = ball;
+    other.position[0] = 0.02;
+    ball.velocity[0] = 2;
+    ball.velocity[1] = 1;
+    contact.material = rubber;
+    contact.friction = 0.3;
+    const restitute_body before = ball;
+    ARMED(status, restitute_collide(solver, &contact, &ball, &other, &result, &error));
+    CHECK(status >= 0 || memcmp(&before, &ball, sizeof ball) == 0, "body touched");
+    for (int i = 0; i < 3; i++) {
+        give(given, ball.velocity[i]);
+        give(given, other.velocity[i]);
+        give(given, other.spin[i]);
+    }
+    give(given, result.ex);
+    return status;
+}
+
+static void with_method(const restitute_method *method, double tolerance)
+{
+    const struct subject create = {"solver_create", NULL, solver_create, NULL, 0, 0};
+    const struct subject on_scene = {"solve_scene", create_solver, solve_scene_once, destroy_solver, 0, 1};
+    const struct subject on_impact = {"solve", create_solver, solve_impact_once, destroy_solver, 0, 1};
+    const struct subject in_space = {"collide", create_solver, collide, destroy_solver, 0, 1};
+    options = to_tolerance(tolerance);
+    options.method = method;
+    fail_each_allocation(&create);
+    fail_each_allocation(&in_space);
+    for (all_outputs = 0; all_outputs < 2; all_outputs++) {
+        fail_each_allocation(&on_impact);
+        for (scene.tangential_speed = 0.5; scene.tangential_speed < 3; scene.tangential_speed += 1.5)
+            fail_each_allocation(&on_scene);
+    }
+}
+
+static void method_euler(void **state)
+{
+    (void)state;
+    if (!CAN_FAIL) skip();
+    with_method(restitute_method_euler(), 2e-2);
+}
+
+static void method_sync(void **state)
+{
+    (void)state;
+    if (!CAN_FAIL) skip();
+    with_method(restitute_method_sync(), 1e-4);
+    with_method(restitute_method_sync(), 1e-6);
+}
+
+/* ------------------------------------------------------------------------------------------- one call, many impacts */
+
+static int give_pair(int status, const double pair[2], struct given *given)
+{
+    CHECK(status >= 0 || (pair[0] == 7 && pair[1] == 7), "pair touched");
+    give(given, pair[0]);
+    give(given, pair[1]);
+    return status;
+}
+
+static int one_pair(struct given *given)
+{
+    int status;
+    double pair[2] = {7, 7};
+    ARMED(status, restitute_pair(7.0 / 6, 2, 1, 1, &pair[0], &pair[1], &error));
+    return give_pair(status, pair, given);
+}
+
+static int one_scene_pair(struct given *given)
+{
+    int status;
+    double pair[2] = {7, 7};
+    ARMED(status, restitute_scene_pair(&scene, &pair[0], &pair[1], &error));
+    return give_pair(status, pair, given);
+}
+
+/* A case that failed has its status, or the call was refused as a whole; the others are right. */
+static int give_cases(int status, int of_scenes, const restitute_result *results, const int *statuses,
+                      struct given *given)
+{
+    static double right[4][cases]; /* of the first call, in which nothing fails */
+    static int known[4];
+    restitute_result fresh;
+    restitute_result_init(&fresh);
+    const int which = 2 * of_scenes + (options.method == restitute_method_sync());
+    for (int i = 0; i < cases; i++) {
+        CHECK((statuses[i] == 99) == (statuses[0] == 99), "refused as a whole, but for case %d", i);
+        CHECK(statuses[i] == RESTITUTE_OK || memcmp(&results[i], &fresh, sizeof fresh) == 0, "case %d touched", i);
+        if (known[which] && statuses[i] == RESTITUTE_OK)
+            CHECK(results[i].ex == right[which][i], "case %d beside one that failed", i);
+        if (status >= 0) give(given, right[which][i] = results[i].ex);
+    }
+    known[which] |= status >= 0;
+    return status;
+}
+
+static int many_impacts(struct given *given)
+{
+    int status, statuses[cases];
+    restitute_impact impacts[cases];
+    restitute_result results[cases];
+    for (int i = 0; i < cases; i++) {
+        impacts[i] = impact_of(7.0 / 6, 0.4 + i, 1, 1);
+        restitute_result_init(&results[i]);
+        statuses[i] = 99;
+    }
+    impacts[1].solid = rubber;
+    ARMED(status, restitute_solve_many(&options, cases, impacts, results, statuses, 1, &error));
+    return give_cases(status, 0, results, statuses, given);
+}
+
+static int many_scenes(struct given *given)
+{
+    int status, statuses[cases];
+    restitute_scene scenes[cases];
+    restitute_result results[cases];
+    for (int i = 0; i < cases; i++) {
+        scenes[i] = scene;
+        scenes[i].tangential_speed = 0.4 + i;
+        restitute_result_init(&results[i]);
+        statuses[i] = 99;
+    }
+    scenes[1].material = glue;
+    ARMED(status, restitute_solve_scenes(&options, cases, scenes, results, statuses, 1, &error));
+    return give_cases(status, 1, results, statuses, given);
+}
+
+static void single_calls_and_batches(void **state)
+{
+    (void)state;
+    static const struct subject singles[] = {{"pair", NULL, one_pair, NULL, 0, 0},
+                                             {"scene_pair", NULL, one_scene_pair, NULL, 0, 0}};
+    static const struct subject batches[] = {{"solve_many", NULL, many_impacts, NULL, 0, 0},
+                                             {"solve_scenes", NULL, many_scenes, NULL, 0, 0}};
+    if (!CAN_FAIL) skip();
+    for (int i = 0; i < 2; i++)
+        fail_each_allocation(&singles[i]);
+    for (int i = 0; i < 4; i++) {
+        options = to_tolerance(2e-2);
+        if (i % 2) options.method = restitute_method_sync();
+        fail_each_allocation(&batches[i / 2]);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- the checker itself */
+
+/* It loses a block whenever it fails, and says that all is well. */
+static int leaky(struct given *given)
+{
+    int status;
+    void *volatile lost = malloc(8), *volatile other;
+    ARMED(status, (other = malloc(8)) ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY);
+    give(given, 1);
+    if (!other) return status;
+    free(other);
+    free(lost);
+    return status;
+}
+
+static void failures_and_losses_are_seen(void **state)
+{
+    struct given given;
+    (void)state;
+    if (!CAN_FAIL) skip();
+    const struct subject s = {"leaky", NULL, leaky, NULL, 0, 0};
+    const long live = allocator.live;
+    CHECK(subject_call(&s, 1, &given) == RESTITUTE_ERROR_MEMORY && allocator.count == 1, "the allocation failed");
+    CHECK(allocator.live == live + 1, "%ld blocks lost, not one", allocator.live - live);
+    CHECK(subject_call(&s, 2, &given) == RESTITUTE_OK && allocator.live == live + 1, "this one did not");
+    allocator.count = 0;
+    CHECK(elastic(&given) == RESTITUTE_OK && allocator.count > 0, "no allocation of the library is seen");
+}
+
+static int set_up(void **state)
+{
+    double tau[terms], g[terms];
+    (void)state;
+    for (int k = 0; k < terms; k++) {
+        tau[k] = pow(10, -6 + 0.5 * k);
+        g[k] = 1e6 / (1 + k % 3);
+    }
+    rubber = solid_of(1e6, 0, terms, tau, g);
+    glue = solid_of(2e6, 0, 5, tau + 1, g);
+    restitute_scene_init(&scene);
+    scene.material = rubber;
+    scene.radius1 = 0.01;
+    scene.mass1 = 4e-3;
+    scene.friction = 0.3;
+    scene.normal_speed = 2;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    restitute_material_destroy(rubber);
+    restitute_material_destroy(glue);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(failures_and_losses_are_seen), cmocka_unit_test(materials),
+                                       cmocka_unit_test(method_euler), cmocka_unit_test(method_sync),
+                                       cmocka_unit_test(single_calls_and_batches)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,139 @@
+/* Every allocation that the component table_files asks for itself fails in turn: ERROR_MEMORY or, of files that are written,
+ * ERROR_FILE, outputs untouched, and the same call works afterwards. What HDF5 does without memory is its own matter.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
+#include "../support/failing_allocator.h"
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <restitute/table_files.h>
+
+#include "../support/cells.h"
+#include "../support/table.h"
+
+static const char path[] = "test_table_files_allocation_failures.h5", settings[] = "of the test";
+static restitute_table *table;
+static restitute_table_builder *builder;
+static restitute_table_family family;
+static restitute_error error;
+
+static char place;
+#define UNTOUCHED ((void *)&place)
+
+static int table_read(struct given *given)
+{
+    int status;
+    restitute_table *read = UNTOUCHED;
+    ARMED(status, restitute_table_read(path, &read, &error));
+    CHECK(status >= 0 || read == UNTOUCHED, "table touched");
+    if (status < 0) return status;
+    restitute_table_info info;
+    restitute_table_info_init(&info);
+    restitute_table_describe(read, &info, NULL);
+    give(given, info.error_ex);
+    give(given, (double)info.nodes[0]);
+    restitute_table_destroy(read);
+    return status;
+}
+
+/* No memory for the name of the new file: the file cannot be written. */
+static int written(int status)
+{
+    CHECK(status >= 0 || access(path, F_OK) != 0, "a file in spite of status %d", status);
+    return status == RESTITUTE_ERROR_FILE ? RESTITUTE_ERROR_MEMORY : status;
+}
+
+static int table_write(struct given *given)
+{
+    int status;
+    unlink(path);
+    ARMED(status, restitute_table_write(table, path, &error));
+    give(given, 1);
+    return written(status);
+}
+
+static int builder_write(struct given *given)
+{
+    int status;
+    unlink(path);
+    ARMED(status, restitute_table_builder_write(builder, settings, path, &error));
+    give(given, 1);
+    return written(status);
+}
+
+static int builder_read(struct given *given)
+{
+    int status;
+    size_t count;
+    restitute_table_builder *fresh;
+    CHECK(restitute_table_builder_create(&family, NULL, &fresh, &error) == RESTITUTE_OK, "%s", error.message);
+    ARMED(status, restitute_table_builder_read(fresh, settings, path, &error));
+    restitute_table_builder_journal(fresh, &count);
+    CHECK(count == (status < 0 ? 0u : 20u), "%zu impacts", count);
+    restitute_table_builder_destroy(fresh);
+    give(given, 1);
+    return status;
+}
+
+static void tables(void **state)
+{
+    (void)state;
+    const struct subject reading = {"table_read", NULL, table_read, NULL, 0, 0};
+    const struct subject writing = {"table_write", NULL, table_write, NULL, 0, 0};
+    if (!CAN_FAIL) skip();
+    struct cells cells;
+    cells_make(1.5, 7, &cells);
+    for (int i = 0; i < 2; i++) {
+        fail_each_allocation(&writing);
+        fail_each_allocation(&reading);
+        restitute_table_destroy(table);
+        table = cells_table(&cells);
+    }
+    cells_free(&cells);
+}
+
+static void builders(void **state)
+{
+    (void)state;
+    const struct subject reading = {"builder_read", NULL, builder_read, NULL, 0, 0};
+    const struct subject writing = {"builder_write", NULL, builder_write, NULL, 0, 0};
+    restitute_table *none = NULL;
+    if (!CAN_FAIL) skip();
+    CHECK(restitute_table_builder_create(&family, NULL, &builder, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_table_builder_run(builder, 20, &none, &error) == RESTITUTE_OK, "%s", error.message);
+    fail_each_allocation(&writing);
+    fail_each_allocation(&reading);
+    restitute_table_builder_destroy(builder);
+}
+
+static restitute_material *material;
+static restitute_scene scene;
+
+static int set_up(void **state)
+{
+    (void)state;
+    H5set_free_list_limits(0, 0, 0, 0, 0, 0); /* so that what HDF5 keeps for later is no loss */
+    allocator.ours_alone = 1;
+    scene = ball_on(0.3, &material);
+    table = table_of(&scene, 0.1, 1, 1e-2);
+    restitute_table_family_init(&family);
+    family.scene = &scene;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+    unlink(path);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tables), cmocka_unit_test(builders)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
