@@ -61,7 +61,7 @@ no_temporary
 # Full standard output.
 if [ -c /dev/full ]; then
     for command in "pair --psi 1" "pair --psi 1 --format csv" "pair --psi 1 --format json" "pair --input cases.csv" \
-        "pair --input cases.csv --format json" "history --psi 1" --version --help "pair --help" "table --help"; do
+        "pair --input cases.csv --format json" "history --psi 1" --version --help "pair --help"; do
         "$RESTITUTE" $command >/dev/full 2>err
         [ $? -eq 2 ] || fail "a full standard output is not noticed: restitute $command"
         has err 'restitute: standard output cannot be written: No space left on device'
