@@ -119,8 +119,7 @@ bool unfinished_commit(struct unfinished *u, const char *output, size_t lines, s
     off_t length;
     if (!scan(u, &found, &length)) return fails(u, "read", errno, why);
     if (found != lines)
-        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it", u->path,
-                      found, lines);
+        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it", u->path, found, lines);
     if (fsync(u->file) != 0) return fails(u, "written", errno, why);
     int problem = rst_place_find(output, &place);
     if (!problem) {

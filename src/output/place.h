@@ -10,10 +10,10 @@
 #include <sys/stat.h>
 
 struct rst_place {
-    char *target;       /* the name behind all symbolic links, on the heap */
-    int exists;         /* and `status` tells what it is */
-    int through;        /* to be written through */
-    int descriptor;     /* the open file of this process that the path names; -1: none */
+    char *target;   /* the name behind all symbolic links, on the heap */
+    int exists;     /* and `status` tells what it is */
+    int through;    /* to be written through */
+    int descriptor; /* the open file of this process that the path names; -1: none */
     struct stat status;
 };
 

@@ -269,7 +269,7 @@ static void without_room_nothing_changes(void **state)
         const int new = restitute_table_write(table, "new.h5", NULL);
         const int journal = i < 3 ? restitute_table_builder_write(builder, "a", "old.h5", NULL) : RESTITUTE_ERROR_FILE;
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &all), 0);
-        assert_true(old == RESTITUTE_ERROR_FILE && new == RESTITUTE_ERROR_FILE && journal == RESTITUTE_ERROR_FILE);
+        assert_true(old == RESTITUTE_ERROR_FILE && new == RESTITUTE_ERROR_FILE &&journal == RESTITUTE_ERROR_FILE);
         CHECK(strstr(error.message, strerror(EFBIG)), "%s", error.message);
         unsigned char *content;
         CHECK(read_file("old.h5", &content) == 3 && memcmp(content, "old", 3) == 0, "the old file is lost");
