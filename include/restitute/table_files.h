@@ -11,12 +11,15 @@
  *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
  *  HDF5: a damaged or cut file is refused, or it gives the same table.
  *
- *  How files are written. HDF5 makes them in memory and never sees the disk. A file is written beside its place as
- *  PATH.restitute-N.tmp and gets its name when it is complete; on any failure the old file stays and nothing else is left. Symbolic
- *  links are followed and stay. A file that is replaced keeps its mode, and its owner where that is allowed; a new one has
- *  0666 less the umask. A read-only file is refused. A device, a pipe, or an open file that /dev/stdout names is written through and
- *  never replaced; folders, sockets and block devices are refused. The temporary file is locked (flock): what a killed
- *  process left is removed by the next call with that path.
+ *  How files are written:
+ *  - A file is made in memory and written beside its place as PATH.restitute-N.tmp. It gets its name when it is
+ *    complete. On any failure the old file stays and nothing else is left. HDF5 itself never sees the disk.
+ *  - Symbolic links are followed and stay.
+ *  - A file that is replaced keeps its mode, and its owner where that is allowed. A new one has 0666 less the umask.
+ *    A read-only file is refused.
+ *  - A device, a pipe, or an open file that /dev/stdout names is written through and never replaced.
+ *    Folders, sockets and block devices are refused.
+ *  - The temporary file is locked (flock). What a killed process left is removed by the next call with that path.
  *
  *  Schema 3. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
  *  `error_ex` (verified), `impacts`, `checks`, and the members of @ref restitute_table_data of the same names. Datasets, each with
@@ -39,7 +42,8 @@
 extern "C" {
 #endif
 
-/** Write a table, as said above. With a limit on the size of files (RLIMIT_FSIZE) ignore SIGXFSZ to get an error instead.
+/** Write a table, as said above. A program with a limit on the size of files (RLIMIT_FSIZE) gets an error if it ignores
+ *  SIGXFSZ; else that signal ends it.
  *
  *  @return OK, ERROR_FILE, ERROR_NULL, ERROR_MEMORY */
 RESTITUTE_API int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error);

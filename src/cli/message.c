@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Length of the character of UTF-8 at `text` if a terminal shows it; 0 for a control character or what is no UTF-8. */
+/* Length of the character of UTF-8 at `text` if a terminal shows it; 0 for a control character or
+ * what is no UTF-8. */
 static size_t shown(const unsigned char *text)
 {
     const size_t length = *text < 0x80   ? 1

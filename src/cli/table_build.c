@@ -1,5 +1,5 @@
-/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial after a second, then every
- * ten, and when a signal asks to stop.
+/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial
+ * after a second, then every ten, and when a signal asks to stop.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 

@@ -20,7 +20,8 @@ static restitute_table *read_table(const struct table_settings *settings)
     return table;
 }
 
-/* The output of `query` or `export`: a place that can be written, and neither the table nor the cases. */
+/* The output of `query` or `export`: a place that can be written, and neither the table nor the
+ * cases. */
 static bool check_places(const struct table_settings *settings, struct reason *why)
 {
     struct places places = {0};

@@ -15,7 +15,8 @@ static bool fails(const struct unfinished *u, const char *what, int problem, str
     return refuse(why, "%.200s: cannot be %s: %s", u->path, what, strerror(problem));
 }
 
-/* Lock what was opened. False with `why`, or, if the name has gone to another file meanwhile, with `again`. */
+/* Lock what was opened. False with `why`, or, if the name has gone to another file meanwhile, with
+ * `again`. */
 static bool lock(const struct unfinished *u, bool *again, struct reason *why)
 {
     const int problem = rst_lock(u->file, u->path);

@@ -1,7 +1,8 @@
 /* Where an output goes. The one rule of library and command:
  *   - symbolic links are followed: the file they lead to is written, and the links stay;
  *   - a regular file, or none yet, is replaced as a whole (new_file.h);
- *   - a device, a pipe, or an open file that /dev/stdout or /proc/self/fd/N names is written through, never replaced;
+ *   - a device, a pipe, or an open file that /dev/stdout or /proc/self/fd/N names is written
+ *     through, never replaced;
  *   - a folder, a socket and a block device are refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_PLACE_H

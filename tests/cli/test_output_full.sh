@@ -1,10 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# No room: work stops at the first write that fails, the message tells the true reason, what was there stays, nothing else is left, and
-# rows that are done are kept. A limit on the size of files (ulimit -f, blocks of 512 bytes or 1 kB) stands for a full disk.
+# No room: work stops at the first write that fails, the message tells the true reason, what was
+# there stays, nothing else is left, and rows that are done are kept. A limit on the size of files
+# (ulimit -f, blocks of 512 bytes or 1 kB) stands for a full disk.
 . "$(dirname -- "$0")/common.sh"
 
-# narrow BLOCKS STATUS ARGUMENT...: run the command where files cannot grow beyond that; what it says goes through a pipe.
+# narrow BLOCKS STATUS ARGUMENT...: run the command where files cannot grow beyond that; what it
+# says goes through a pipe.
 narrow() {
     blocks=$1 wanted=$2
     shift 2
