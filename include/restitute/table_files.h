@@ -13,12 +13,15 @@
  *  The checksum stops accidents, not strangers, who can compute it: HDF5 then reads what they made. Do not open files of strangers.
  *  What is read is a regular file of at most 4 GiB, and room is made for no more values than it has bytes.
  *
- *  How files are written. HDF5 makes them in memory and never sees the disk. A file is written beside its place as
- *  PATH.restitute-N.tmp and gets its name when it is complete; on any failure the old file stays and nothing else is left. Symbolic
- *  links are followed and stay. A file that is replaced keeps its mode, and its owner where that is allowed; a new one has
- *  0666 less the umask. A read-only file is refused. A device, a pipe, or an open file that /dev/stdout names is written through and
- *  never replaced; folders, sockets and block devices are refused. The temporary file is locked (flock): what a killed
- *  process left is removed by the next call with that path.
+ *  How files are written:
+ *  - A file is made in memory and written beside its place as PATH.restitute-N.tmp. It gets its name when it is
+ *    complete. On any failure the old file stays and nothing else is left. HDF5 itself never sees the disk.
+ *  - Symbolic links are followed and stay.
+ *  - A file that is replaced keeps its mode, and its owner where that is allowed. A new one has 0666 less the umask.
+ *    A read-only file is refused.
+ *  - A device, a pipe, or an open file that /dev/stdout names is written through and never replaced.
+ *    Folders, sockets and block devices are refused.
+ *  - The temporary file is locked (flock). What a killed process left is removed by the next call with that path.
  *
  *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
  *
@@ -43,7 +46,8 @@
 extern "C" {
 #endif
 
-/** Write a table, as said above. With a limit on the size of files (RLIMIT_FSIZE) ignore SIGXFSZ to get an error instead.
+/** Write a table, as said above. A program with a limit on the size of files (RLIMIT_FSIZE) gets an error if it ignores
+ *  SIGXFSZ; else that signal ends it.
  *
  *  @return OK, ERROR_FILE, ERROR_NULL, ERROR_MEMORY */
 RESTITUTE_API int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error);

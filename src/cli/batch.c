@@ -38,7 +38,7 @@ static void catch_signal(int number)
 struct batch {
     const struct settings *settings;
     const char *path; /* of the result; NULL: a stream */
-    int stream;       /* where rows go at once if it is a stream; -1: nowhere, JSON waits for all of them */
+    int stream;       /* where rows go at once if it is a stream; -1: JSON waits for all of them */
     struct cases cases;
     struct materials materials;
     restitute_solver *solver;

@@ -113,8 +113,7 @@ static bool open_partial(struct campaign *c, struct reason *why)
     if (!good) return false;
     bool *joined = c->done;
     c->done = allocate((size_t)plan_of(c)->sets, sizeof *c->done);
-    if (!c->partial.empty)
-        good = read_rows(c, c->partial.path, "--resume", why) && unfinished_cut(&c->partial, why);
+    if (!c->partial.empty) good = read_rows(c, c->partial.path, "--resume", why) && unfinished_cut(&c->partial, why);
     good = good && complete_partial(c, joined, why);
     free(joined);
     return good;

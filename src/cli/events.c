@@ -118,8 +118,7 @@ static void write_csv(FILE *stream, const struct event_table *table, bool physic
         fprintf(stream, "%s%c", event_column_name(column, physical), column + 1 < EVENT_COLUMNS ? ',' : '\n');
     for (size_t i = 0; i < table->count; i++)
         for (int column = 0; column < EVENT_COLUMNS; column++)
-            fprintf(stream, "%s%c",
-                    column == EVENT_KIND ? table->kind[i] : number_text(table->number[column][i]).text,
+            fprintf(stream, "%s%c", column == EVENT_KIND ? table->kind[i] : number_text(table->number[column][i]).text,
                     column + 1 < EVENT_COLUMNS ? ',' : '\n');
 }
 

@@ -37,8 +37,8 @@ bool events_check(struct settings *settings, struct reason *why);
 int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                  restitute_history *history, struct event_table *table, restitute_error *error);
 
-/* The table as an output for `path`, not yet finished: HDF5 if it ends in .h5 or .hdf5, else CSV; - is standard output.
- */
+/* The table as an output for `path`, not yet finished: HDF5 if it ends in .h5 or .hdf5, else CSV;
+ * "-" is standard output. */
 bool events_open(const char *path, const struct event_table *table, bool physical, struct output *output,
                  struct reason *why);
 

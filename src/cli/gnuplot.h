@@ -1,4 +1,5 @@
-/* A figure drawn by gnuplot as a child process: commands from a temporary file, no shell, the picture back by a pipe.
+/* A figure drawn by gnuplot as a child process: commands from a temporary file, no shell, the
+ * picture back by a pipe.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_GNUPLOT_H
 #define CLI_GNUPLOT_H

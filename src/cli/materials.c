@@ -10,7 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The other file that was read for this one. The library tells a fingerprint of both, but no name. */
+/* The other file that was read for this one: the library tells a fingerprint, but no name. */
 static char *series_of(const char *path)
 {
     struct stat status;

@@ -8,10 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Length of the character of UTF-8 at `text` if a terminal shows it; 0 for a control character or what is no UTF-8. */
+/* Length of the character of UTF-8 at `text` if a terminal shows it; 0 for a control character or
+ * what is no UTF-8. */
 static size_t shown(const unsigned char *text)
 {
-    const size_t length = *text < 0x80 ? 1 : *text < 0xc2 ? 0 : *text < 0xe0 ? 2 : *text < 0xf0 ? 3 : *text < 0xf5 ? 4 : 0;
+    const size_t length = *text < 0x80   ? 1
+                          : *text < 0xc2 ? 0
+                          : *text < 0xe0 ? 2
+                          : *text < 0xf0 ? 3
+                          : *text < 0xf5 ? 4
+                                         : 0;
     for (size_t i = 1; i < length; i++)
         if ((text[i] & 0xc0) != 0x80) return 0;
     const bool control = *text < 0x20 || *text == 0x7f || (*text == 0xc2 && text[1] < 0xa0);

@@ -1,5 +1,5 @@
-/* Outputs of the command: files that appear whole or not at all, and streams. Where and how files are written is decided
- * in src/output.
+/* Outputs of the command: files that appear whole or not at all, and streams. Where and how files
+ * are written is decided in src/output.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
@@ -21,7 +21,8 @@ struct output {
 /* True for NULL and "-". */
 bool output_is_standard(const char *path);
 
-/* True for standard output and whatever else is written through: no file stands beside it, and none can be continued. */
+/* True for standard output and whatever else is written through: no file stands beside it, and none
+ * can be continued. */
 bool output_is_stream(const char *path);
 
 /* Refuse a place that could not be written: a folder, a missing folder, what is closed to us. */

@@ -75,11 +75,11 @@ bool partial_begin(const char *path, const struct cases *cases, const struct set
     if (!unfinished_open(path, settings->resume, &partial->rows, why)) return false;
     partial->settings_path = path_beside(path, ".partial.json");
     const bool fresh = partial->rows.empty;
-    const bool good = fresh ? begin_new(partial, cases, settings_object, why)
-                            : same_settings(partial, settings_object, why) && unfinished_cut(&partial->rows, why) &&
-                                  (partial->rows.empty
-                                       ? begin_new(partial, cases, settings_object, why)
-                                       : read_done(partial->rows.path, cases, settings, rows, done, why));
+    const bool good = fresh
+                          ? begin_new(partial, cases, settings_object, why)
+                          : same_settings(partial, settings_object, why) && unfinished_cut(&partial->rows, why) &&
+                                (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
+                                                     : read_done(partial->rows.path, cases, settings, rows, done, why));
     if (!good && fresh) partial_remove(partial);
     if (!good) partial_leave(partial);
     return good;

@@ -1,5 +1,6 @@
-/* Rows of an unfinished run in OUT.partial, and beside it OUT.partial.json with its settings, to be compared before going
- * on. SPDX-License-Identifier: BSD-3-Clause */
+/* Rows of an unfinished run in OUT.partial, and beside it OUT.partial.json with its settings, to be
+ * compared before going on.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_PARTIAL_H
 #define CLI_PARTIAL_H
 

@@ -14,9 +14,9 @@
 struct place_item {
     char *name, *path; /* for messages */
     bool written;
-    bool known;                   /* false: there can be no such file, and whoever opens it says why */
+    bool known; /* false: there can be no such file, and whoever opens it says why */
     struct rst_place place;
-    struct stat folder;           /* of what does not exist */
+    struct stat folder; /* of what does not exist */
 };
 
 static const char *base_of(const char *path)
@@ -96,8 +96,7 @@ static bool same(const struct place_item *a, const struct place_item *b)
     const struct stat *one = a->place.exists ? &a->place.status : &a->folder;
     const struct stat *two = b->place.exists ? &b->place.status : &b->folder;
     if (one->st_dev != two->st_dev || one->st_ino != two->st_ino) return false;
-    return a->place.exists ? S_ISREG(one->st_mode)
-                           : strcmp(base_of(a->place.target), base_of(b->place.target)) == 0;
+    return a->place.exists ? S_ISREG(one->st_mode) : strcmp(base_of(a->place.target), base_of(b->place.target)) == 0;
 }
 
 static bool refuse_pair(const struct place_item *output, const struct place_item *other, struct reason *why)

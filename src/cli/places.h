@@ -1,5 +1,6 @@
-/* What a run reads and what it writes: nothing that it reads may be what it writes, and no two outputs may be one. Places
- * are compared by what they are, not by name; those that do not exist yet by folder and name.
+/* What a run reads and what it writes: nothing that it reads may be what it writes, and no two
+ * outputs may be one. Places are compared by what they are, not by name; those that do not exist
+ * yet by folder and name.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_PLACES_H
 #define CLI_PLACES_H
@@ -11,7 +12,8 @@ struct places {
     size_t count, capacity;
 };
 
-/* An input, "-" for standard input; NULL: none. `name` is how the user calls it: "--input", "material". */
+/* An input, "-" for standard input; NULL: none. `name` is how the user calls it: "--input",
+ * "material". */
 void places_read(struct places *places, const char *name, const char *path);
 
 /* The materials of a run, with the series that they name. */

@@ -18,8 +18,8 @@ json_t *provenance_record(const struct settings *settings, json_t *settings_obje
 /* Write a JSON document to a file or to standard output. Releases the document. */
 bool provenance_write(const char *path, json_t *document, struct reason *why);
 
-/* Begin the record of a result file beside it, as PATH.meta.json, to be finished together with the result; nothing for
- * a stream. Releases the record. */
+/* Begin the record of a result file beside it, as PATH.meta.json, to be finished together with the
+ * result; nothing for a stream. Releases the record. */
 bool provenance_open_beside(const char *path, json_t *record, struct output *output, struct reason *why);
 
 /* A number; infinity as the text "inf", not-a-number as null, for which JSON has no numbers. */

@@ -1,5 +1,5 @@
-/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial after a second, then every
- * ten, and when a signal asks to stop.
+/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial
+ * after a second, then every ten, and when a signal asks to stop.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -212,8 +212,8 @@ static int finish(struct build *b, restitute_table *table, int status, const res
     char name[1000];
     snprintf(name, sizeof name, "%s", b->settings->text[TABLE_OUTPUT]);
     escape(name, sizeof name);
-    printf("%s: errors %.2g (ez), %.2g (ex), verified at %lld points; %lld impacts solved, %.3g MB\n", name, info.error_ez, info.error_ex, (long long)info.checks,
-           (long long)info.impacts, (double)info.bytes / 1e6);
+    printf("%s: errors %.2g (ez), %.2g (ex), verified at %lld points; %lld impacts solved, %.3g MB\n", name,
+           info.error_ez, info.error_ex, (long long)info.checks, (long long)info.impacts, (double)info.bytes / 1e6);
     if (status == RESTITUTE_OK) return EXIT_DONE;
     complain("%s", error->message);
     return EXIT_SOME_FAILED;
@@ -260,8 +260,8 @@ int table_build_run(const struct table_settings *settings)
     b->settings = settings;
     if (output_is_stream(output))
         refuse(&why, "--output = %.200s: a table needs a file", output), status = EXIT_USAGE;
-    else if (!output_check(output, "--output", &why) ||
-             !read_family(b, &why) || !read_options(b, &why) || !check_places(b, &why))
+    else if (!output_check(output, "--output", &why) || !read_family(b, &why) || !read_options(b, &why) ||
+             !check_places(b, &why))
         status = EXIT_USAGE;
     if (status == EXIT_DONE) {
         describe(b);

@@ -20,7 +20,8 @@ static restitute_table *read_table(const struct table_settings *settings)
     return table;
 }
 
-/* The output of `query` or `export`: a place that can be written, and neither the table nor the cases. */
+/* The output of `query` or `export`: a place that can be written, and neither the table nor the
+ * cases. */
 static bool check_places(const struct table_settings *settings, struct reason *why)
 {
     struct places places = {0};
@@ -261,8 +262,7 @@ static int query_many(const struct table_settings *s, struct query *q)
     int column[4];
     size_t failed = 0, beyond = 0;
     if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
-    bool good = find_columns(q, csv, column, &why) &&
-                check_places(s, &why) &&
+    bool good = find_columns(q, csv, column, &why) && check_places(s, &why) &&
                 output_open(s->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
@@ -378,8 +378,7 @@ int table_export_run(const struct table_settings *settings)
     if (!table) return EXIT_USAGE;
     restitute_table_data_init(&data);
     restitute_table_to_data(table, &data, NULL);
-    bool good = check_places(settings, &why) &&
-                output_open(settings->text[TABLE_OUTPUT], &output, &why);
+    bool good = check_places(settings, &why) && output_open(settings->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         export_table(table, &data, output.stream);
         good = output_finish(&output, &why);

@@ -15,7 +15,8 @@ static bool fails(const struct unfinished *u, const char *what, int problem, str
     return refuse(why, "%.200s: cannot be %s: %s", u->path, what, strerror(problem));
 }
 
-/* Lock what was opened. False with `why`, or, if the name has gone to another file meanwhile, with `again`. */
+/* Lock what was opened. False with `why`, or, if the name has gone to another file meanwhile, with
+ * `again`. */
 static bool lock(const struct unfinished *u, bool *again, struct reason *why)
 {
     const int problem = rst_lock(u->file, u->path);
@@ -119,8 +120,7 @@ bool unfinished_commit(struct unfinished *u, const char *output, size_t lines, s
     off_t length;
     if (!scan(u, &found, &length)) return fails(u, "read", errno, why);
     if (found != lines)
-        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it", u->path,
-                      found, lines);
+        return refuse(why, "%.200s has %zu lines, not %zu: something else wrote to it", u->path, found, lines);
     if (fsync(u->file) != 0) return fails(u, "written", errno, why);
     int problem = rst_place_find(output, &place);
     if (!problem) {

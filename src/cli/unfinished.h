@@ -1,5 +1,6 @@
-/* The file of a run that may be long, OUT.partial: lines as far as they are done, so that an interrupted run can go on.
- * It is locked as long as it is open: of two runs with one output one is refused.
+/* The file of a run that may be long, OUT.partial: lines as far as they are done, so that an
+ * interrupted run can go on. It is locked as long as it is open: of two runs with one output one is
+ * refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_UNFINISHED_H
 #define CLI_UNFINISHED_H
@@ -12,13 +13,15 @@ struct unfinished {
     bool empty; /* nothing is done yet */
 };
 
-/* Open OUT.partial of an output. One that is left from an interrupted run is continued with `resume`, else refused. */
+/* Open OUT.partial of an output. One that is left from an interrupted run is continued with
+ * `resume`, else refused. */
 bool unfinished_open(const char *output, bool resume, struct unfinished *unfinished, struct reason *why);
 
 /* Lock the file that has the name now. */
 bool unfinished_lock_again(struct unfinished *unfinished, struct reason *why);
 
-/* Cut off a last line that was not written to its end; what comes next is appended. Line ends within quotes are none. */
+/* Cut off a last line that was not written to its end; what comes next is appended. Line ends
+ * within quotes are none. */
 bool unfinished_cut(struct unfinished *unfinished, struct reason *why);
 
 /* Append what was written to an output, which is released. */

@@ -22,7 +22,8 @@ int rst_lock(int descriptor, const char *name)
     return same ? 0 : ESTALE;
 }
 
-/* Owner and mode of an existing file. Who may not give the group away gives it no more than others have. */
+/* Owner and mode of an existing file. Who may not give the group away gives it no more than others
+ * have. */
 static void make_alike(int descriptor, const struct stat *model)
 {
     mode_t mode = model->st_mode & 0777;
@@ -47,7 +48,8 @@ static void remove_stale(const char *name)
     close(file);
 }
 
-/* Under the first free number. Between making and locking it another process may take it for left behind. */
+/* Under the first free number. Between making and locking it another process may take it for left
+ * behind. */
 static int open_temporary(struct rst_new_file *file)
 {
     enum { numbers = 1000 };
@@ -106,7 +108,8 @@ int rst_new_file_write(const char *path, const void *bytes, size_t size, struct 
     return problem;
 }
 
-/* The new name itself must reach the disk too; a file system that cannot do this is no reason to fail. */
+/* The new name itself must reach the disk too; a file system that cannot do this is no reason to
+ * fail. */
 int rst_rename(const char *name, const char *target)
 {
     if (rename(name, target) != 0) return errno;

@@ -36,8 +36,8 @@ static int follow(char **name)
     return next ? 0 : ENOMEM;
 }
 
-/* A link in /proc names no place but an open file: what is written there must not replace the name that the file
- * happens to have. */
+/* A link in /proc names no place but an open file: what is written there must not replace the name
+ * that the file happens to have. */
 static int is_open_file(const char *link, int *descriptor)
 {
     char own[40];

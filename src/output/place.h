@@ -1,7 +1,8 @@
 /* Where an output goes. The one rule of library and command:
  *   - symbolic links are followed: the file they lead to is written, and the links stay;
  *   - a regular file, or none yet, is replaced as a whole (new_file.h);
- *   - a device, a pipe, or an open file that /dev/stdout or /proc/self/fd/N names is written through, never replaced;
+ *   - a device, a pipe, or an open file that /dev/stdout or /proc/self/fd/N names is written
+ *     through, never replaced;
  *   - a folder, a socket and a block device are refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_PLACE_H
@@ -10,10 +11,10 @@
 #include <sys/stat.h>
 
 struct rst_place {
-    char *target;       /* the name behind all symbolic links, on the heap */
-    int exists;         /* and `status` tells what it is */
-    int through;        /* to be written through */
-    int descriptor;     /* the open file of this process that the path names; -1: none */
+    char *target;   /* the name behind all symbolic links, on the heap */
+    int exists;     /* and `status` tells what it is */
+    int through;    /* to be written through */
+    int descriptor; /* the open file of this process that the path names; -1: none */
     struct stat status;
 };
 

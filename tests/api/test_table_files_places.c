@@ -1,5 +1,5 @@
-/* Where tables are written: links are followed, modes kept, devices and pipes written through, folders refused; without
- * room nothing is left and what was there stays.
+/* Where tables are written: links are followed, modes kept, devices and pipes written through,
+ * folders refused; without room nothing is left and what was there stays.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
@@ -247,7 +247,8 @@ static void what_cannot_be_written_is_refused(void **state)
     assert_int_equal(entries(), 2);
 }
 
-/* A limit on the size of files stands for a full disk. HDF5 must survive it, here and when the program ends. */
+/* A limit on the size of files stands for a full disk. HDF5 must survive it, here and when the
+ * program ends. */
 static void without_room_nothing_changes(void **state)
 {
     struct rlimit all, little;
@@ -269,7 +270,7 @@ static void without_room_nothing_changes(void **state)
         const int new = restitute_table_write(table, "new.h5", NULL);
         const int journal = i < 3 ? restitute_table_builder_write(builder, "a", "old.h5", NULL) : RESTITUTE_ERROR_FILE;
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &all), 0);
-        assert_true(old == RESTITUTE_ERROR_FILE && new == RESTITUTE_ERROR_FILE && journal == RESTITUTE_ERROR_FILE);
+        assert_true(old == RESTITUTE_ERROR_FILE && new == RESTITUTE_ERROR_FILE &&journal == RESTITUTE_ERROR_FILE);
         CHECK(strstr(error.message, strerror(EFBIG)), "%s", error.message);
         unsigned char *content;
         CHECK(read_file("old.h5", &content) == 3 && memcmp(content, "old", 3) == 0, "the old file is lost");

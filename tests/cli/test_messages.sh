@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Control characters in cells, options, names and files reach no terminal by a message: they are shown as \xNN. Other text stays.
+# Control characters in cells, options, names and files reach no terminal by a message: they are
+# shown as \xNN. Other text stays.
 . "$(dirname -- "$0")/common.sh"
 escape=$(printf '\033')
 csi=$(printf '\302\233') # the same as one character, in UTF-8

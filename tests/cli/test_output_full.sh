@@ -1,10 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# No room: work stops at the first write that fails, the message tells the true reason, what was there stays, nothing else is left, and
-# rows that are done are kept. A limit on the size of files (ulimit -f, blocks of 512 bytes or 1 kB) stands for a full disk.
+# No room: work stops at the first write that fails, the message tells the true reason, what was
+# there stays, nothing else is left, and rows that are done are kept. A limit on the size of files
+# (ulimit -f, blocks of 512 bytes or 1 kB) stands for a full disk.
 . "$(dirname -- "$0")/common.sh"
 
-# narrow BLOCKS STATUS ARGUMENT...: run the command where files cannot grow beyond that; what it says goes through a pipe.
+# narrow BLOCKS STATUS ARGUMENT...: run the command where files cannot grow beyond that; what it
+# says goes through a pipe.
 narrow() {
     blocks=$1 wanted=$2
     shift 2
@@ -61,7 +63,7 @@ no_temporary
 # Full standard output.
 if [ -c /dev/full ]; then
     for command in "pair --psi 1" "pair --psi 1 --format csv" "pair --psi 1 --format json" "pair --input cases.csv" \
-        "pair --input cases.csv --format json" "history --psi 1" --version --help "pair --help" "table --help"; do
+        "pair --input cases.csv --format json" "history --psi 1" --version --help "pair --help"; do
         "$RESTITUTE" $command >/dev/full 2>err
         [ $? -eq 2 ] || fail "a full standard output is not noticed: restitute $command"
         has err 'restitute: standard output cannot be written: No space left on device'

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Nothing that a run reads is what it writes, by whatever name, and no two outputs are one: refused before anything is written.
+# Nothing that a run reads is what it writes, by whatever name, and no two outputs are one: refused
+# before anything is written.
 . "$(dirname -- "$0")/common.sh"
 
 cp "$materials/polyisobutylene.json" "$materials/polyisobutylene.csv" "$materials/steel.json" .

@@ -1,14 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The file of an unfinished run belongs to one process; without --resume it is never thrown away, and rows that are too few or too many
-# never get the final name.
+# The file of an unfinished run belongs to one process; without --resume it is never thrown away,
+# and rows that are too few or too many never get the final name.
 . "$(dirname -- "$0")/common.sh"
 awk 'BEGIN { print "psi,delta1,gamma"; for (i = 1; i <= 1500; i++) printf "%.3f,%.4f,%.3f\n", 0.1 + 5 * i / 1500, 0.01 + i / 1500, i % 7 / 3 }' \
     >cases.csv
 run="pair --input cases.csv --tolerance 3e-4 --output out.csv"
 other="is being written by another process"
 
-# begin FILE ARGUMENT...: start the command and stop it in its tracks when FILE holds something; for `run` rows.
+# begin FILE ARGUMENT...: start the command and stop it in its tracks when FILE holds something; for
+# `run` rows.
 begin() {
     file=$1
     shift

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Where outputs go: links are followed and stay, modes are kept, what is no regular file is written through and never replaced.
+# Where outputs go: links are followed and stay, modes are kept, what is no regular file is written
+# through and never replaced.
 . "$(dirname -- "$0")/common.sh"
 umask 022
 echo psi,delta1,gamma >cases.csv
@@ -10,7 +11,8 @@ expect 0 pair --input cases.csv --output plain.csv
 mode() { ls -l "$1" | cut -c1-10; }
 is_link() { [ "$(readlink "$1")" = "$2" ] || fail "$1 is no link to $2 any more"; }
 
-# A link, to what is there and to what is not yet: its target is written, with all that belongs to it beside the target.
+# A link, to what is there and to what is not yet: its target is written, with all that belongs to
+# it beside the target.
 mkdir there
 echo old >there/target.csv
 ln -s there/target.csv link.csv
@@ -37,7 +39,8 @@ expect 0 history --psi 1 --samples 5 --output history.csv
 is_link history.csv there/history.csv
 has there/history.csv time_T
 
-# Modes: that of the file that is replaced, else what the umask leaves of 666; the rows of a private result are private from the start.
+# Modes: that of the file that is replaced, else what the umask leaves of 666; the rows of a private
+# result are private from the start.
 for mask in 077 027 002; do
     rm -f fresh.csv fresh.csv.meta.json
     (umask $mask; exec "$RESTITUTE" pair --input cases.csv --output fresh.csv) || fail "no result with umask $mask"
@@ -70,8 +73,8 @@ kill -TERM $process
 wait $process
 rm -f o.csv*
 
-# Standard output by its name in /proc goes on where it stands; nothing of the file is lost, and the link stays. Links of our own
-# stand for those in /dev: a test must not need them to survive.
+# Standard output by its name in /proc goes on where it stands; nothing of the file is lost, and the
+# link stays. Links of our own stand for those in /dev: a test must not need them to survive.
 if [ -e /proc/self/fd/1 ]; then
     ln -s /proc/self/fd/1 stdout
     (echo before; "$RESTITUTE" pair --input cases.csv --output stdout; echo after) >redirected 2>err
@@ -89,7 +92,6 @@ if [ -e /proc/self/fd/1 ]; then
     cmp plain.csv redirected || fail "an open file by its name gets something else"
     ln -s /proc/self/fd/0 stdin
     refused '--output = stdin: cannot be written: Bad file descriptor' pair --psi 1 --output stdin
-    refused 'a table needs a file' table build --delta1 0.1:0.2 --gamma 0 --tolerance 1e-2 --output stdout
     refused '--resume: needs --output FILE' pair --input cases.csv --output stdout --resume
 fi
 
@@ -134,6 +136,8 @@ if ! grep -q 'no component table_files' err; then
     chmod 600 there/t.h5
     expect 0 table build --delta1 0 --tolerance 1e-2 --output t.h5
     is_link t.h5 there/t.h5
+    ln -s pipe.csv through.h5
+    refused 'a table needs a file' table build --delta1 0 --tolerance 1e-2 --output through.h5
     [ "$(mode there/t.h5)" = -rw------- ] || fail "the table is $(mode there/t.h5)"
     expect 0 table info t.h5
     : >there/cells.csv
