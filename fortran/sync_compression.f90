@@ -1,10 +1,11 @@
 !> Two levels of the compression of the normal problem (THEORY 4.4, module rst_sync_levels).
 module rst_sync_compression
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_memory, only: parabola_type, spacing_type, spacing_of, parabola_through, integrated, integrated_twice, shares
   use rst_sync_grid, only: grid_type, level_type, node_type, at_level, mass_factor
   use rst_sync_guess, only: is_likely, steps_ahead, ahead
-  use rst_sync_sweeps, only: settle, is_lost, answer, bounded, most_sweeps, rounding
+  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding
   use rst_sync_loading, only: load_terms, follow_terms, longest_panel, first_levels
   implicit none (type, external)
   private

@@ -1,11 +1,12 @@
 !> Two levels of the restitution of the normal problem (THEORY 4.5, module rst_sync_levels).
 module rst_sync_restitution
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_memory, only: memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through, remembered, &
                         integrated, integrated_twice, shares, memory_shares
   use rst_sync_grid, only: level_type, node_type, at_level, mass_factor
   use rst_sync_guess, only: is_likely, steps_ahead, ahead, first_return
-  use rst_sync_sweeps, only: settle, is_lost, answer, bounded, most_sweeps, rounding
+  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding
   use rst_sync_loading, only: remember_speeds
   implicit none (type, external)
   private

@@ -3,7 +3,7 @@ module rst_sync_sweeps
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: settle, is_lost, answer, bounded, most_sweeps, rounding
+  public :: settle, is_lost, answer, most_sweeps, rounding
 
   integer(ip), parameter :: most_sweeps = 100
   real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
@@ -37,21 +37,6 @@ contains
     real(dp), parameter :: beyond_return = 1.0e10_dp
     yes = (sweep >= enough .and. change > 1) .or. change > beyond_return
   end function is_lost
-
-  !> a/b within low < 0 < high; where b is 0 the bound on the side of a.
-  elemental function bounded(a, b, low, high) result(x)
-    real(dp), intent(in) :: a, b, low, high
-    real(dp) :: x, up, down
-    up = a*sign(1.0_dp, b)
-    down = abs(b)
-    if (up >= high*down) then
-      x = high
-    else if (up <= low*down) then
-      x = low
-    else
-      x = up/down
-    end if
-  end function bounded
 
   !> Solution of two linear equations, the first with a and b, the second with c and d on the left; huge if there is none.
   pure function answer(a, b, c, d, right) result(x)
