@@ -62,29 +62,50 @@ static void the_counter_counts(void **state)
     CHECK(calls == before + 1, "%ld calls counted", calls - before);
 }
 
-/* Standard solids from the second call on; the first one at each tolerance makes room, for the largest number of levels too. */
+/* From the second call on; the first one at each tolerance makes room, for the largest number of levels too. With ledger and
+ * history on a solid of some terms as well. */
+static void use_twice(double tolerance, const restitute_material *solid, restitute_ledger *ledger,
+                      restitute_history *history)
+{
+    const restitute_options options = sync_to(tolerance);
+    restitute_solver *solver;
+    restitute_result result;
+    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+    restitute_result_init(&result);
+    for (int round = 0; round < 2; round++) {
+        uint64_t random = 11;
+        const long before = calls;
+        for (int i = 0; i < 30; i++) {
+            restitute_impact impact = impact_of(random_in(&random, 0.4, 2), random_in(&random, 0.05, 3),
+                                                random_log(&random, 1e-2, 10), random_log(&random, 1e-1, 10));
+            impact.solid = solid;
+            CHECK(restitute_solve(solver, &impact, &result, ledger, history, NULL) == RESTITUTE_OK, "impact %d", i);
+        }
+        CHECK(round == 0 || calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
+    }
+    restitute_solver_destroy(solver);
+}
+
 static void solver_in_use_takes_no_memory(void **state)
 {
+    const double tau[] = {0.01, 0.1, 1, 10}, g[] = {2, 1, 0.5, 0.2};
+    double time[20];
+    restitute_ledger ledger;
+    restitute_history history;
     (void)state;
     if (!COUNTS) skip();
-    for (double tolerance = 1e-4; tolerance > 5e-9; tolerance /= 10) {
-        const restitute_options options = sync_to(tolerance);
-        restitute_solver *solver;
-        restitute_result result;
-        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
-        restitute_result_init(&result);
-        for (int round = 0; round < 2; round++) {
-            uint64_t random = 11;
-            const long before = calls;
-            for (int i = 0; i < 30; i++) {
-                const restitute_impact impact = impact_of(random_in(&random, 0.4, 2), random_in(&random, 0.05, 3),
-                                                          random_log(&random, 1e-2, 10), random_log(&random, 1e-1, 10));
-                CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, NULL) == RESTITUTE_OK, "impact %d", i);
-            }
-            CHECK(round == 0 || calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
-        }
-        restitute_solver_destroy(solver);
+    restitute_ledger_init(&ledger);
+    restitute_history_init(&history);
+    history.capacity = 20;
+    history.time = time;
+    restitute_material *solid = solid_of(1, 0, 4, tau, g);
+    for (double tolerance = 1e-4; tolerance > 5e-9; tolerance /= 10)
+        use_twice(tolerance, NULL, NULL, NULL);
+    for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
+        use_twice(tolerance, NULL, &ledger, &history);
+        use_twice(tolerance, solid, &ledger, &history);
     }
+    restitute_material_destroy(solid);
 }
 
 /* A usual impact finds its room made when the solver was created. */
