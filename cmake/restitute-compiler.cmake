@@ -52,8 +52,11 @@ endif()
 if(RESTITUTE_SANITIZE)
   set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   list(APPEND RESTITUTE_C_FLAGS ${sanitizers})
-  list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
-  list(APPEND RESTITUTE_FORTRAN_PROGRAM_FLAGS ${sanitizers})
+  # Each family of compilers brings a run-time library of its own: with another one than gfortran's, C alone is watched.
+  if(CMAKE_C_COMPILER_ID STREQUAL CMAKE_Fortran_COMPILER_ID)
+    list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
+    list(APPEND RESTITUTE_FORTRAN_PROGRAM_FLAGS ${sanitizers})
+  endif()
   add_link_options(${sanitizers})
 endif()
 

@@ -159,10 +159,16 @@ static void call_weights(void *owner, const double *y, double *weight)
 
 /* ------------------------------------------------------------------------------------------------ memory */
 
-static double *take(double **block, int64_t count)
+/* What is taken of a block; without one it is only counted. */
+struct taken {
+    double *block;
+    int64_t count;
+};
+
+static double *take(struct taken *taken, int64_t count)
 {
-    double *start = *block;
-    *block += count;
+    double *start = taken->block ? taken->block + taken->count : NULL;
+    taken->count += count;
     return start;
 }
 
@@ -171,7 +177,7 @@ static int64_t lay_out(struct run *run, double *block)
     struct elements *e = &run->elements;
     struct recovery *r = &run->recovery;
     const int64_t n = run->setup->n_nodes, k = run->scene.n_terms, m = run->scene.n_modes, states = 4 + 3 * k;
-    double *place = block;
+    struct taken place = {block, 0};
     e->x = take(&place, n);
     e->entry = take(&place, n);
     e->shift = take(&place, n);
@@ -194,7 +200,7 @@ static int64_t lay_out(struct run *run, double *block)
     run->start_rate = take(&place, states);
     run->look = take(&place, states);
     run->scratch = take(&place, states);
-    return place - block;
+    return place.count;
 }
 
 static int fail(struct run *run, int status, const char *text)

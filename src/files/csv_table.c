@@ -182,6 +182,7 @@ static int parse_table(struct reading *reading, const struct file_text *text)
 {
     struct csv_parser parser;
     if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) return no_memory(reading);
+    csv_set_blk_size(&parser, 128 + text->length / 16); /* a long cell must not grow by 128 bytes again and again */
     feed_lines(&parser, reading, text);
     if (csv_fini(&parser, on_cell, on_row_end, reading) != 0 && reading->status == RESTITUTE_OK)
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a quote is never closed",
