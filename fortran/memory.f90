@@ -7,7 +7,7 @@ module rst_memory
   implicit none (type, external)
   private
   public :: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through
-  public :: remembered, integrated, integrated_twice, shares, memory_shares, memory_of_lanes, growth_of, lanes
+  public :: remembered, integrated, integrated_twice, shares, memory_shares
 
   !> exp(-z) and the phi functions.
   type :: memory_type
@@ -29,32 +29,11 @@ module rst_memory
     real(dp) :: x1, first, between, last
   end type spacing_type
 
-  integer(ip), parameter :: lanes = 8           !! steps that are taken at once, as wide as vectors may be
   real(dp), parameter :: series_below = 0.5_dp  !! beyond, the closed form loses less than two digits
   integer :: i
   real(dp), parameter :: c(0:9) = [(1/gamma(i + 4.0_dp), i=0, 9)]  !! phi_3(z) = sum_i (-z)^i/(i+3)!
 
 contains
-
-  !> exp(z), without a call: by a series for z/64, good to rounding up to 16, and up to 64, beyond which it is cut off, to what
-  !> 1/exp(z) is beside 1. In pairs of pairs, which wait for each other less than one power after the other.
-  elemental function growth_of(z) result(growth)
-    real(dp), intent(in) :: z
-    real(dp) :: growth, x, x2, x4
-    real(dp), parameter :: most = 64
-    real(dp), parameter :: e(2:11) = [(1/gamma(i + 1.0_dp), i=2, 11)]
-    x = min(z, most)*(1/64.0_dp)
-    x2 = x*x
-    x4 = x2*x2
-    growth = x2*(((e(2) + x*e(3)) + x2*(e(4) + x*e(5))) + x4*(((e(6) + x*e(7)) + x2*(e(8) + x*e(9))) + x4*(e(10) + x*e(11))))
-    growth = 1 + (x + growth)
-    growth = growth*growth
-    growth = growth*growth
-    growth = growth*growth
-    growth = growth*growth
-    growth = growth*growth
-    growth = growth*growth
-  end function growth_of
 
   elemental function memory_of(z) result(m)
     real(dp), intent(in) :: z
@@ -83,7 +62,7 @@ contains
     type(memory_type) :: one
     integer(ip) :: q
     if (max(z(1), z(2)) < series_below) then
-      call gentle_memory(2_ip, z, m%decay, m%phi1, m%phi2, m%phi3)
+      call gentle_memory(z, m%decay, m%phi1, m%phi2, m%phi3)
     else
       do q = 1, 2
         one = memory_of(z(q))
@@ -96,14 +75,13 @@ contains
   end subroutine remember_pair
 
   !> The same for z below series_below.
-  pure subroutine gentle_memory(n, z, decay, phi1, phi2, phi3)
-    integer(ip), intent(in) :: n
-    real(dp), intent(in) :: z(n)
-    real(dp), dimension(n), intent(out) :: decay, phi1, phi2, phi3
+  pure subroutine gentle_memory(z, decay, phi1, phi2, phi3)
+    real(dp), intent(in) :: z(2)
+    real(dp), dimension(2), intent(out) :: decay, phi1, phi2, phi3
     real(dp) :: z2, last
     integer(ip) :: q
     !$omp simd private(z2, last)
-    do q = 1, n
+    do q = 1, 2
       z2 = z(q)*z(q)
       last = (c(4) - z(q)*c(5)) + z2*((c(6) - z(q)*c(7)) + z2*(c(8) - z(q)*c(9)))
       last = (c(0) - z(q)*c(1)) + z2*((c(2) - z(q)*c(3)) + z2*last)
@@ -113,33 +91,6 @@ contains
       decay(q) = 1 - z(q)*phi1(q)
     end do
   end subroutine gentle_memory
-
-  !> The same for any z, for as many at once as there are lanes, without a call.
-  pure subroutine memory_of_lanes(z, decay, phi1, phi2, phi3)
-    real(dp), intent(in) :: z(lanes)
-    real(dp), dimension(lanes), intent(out) :: decay, phi1, phi2, phi3
-    real(dp) :: gentle(lanes), largest, inverse, fading, first, second
-    integer(ip) :: q
-    largest = 0
-    !$omp simd reduction(max: largest)
-    do q = 1, lanes
-      largest = max(largest, z(q))
-      gentle(q) = min(z(q), series_below)
-    end do
-    call gentle_memory(lanes, gentle, decay, phi1, phi2, phi3)
-    if (largest < series_below) return
-    !$omp simd private(inverse, fading, first, second)
-    do q = 1, lanes
-      inverse = 1/max(z(q), series_below)
-      fading = 1/growth_of(z(q))
-      first = (1 - fading)*inverse
-      second = (1 - first)*inverse
-      decay(q) = merge(decay(q), fading, z(q) < series_below)
-      phi1(q) = merge(phi1(q), first, z(q) < series_below)
-      phi2(q) = merge(phi2(q), second, z(q) < series_below)
-      phi3(q) = merge(phi3(q), (0.5_dp - second)*inverse, z(q) < series_below)
-    end do
-  end subroutine memory_of_lanes
 
   pure function spacing_of(x) result(s)
     real(dp), intent(in) :: x(2)

@@ -16,63 +16,8 @@
 #include "sync_restitution.f90"
 #include "sync_levels.f90"
 #include "sync_dense.f90"
-#define POINTS rst_sync_points_8
-#define ELIMINATION rst_sync_elimination_8
-#define GOING rst_sync_going_8
-#define COMING rst_sync_coming_8
-#define FADING rst_sync_fading_8
-#define CURVE rst_sync_curve_8
-#define POINTS_DEGREE 8
-#include "sync_points.f90"
-#include "sync_elimination.f90"
-#include "sync_going.f90"
-#include "sync_coming.f90"
-#include "sync_fading.f90"
-#include "sync_curve.f90"
-#undef POINTS
-#undef ELIMINATION
-#undef GOING
-#undef COMING
-#undef FADING
-#undef CURVE
-#undef POINTS_DEGREE
-#define POINTS rst_sync_points_12
-#define ELIMINATION rst_sync_elimination_12
-#define GOING rst_sync_going_12
-#define COMING rst_sync_coming_12
-#define FADING rst_sync_fading_12
-#define CURVE rst_sync_curve_12
-#define POINTS_DEGREE 12
-#include "sync_points.f90"
-#include "sync_elimination.f90"
-#include "sync_going.f90"
-#include "sync_coming.f90"
-#include "sync_fading.f90"
-#include "sync_curve.f90"
-#undef POINTS
-#undef ELIMINATION
-#undef GOING
-#undef COMING
-#undef FADING
-#undef CURVE
-#undef POINTS_DEGREE
-#define POINTS rst_sync_points_16
-#define ELIMINATION rst_sync_elimination_16
-#define GOING rst_sync_going_16
-#define COMING rst_sync_coming_16
-#define FADING rst_sync_fading_16
-#define CURVE rst_sync_curve_16
-#define POINTS_DEGREE 16
-#include "sync_points.f90"
-#include "sync_elimination.f90"
-#include "sync_going.f90"
-#include "sync_coming.f90"
-#include "sync_fading.f90"
-#include "sync_curve.f90"
-#include "sync_sample.f90"
 #include "sync_elements.f90"
 #include "sync_quadrature.f90"
-#include "sync_ratio.f90"
 #include "sync_edge.f90"
 #include "sync_point.f90"
 #include "sync_hinge.f90"

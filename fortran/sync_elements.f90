@@ -5,7 +5,6 @@ module rst_sync_elements
   implicit none (type, external)
   private
   public :: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes
-  public :: from_touch
   public :: column_x2, column_weight, column_alpha, column_kappa, columns
 
   integer(ip), parameter :: lanes = 8  !! element arrays are longer by as many than the nodes
@@ -18,8 +17,7 @@ module rst_sync_elements
     real(dp) :: chi, psi, g_inf, eta
     integer(ip) :: n_terms, n, capacity  !! capacity: of the element arrays, n + 1 rounded up to whole lanes
     integer(ip) :: no_slip
-    integer(ip) :: smooth   !! whether the weights of levels are those of module rst_sync_ratio
-    integer(ip) :: stepped  !! with elements: 1: from the start, 0: if slip does not stay behind one front, -1: never
+    integer(ip) :: stepped  !! with elements from the start; 0: if slip does not stay behind one front
   end type scene_type
 
   !> Where the contact point is at a level. Twin of `struct sync_shear` in C.
@@ -31,7 +29,6 @@ module rst_sync_elements
     real(dp) :: passive_weight, passive_alpha    !! weighted sums over the passive nodes
     integer(ip) :: known                         !! how many steps were made, up to 3
     integer(ip) :: level, first, front, updates  !! first: active node; front: outermost node that sticks, -1: none
-    integer(ip) :: turned                        !! nonzero: behind one front, and slip has turned round there
   end type shear_type
 
   !> A step from level to level, as all elements see it. Of the slip velocity before, the share 1 - drop goes on.
@@ -72,13 +69,4 @@ module rst_sync_elements
       type(sums_type), intent(out) :: sums
     end subroutine element_loop
   end interface
-
-contains
-
-  !> Whether the weights of levels are of use from first touch on, where nothing has slipped before: those of the first two too.
-  pure function from_touch(scene) result(yes)
-    type(scene_type), intent(in) :: scene
-    logical :: yes
-    yes = scene%smooth /= 0 .and. (scene%no_slip /= 0 .or. .not. scene%psi > 1)
-  end function from_touch
 end module rst_sync_elements

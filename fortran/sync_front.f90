@@ -17,7 +17,7 @@ module rst_sync_front
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, term_type, from_touch
+  use rst_sync_elements, only: scene_type, shear_type, term_type
   use rst_sync_quadrature, only: friction_impulse, full_friction, choose_weights, cubic_weights, weighed_in_time, &
                                  explicit_below, most_trials
   use rst_sync_edge, only: weight_of
@@ -41,7 +41,6 @@ module rst_sync_front
   !> of the force.
   type :: rule_type
     real(dp) :: push, rest, kick, weight(0:3), timely(0:3), reach, feedback
-    logical :: smooth  !! usual weights of module rst_sync_ratio
   end type rule_type
 
   !> At the end of a step: velocity, its bend in the step, y at the centre, S.
@@ -104,7 +103,6 @@ contains
       end if
       call front_step(m, scene, g, tau, level, trace, node, alpha, beta, p, term, guard, holds)
     end do
-    state%turned = p%turned
     state%velocity = p%velocity
     if (holds) state%velocity = p%velocity + 2*mass_factor*scene%chi*p%side*full_friction(scene%n, p%level, level)
   end subroutine walk
@@ -209,8 +207,8 @@ contains
     if (abs(velocity) < end%velocity) then
       tilt = end%missing/end%velocity
       force = (known + rule%rest*tilt)*(1/(share + rule%kick*tilt))
-    else ! slips from now on
-      force = (known + sign(1.0_dp, velocity)*end%missing)/share
+    else ! slips from now on, in a ring thinner than the cell: q/f next to it as it was at the edge before
+      force = (known + p%velocity/p%sinking*end%missing)/share
     end if
     velocity = rule%rest - rule%kick*force
     bend = -rule%push*span%half_rate*(force - p%force)
@@ -257,11 +255,10 @@ contains
     rule%push = 2*mass_factor*scene%chi
     rule%feedback = rule%push*span%h*span%end_response*radius
     rule%reach = reach**8
-    call choose_weights(rule%feedback, merge(3_ip, p%known, from_touch(scene)), span%h, p%step_before, &
-                        merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, rule%weight, slope_weight, usually)
+    call choose_weights(rule%feedback, p%known, span%h, p%step_before, merge(span%drop, 0.0_dp, scene%psi > 1), end%weight, &
+                        rule%weight, slope_weight, usually)
     rule%timely = rule%weight
-    rule%smooth = usually .and. scene%smooth /= 0
-    if (.not. rule%smooth .and. usually .and. reach < 1 .and. .not. in_time) then
+    if (usually .and. reach < 1 .and. .not. in_time) then
       rule%timely = cubic_weights(span%h, p%step_before)
       rule%weight = rule%reach*rule%weight + (1 - rule%reach)*rule%timely
     end if
@@ -332,15 +329,12 @@ contains
     type(span_type), intent(in) :: span
     type(point_type), intent(in) :: p
     type(end_type), intent(inout) :: now
-    real(dp) :: missing, share
+    real(dp) :: missing
     if (p%front < 0) now%force = -p%side*level(next)%force
     if (stuck) then
       missing = 0
-      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) then
-        share = 1 - rule%reach
-        if (rule%smooth) share = min(1.0_dp, abs(now%force)/level(next)%force) ! its law is that of thick rings
-        missing = share*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
-      end if
+      if (next < 2*n .and. now%slack < end_is_near*p%slack .and. (p%slack_before > 0 .or. now%slack <= 0)) &
+        missing = (1 - rule%reach)*root_left_out(span%h, now%slack, p%side*now%force + level(next)%force, rule%timely, p)
       now%velocity = rule%rest - rule%push*(rule%weight(0)*now%force + p%side*missing)
     else
       now%velocity = p%velocity + rule%push*p%side*friction_impulse(next, level)
@@ -368,7 +362,8 @@ contains
     integer(ip) :: trial
     turns = .false.
     at_edge = 0
-    unseen = unseen_force(m, next <= scene%n, edge, scene, end, fade, trace, node)*reach
+    unseen = 0
+    if (next > scene%n) unseen = unseen_force(m, edge, scene, end, fade, trace, node)*reach
     fall = p%side*answer_of(rule, span)
     open = end%fresh + p%side*without_force(rule, span, p)
     guess = force_ahead(span%h, p)

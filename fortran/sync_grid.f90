@@ -6,7 +6,7 @@ module rst_sync_grid
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: grid_type, level_type, node_type, likely_depth, soften, lag_of, choose_grid, spread_nodes, at_level, mass_factor
+  public :: grid_type, level_type, node_type, likely_depth, choose_grid, spread_nodes, at_level, mass_factor
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
 
@@ -67,23 +67,6 @@ contains
       viscosity = viscosity + g(k)*tau(k)/(1 + age)**2
     end do
   end subroutine soften
-
-  !> Relaxation time of what is viscous at that age without a dashpot alone, 0 if nothing is.
-  pure function lag_of(n_terms, g, tau, depth) result(lag)
-    real(dp), intent(in) :: depth
-    integer(ip), intent(in) :: n_terms
-    real(dp), intent(in) :: g(n_terms), tau(n_terms)
-    real(dp) :: lag, viscosity, share
-    integer(ip) :: k
-    lag = 0
-    viscosity = tiny(1.0_dp)
-    do k = 1, n_terms
-      share = g(k)*tau(k)/(1 + 0.8_dp*tau(k)/depth)**2
-      lag = lag + share*tau(k)
-      viscosity = viscosity + share
-    end do
-    lag = lag/viscosity
-  end function lag_of
 
   !> Grid for a solid, from what a Kelvin-Voigt solid of its stiffness E and viscosity would do, both at the age of the impact:
   !> after the turning point its contact shrinks to A ~ (E D/viscosity^2)^(1/3) before the sphere moves; before it, the

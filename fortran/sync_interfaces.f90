@@ -6,19 +6,13 @@ module rst_sync_interfaces
   use rst_sync_guess, only: double_levels
   use rst_sync_levels, only: normal_levels
   use rst_sync_dense, only: trace_type, dense_levels
-  use rst_sync_curve_8, only: follow_curve_8 => follow_curve
-  use rst_sync_curve_12, only: follow_curve_12 => follow_curve
-  use rst_sync_curve_16, only: follow_curve_16 => follow_curve
-  use rst_sync_sample, only: sample_curve
   use rst_sync_elements, only: scene_type, shear_type, element_loop, term_type, columns
   use rst_sync_quadrature, only: spread_weights
-  use rst_sync_ratio, only: spread_ratios
   use rst_sync_edge, only: balance_levels
   use rst_sync_shear, only: follow_shear
   implicit none (type, external)
   private
-  public :: rst_normal_levels, rst_double_levels, rst_dense_levels, rst_follow_curve, rst_sample_curve, &
-            rst_finish_levels, rst_follow_shear
+  public :: rst_normal_levels, rst_double_levels, rst_dense_levels, rst_finish_levels, rst_follow_shear
 
 contains
 
@@ -59,58 +53,15 @@ contains
     failed = merge(1_c_int64_t, 0_c_int64_t, fails)
   end subroutine rst_dense_levels
 
-  pure subroutine rst_follow_curve(p, depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, &
-                                   x_kept, inverse, lacks, failed) &
-    bind(c, name="rst_follow_curve"//RST_WIDTH)
-    integer(c_int64_t), intent(in), value :: p, n_terms
-    real(c_double), intent(in), value :: depth, g_inf, closeness
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: turn(4), spread(2), lacks(2)
-    real(c_double), intent(out) :: going(0:p, 2 + 2*n_terms), coming(0:p, 3 + n_terms), curve(0:p, 5 + 3*n_terms)
-    real(c_double), intent(out) :: layer(n_terms, 2), x_kept(n_terms), inverse(0:p, 0:p, n_terms)
-    integer(c_int64_t), intent(out) :: failed
-    logical :: fails
-    select case (p)
-    case (8)
-      call follow_curve_8(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                          inverse, lacks, fails)
-    case (12)
-      call follow_curve_12(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           inverse, lacks, fails)
-    case default
-      call follow_curve_16(depth, g_inf, n_terms, g, tau, closeness, turn, spread, going, coming, curve, layer, x_kept, &
-                           inverse, lacks, fails)
-    end select
-    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
-  end subroutine rst_follow_curve
-
-  pure subroutine rst_sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, layer, n, level, trace, node, failed) &
-    bind(c, name="rst_sample_curve"//RST_WIDTH)
-    integer(c_int64_t), intent(in), value :: p, n_terms, n
-    real(c_double), intent(in), value :: g_inf
-    real(c_double), intent(in) :: turn(4), spread(2), g(n_terms), tau(n_terms), curve(0:p, 5 + 3*n_terms), layer(n_terms, 2)
-    type(level_type), intent(out) :: level(0:2*n)
-    type(trace_type), intent(out) :: trace(n_terms, 0:2*n)
-    type(node_type), intent(out) :: node(0:n)
-    integer(c_int64_t), intent(out) :: failed
-    logical :: fails
-    call sample_curve(p, turn, spread, g_inf, n_terms, g, tau, curve, layer, n, level, trace, node, fails)
-    failed = merge(1_c_int64_t, 0_c_int64_t, fails)
-  end subroutine rst_sample_curve
-
   !> What all runs on these levels share, made once.
-  pure subroutine rst_finish_levels(g_inf, n_terms, n, smooth, trace, node, level) bind(c, name="rst_finish_levels"//RST_WIDTH)
+  pure subroutine rst_finish_levels(g_inf, n_terms, n, trace, node, level) bind(c, name="rst_finish_levels"//RST_WIDTH)
     real(c_double), intent(in), value :: g_inf
-    integer(c_int64_t), intent(in), value :: n_terms, n, smooth
+    integer(c_int64_t), intent(in), value :: n_terms, n
     type(trace_type), intent(in) :: trace(n_terms, 0:2*n)
     type(node_type), intent(in) :: node(0:n)
     type(level_type), intent(inout) :: level(0:2*n)
     call balance_levels(g_inf, n_terms, n, trace, node, level)
-    if (smooth /= 0) then
-      call spread_ratios(n, node, level)
-    else
-      call spread_weights(n, level)
-    end if
+    call spread_weights(n, level)
   end subroutine rst_finish_levels
 
   subroutine rst_follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state) &

@@ -8,7 +8,7 @@ module rst_sync_quadrature
   use rst_sync_grid, only: level_type
   implicit none (type, external)
   private
-  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time, weigh_in_time
+  public :: spread_weights, choose_weights, cubic_weights, weighed_in_time
   public :: friction_impulse, full_friction
   public :: explicit_below, shortest_start, most_trials
 

@@ -19,7 +19,7 @@ module rst_sync_shear
   use rst_memory, only: memory_type, memory_of
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type, fade_in_step
-  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, from_touch, &
+  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, &
                                column_x2, column_weight, column_alpha, column_kappa
   use rst_sync_quadrature, only: full_friction, choose_weights, explicit_below, shortest_start, most_trials
   use rst_sync_edge, only: weight_of, shear_force, find_front
@@ -63,7 +63,7 @@ contains
     state = shear_type(time=0, shift=0, velocity=scene%psi, force=0, &
                        step_before=0, force_before=0, normal_before=0, slope=0, known=0, &
                        passive_weight=0, passive_alpha=0, &
-                       level=0, first=1, front=0, updates=0, turned=0)
+                       level=0, first=1, front=0, updates=0)
     do k = 1, scene%n_terms
       term(k) = term_type(0, 0, 0, 0, 0, 0, 0, 0, 0, 1)  ! the passive node 0 is entered now
     end do
@@ -112,12 +112,10 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     type(shear_type), intent(out) :: state
     logical :: holds, slides, slid
-    if (scene%no_slip == 0 .and. scene%stepped <= 0) then
+    if (scene%no_slip == 0 .and. scene%stepped == 0) then
       call first_stick(scene, g, tau, level, trace, term, state)
       call follow_front(scene, g, tau, level, trace, node, term, body(:, column_alpha), beta, state, holds)
       if (holds) return
-      state%updates = 1 ! there would be some
-      if (scene%stepped < 0) return
     end if
     call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     slides = .false.
@@ -362,8 +360,8 @@ contains
     real(dp), intent(out) :: weight(0:3), start
     real(dp) :: slope_weight
     logical :: usually
-    call choose_weights(feedback, merge(3_ip, state%known, from_touch(scene)), step%h, state%step_before, &
-                        merge(step%drop, 0.0_dp, scene%psi > 1), normal%weight, weight, slope_weight, usually)
+    call choose_weights(feedback, state%known, step%h, state%step_before, merge(step%drop, 0.0_dp, scene%psi > 1), &
+                        normal%weight, weight, slope_weight, usually)
     start = slope_weight*state%slope
   end subroutine weigh_forces
 

@@ -63,11 +63,11 @@ contains
     p%slack_before = 0
   end subroutine speak_of_slack
 
-  !> What the sum over nodes, with what `beyond` adds in the last cell, lacks of int f dX. Where the slipping ring is thin, y is f
-  !> but for a little and its integral lacks as much, which is not little beside S.
-  pure function unseen_force(m, compression, edge, scene, end, fade, trace, node) result(unseen)
+  !> What the sum over nodes, with what `beyond` adds in the last cell, lacks of int f dX in the restitution. Where the slipping
+  !> ring is thin, y is f but for a little and its integral lacks as much, which is not little beside S. Not so in the compression:
+  !> behind an edge that slips f may rise within a layer thinner than a cell, but y is nothing there.
+  pure function unseen_force(m, edge, scene, end, fade, trace, node) result(unseen)
     integer(ip), intent(in) :: m, edge
-    logical, intent(in) :: compression
     type(scene_type), intent(in) :: scene
     type(level_type), intent(in) :: end
     type(trace_type), intent(in) :: fade(m), trace(m, 0:edge)
@@ -99,7 +99,7 @@ contains
       end do
       if (edge == 2) f(-2) = f(0)
     end if
-    f(1) = merge(scene%eta*end%velocity, 0.0_dp, compression)
+    f(1) = 0
     if (edge == 1) f(-1) = f(1)
     unseen = end%missing - beyond_edge(edge - 1, node, f)
   end function unseen_force

@@ -67,12 +67,12 @@ struct sync_trace {
 struct sync_scene {
     double chi, psi, g_inf, eta;
     int64_t n_terms, n, capacity;
-    int64_t no_slip, smooth, stepped; /* stepped: with elements from the start, 0: if one front does not do, -1: never */
+    int64_t no_slip, stepped; /* stepped: with elements from the start; 0: if slip does not stay behind one front */
 };
 struct sync_shear {
     double time, shift, velocity, force, step_before[2], force_before[2], normal_before[3], slope;
     double passive_weight, passive_alpha;
-    int64_t known, level, first, front, updates, turned;
+    int64_t known, level, first, front, updates;
 };
 
 /* Twin of term_type of fortran/sync_elements.f90. */

@@ -26,22 +26,6 @@ static const double share_of_change = 0.25, usual_error = 8, thin_slip = 0.15, l
  * elements are stepped.) */
 static const double share_behind_front = 0.2, usual_behind_front = 4, thin_behind_front = 0.06;
 
-/* There one run alone says enough, unless all but nothing slips or slip turns round: of 44 000 random runs with 16 to
- * 144 levels 99 in 100 are off by less than this times max(1, chi)^(3/2) n^-3 and the larger of n^(-1/2) and a tenth
- * (half of them by an eighth of it), none by more than 4.5 times that. With more levels there are errors that fall
- * more slowly, where relaxation is much faster than the impact. */
-static const double usual_alone = 17, slow_fall = 0.1, thinnest_alone = 0.01;
-/* Part of that where the normal problem is known as polynomials: with up to 16 levels, and from 20 on. */
-static const double part_if_smooth = 0.5, part_if_many = 0.4, few = 16;
-static const double most_alone = 160;
-
-/* The least levels of runs that rest on levels and on polynomials: with the latter that law is three times too high. */
-static const double least_levels = 16, least_smooth = 14;
-
-/* With relaxation times and a small rebound the error is that many times as large, at least, and more below a rebound
- * of `tiny`, from so many levels on that slip is followed at all; at `tiny`: `least_alone`. */
-static const double more_if_small = 2, tiny = 0.03, growth_below_tiny = 1.3, least_alone = 128, more_levels = 0.45;
-
 /* A change may be small by chance: it is not taken for less than that part of the change before it, which is known
  * from the second doubling on, and for impacts with so small a rebound from the first, since their times differ by
  * decades. */
@@ -61,11 +45,10 @@ static const double normal_part = 0.25;
  * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
 
-/* Part of the tolerance that an estimate from fewer runs than are usual is to keep. */
-static const double surely_enough = 0.5;
-
 /* The rest of the tolerance is for merged terms. */
 static const double acceptance = 0.9;
+
+static const double least_levels = 16;
 
 /* The normal problem is solved with a quarter of its levels too, which are to settle for a solid without strong
  * damping. */
@@ -91,8 +74,7 @@ struct sync_scene rst_sync_scene(const struct rst_problem *problem, const struct
                                .n_terms = problem->solid.n_terms,
                                .n = store->levels,
                                .capacity = store->capacity,
-                               .no_slip = problem->mode == RST_NO_SLIP,
-                               .smooth = store->smooth};
+                               .no_slip = problem->mode == RST_NO_SLIP};
 }
 
 struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome)
@@ -118,12 +100,10 @@ double rst_sync_largest_force(const struct sync_level *level, int64_t n)
 struct run {
     int64_t levels, updates;
     int one_front; /* slip stayed behind one front: no element was stepped */
-    int turned;    /* and turned round there */
     double velocity;
 };
 
-/* stepped: with elements, 1: from the start, 0: if slip does not stay behind one front, -1: never; then there is no
- * velocity. */
+/* stepped: with elements from the start; 0: if slip does not stay behind one front. */
 static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
                          const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
 {
@@ -137,7 +117,6 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
     *run = (struct run){.levels = store->levels,
                         .updates = 2 * store->levels + shear.updates * (1 + s->n_terms),
                         .one_front = shear.updates == 0,
-                        .turned = shear.turned > 0,
                         .velocity = shear.velocity};
     outcome->updates += run->updates;
 }
@@ -146,24 +125,22 @@ static void follow_shear(const struct rst_problem *problem, const struct rst_wor
 static void note_normal(const struct rst_problem *problem, const struct normal *normal, struct rst_outcome *outcome)
 {
     const double n = (double)normal->levels;
-    *outcome = (struct rst_outcome){.velocity = normal->velocity,
-                                    .shear_velocity = full_slip(problem, normal->velocity),
-                                    .error_ez = normal->error,
-                                    .contact_time = normal->contact_time,
-                                    .followed_time = normal->contact_time,
-                                    .max_indentation = normal->depth,
-                                    .max_contact_radius = sqrt(normal->depth),
-                                    .spacing = sqrt(normal->depth) / n,
-                                    .step = normal->contact_time / (2 * n),
-                                    .elements = normal->levels,
-                                    .steps = 2 * normal->levels,
-                                    .updates = normal->updates,
-                                    .normal_levels = normal->levels};
+    *outcome =
+        (struct rst_outcome){.velocity = normal->velocity,
+                             .shear_velocity = full_slip(problem, normal->velocity),
+                             .error_ez = normal->error,
+                             .contact_time = normal->contact_time,
+                             .followed_time = normal->contact_time,
+                             .max_indentation = normal->depth,
+                             .max_contact_radius = sqrt(normal->depth),
+                             .max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels),
+                             .spacing = sqrt(normal->depth) / n,
+                             .step = normal->contact_time / (2 * n),
+                             .elements = normal->levels,
+                             .steps = 2 * normal->levels,
+                             .updates = normal->updates,
+                             .normal_levels = normal->levels};
     if (problem->mode != RST_FRICTIONLESS) outcome->error_ex = 2 * problem->chi * normal->error / problem->psi;
-    if (normal->degree == 0)
-        outcome->max_normal_force = 15.0 / 8.0 * rst_sync_largest_force(normal->level, normal->levels);
-    else if (!rst_sync_sticks(problem, -normal->velocity)) /* the tangential problem has levels of its own */
-        outcome->max_normal_force = 15.0 / 8.0 * rst_sync_curve_force(problem, normal);
 }
 
 /* What that adds to the estimate, times n^-2 and, as nothing turns round where damping is strong, at most twice the
@@ -175,36 +152,7 @@ static double second_order_error(double chi)
     return chi > 2 ? 6 * usual_error_then * sqrt(chi / 2) : usual_error_then;
 }
 
-/* Whether a run whose slip stays behind one front, and does not turn round, needs no other beside it. */
-static int may_stand_alone(const struct rst_problem *problem, const struct normal *normal)
-{
-    return problem->elements <= 0 && problem->mode != RST_NO_SLIP && problem->psi >= thinnest_alone &&
-           (-normal->velocity >= small_rebound || problem->solid.n_terms > 0);
-}
-
-/* Below which number of levels none does. */
-static double least_levels_alone(double rebound)
-{
-    return rebound < small_rebound ? least_alone * pow(tiny / rebound, more_levels) : 0;
-}
-
-/* How much more the error is of e_x, a part of psi, where psi is so small that few nodes slip. */
-static double thin_alone(const struct rst_problem *problem)
-{
-    return 1 + thin_behind_front / (least_slip + problem->psi);
-}
-
-/* The error of a run with slip behind one front, without another beside it. */
-static double error_alone(const struct rst_problem *problem, const struct normal *normal, double n)
-{
-    const double chi = fmax(1, problem->chi), rebound = -normal->velocity;
-    double error = usual_alone * thin_alone(problem) * chi * sqrt(chi) * fmax(1 / sqrt(n), slow_fall) / (n * n * n);
-    if (normal->degree > 0) error *= fmax(part_if_many, part_if_smooth * fmin(1, few / n));
-    if (rebound < small_rebound) error *= more_if_small * fmax(1, pow(tiny / rebound, growth_below_tiny));
-    return error;
-}
-
-/* That of the second of two runs, without what both have of the normal problem. */
+/* The error of the second of two runs, without what both have of the normal problem. */
 static double error_beside(const struct rst_problem *problem, double change_before, const struct run *before,
                            const struct run *now)
 {
@@ -217,23 +165,18 @@ static double error_beside(const struct rst_problem *problem, double change_befo
            of_run * thin * chi * sqrt(chi) / (n * n * n);
 }
 
-/* The velocity, extrapolated where there was a run with half the levels before, and its error. change_before: between
- * that and the one before it, 0 if there was none. */
+/* The velocity, extrapolated from it and that of the run before with half the levels, and its error. change_before:
+ * between that and the one before it, 0 if there was none. */
 static void note_shear(const struct rst_problem *problem, const struct normal *normal, double change_before,
                        const struct run *before, const struct run *now, struct rst_outcome *outcome)
 {
     const double n = (double)now->levels;
-    outcome->shear_velocity = now->velocity;
-    if (before->levels > 0) {
-        outcome->shear_velocity += (now->velocity - before->velocity) * part_taken;
-        outcome->error_ex = error_beside(problem, change_before, before, now);
-    } else
-        outcome->error_ex = error_alone(problem, normal, n);
-    outcome->error_ex +=
-        rounding_of_level * n + fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
-        fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
-    outcome->spacing = sqrt(normal->depth) / (double)now->levels;
-    outcome->step = outcome->contact_time / (2 * (double)now->levels);
+    outcome->shear_velocity = now->velocity + (now->velocity - before->velocity) * part_taken;
+    outcome->error_ex = error_beside(problem, change_before, before, now) + rounding_of_level * n +
+                        fmax(normal->error, 2 * fmax(1, problem->chi) * normal->taken_off) +
+                        fmin(1, -2 * normal->velocity) * second_order_error(problem->chi) / (n * n);
+    outcome->spacing = sqrt(normal->depth) / n;
+    outcome->step = outcome->contact_time / (2 * n);
     outcome->elements = now->levels;
     outcome->steps = 2 * now->levels;
     outcome->normal_levels = normal->levels;
@@ -337,37 +280,6 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, limit);
 }
 
-/* The count with which the estimate of a run alone meets the tolerance. */
-static double levels_alone(double tolerance, double swings, int smooth)
-{
-    return fmax(smooth ? least_smooth : least_levels,
-                fmax(2.6 * pow(swings, 3.0 / 7) * pow(tolerance, -2.0 / 7), 1.32 * sqrt(swings) / cbrt(tolerance)));
-}
-
-/* Levels of the first run. Slip is likely to stay behind one front, unless chi is large. */
-static double levels_needed(const struct rst_problem *problem, const struct normal *normal)
-{
-    const double swings = rst_sync_swings(problem), least = least_levels_alone(-normal->velocity);
-    const int smooth = normal->degree > 0; /* at will, so as many as do for that psi */
-    const double part = smooth ? acceptance / thin_alone(problem) : 1;
-    const double alone = fmax(least, levels_alone(part * problem->tolerance, swings, smooth));
-    if (may_stand_alone(problem, normal) && second_order_error(problem->chi) <= 0 && alone <= fmax(most_alone, 2 * least))
-        return alone;
-    return rst_sync_levels_to_start(problem->tolerance, swings);
-}
-
-/* Polynomials have any number of levels: that of which a whole ratio is what the tangential problem wants, for runs
- * with half and maybe a quarter of them, but about `least` if that is less. */
-static int64_t levels_at_will(const struct rst_problem *problem, const struct normal *normal, int64_t least)
-{
-    const double needed = levels_needed(problem, normal), ratio = fmax(1, floor(needed / (double)least));
-    const int64_t whole = -normal->velocity < small_rebound ? 8 : may_stand_alone(problem, normal) ? 2 : 4;
-    int64_t unit = 2;
-    while (unit * (int64_t)ratio % whole)
-        unit *= 2;
-    return multiple_of(unit, needed / ratio);
-}
-
 /* The normal problem, to a part of the tolerance if the contact sticks. Between the levels of a graded grid the
  * motion is not known as well as at them: there the tangential problem has no more levels. */
 static int solve_normal(const struct rst_problem *problem, struct rst_workspace *workspace, struct normal *normal,
@@ -385,48 +297,21 @@ static int solve_normal(const struct rst_problem *problem, struct rst_workspace 
         start =
             fmax(start, graded_more * rst_sync_levels_to_start(problem->tolerance, rst_sync_stepped_swings(problem)));
     const int64_t levels = multiple_of(8, start);
-    const int status = rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
-    if (normal->degree > 0) normal->levels = sticks ? levels_at_will(problem, normal, levels) : levels;
-    return status;
+    return rst_sync_normal(problem, workspace, levels / 4, rst_sync_most_levels, wanted, normal, error);
 }
 
-/* Runs beside each other, with `resolution`, half and where the rebound is small a quarter of its levels. Where
- * elements have to be stepped after all, the latter two may do, if their estimate leaves room for changes that are
- * small by chance: of 6000 impacts each where the sphere hardly rebounds, at 3e-5, 9e-5 and 3e-4, at most 39 estimates
- * were too low. */
-static void runs_beside(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                        const struct normal *normal, const struct store *store, int runs, int first_is_left,
-                        struct run *before, struct run *now, double *change_before, struct rst_outcome *outcome)
-{
-    const int stepped = !now->one_front;
-    struct run quarter;
-    if (runs > 2) follow_shear(problem, workspace, &store[2], stepped, &quarter, outcome);
-    follow_shear(problem, workspace, &store[1], stepped, before, outcome);
-    if (first_is_left && stepped && runs > 2) {
-        note_shear(problem, normal, 0, &quarter, before, outcome);
-        if (outcome->error_ex <= surely_enough * problem->tolerance) {
-            *now = *before;
-            *before = quarter;
-            return;
-        }
-    }
-    if (first_is_left && stepped) follow_shear(problem, workspace, &store[0], stepped, now, outcome);
-    if (runs > 2) *change_before = before->velocity - quarter.velocity;
-}
-
-/* The first run, and others beside it, unless it may stand alone. If the updates allowed may not be enough, it is the
- * half one alone, which tells what the other would take. */
+/* The first runs: with `resolution`, half and, where the rebound is small, a quarter of its levels. If the finest needs
+ * elements, all are stepped. If the updates allowed may not be enough for all, it is the half one alone, which tells
+ * what the next would take. */
 static int first_runs(const struct rst_problem *problem, struct rst_workspace *workspace, const struct normal *normal,
                       const struct resolution *resolution, int half_alone, struct run *before, struct run *now,
                       double *change_before, struct rst_outcome *outcome, restitute_error *error)
 {
     const int runs = -normal->velocity < small_rebound && resolution->levels % 8 == 0 ? 3 : 2;
     struct store store[rst_sync_first_runs];
+    struct run quarter;
     double force;
-    const double least = least_levels_alone(-normal->velocity), n = (double)resolution->levels;
-    const int alone = !half_alone && n >= least && n <= fmax(most_alone, 2 * least) && may_stand_alone(problem, normal);
-    const int needed = alone ? 1 : runs;
-    int status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, needed, store, &force, error);
+    const int status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, store, &force, error);
     if (status) return status;
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = 0;
@@ -434,12 +319,12 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
         follow_shear(problem, workspace, &store[1], 0, now, outcome);
         return RESTITUTE_OK;
     }
-    follow_shear(problem, workspace, &store[0], alone ? -1 : 0, now, outcome);
-    if (alone && now->one_front && !now->turned) return RESTITUTE_OK;
-    if (alone)
-        status = rst_sync_first_levels(problem, workspace, normal, resolution, runs, runs, store, &force, error);
-    if (status) return status;
-    runs_beside(problem, workspace, normal, store, runs, alone, before, now, change_before, outcome);
+    follow_shear(problem, workspace, &store[0], 0, now, outcome);
+    follow_shear(problem, workspace, &store[1], !now->one_front, before, outcome);
+    if (runs > 2) {
+        follow_shear(problem, workspace, &store[2], !now->one_front, &quarter, outcome);
+        *change_before = before->velocity - quarter.velocity;
+    }
     return RESTITUTE_OK;
 }
 
@@ -490,7 +375,8 @@ static int too_many(const struct rst_problem *problem, int64_t levels)
 static struct resolution first_resolution(const struct rst_problem *problem, const struct normal *normal)
 {
     const int told = problem->elements > 0;
-    const double needed = told ? (double)normal->levels : levels_needed(problem, normal);
+    const double needed =
+        told ? (double)normal->levels : rst_sync_levels_to_start(problem->tolerance, rst_sync_swings(problem));
     struct resolution r = {.ratio = 1, .levels = normal->levels};
     if (!rst_sync_is_graded(problem))
         r.ratio = (int64_t)ceil(fmin(needed, rst_sync_most_levels) / (double)normal->levels);

@@ -40,7 +40,7 @@ static void lay_out_elements(double *block, int64_t levels, int64_t n_terms, siz
 }
 
 /* Most of them: levels may be halved until one is left. */
-enum { most_rungs = 20, fewest_smooth = 10 };
+enum { most_rungs = 20 };
 
 /* `levels`, half of them, and so on, behind each other; returns how many doubles that takes. */
 static size_t lay_out_rungs(double *block, int64_t levels, int count, int64_t n_terms, struct store rung[most_rungs])
@@ -49,13 +49,6 @@ static size_t lay_out_rungs(double *block, int64_t levels, int count, int64_t n_
     for (int k = 0; k < count; k++, levels /= 2)
         lay_out_levels(block, levels, n_terms, &taken, &rung[k]);
     return taken;
-}
-
-/* Those made from polynomials are smooth, unless they are very few. */
-static void mark_smooth(const struct normal *normal, int count, struct store rung[most_rungs])
-{
-    for (int k = 0; k < count; k++)
-        rung[k].smooth = normal->degree > 0 && rung[k].levels >= fewest_smooth;
 }
 
 /* `levels` thinned to no more than `most` are the last of so many rungs. */
@@ -82,20 +75,6 @@ size_t rst_sync_first_room(int64_t levels, int64_t n_terms)
     return lay_out_rungs(NULL, levels, rst_sync_first_runs, n_terms, rung);
 }
 
-/* Every other level of the rung before each of the rungs `made` to count - 1; runs are made on those from `first` on.
- * */
-static void thin_rungs(const struct rst_problem *problem, const struct normal *normal, int made, int first, int count,
-                       const struct store *rung)
-{
-    const struct rst_solid *s = &problem->solid;
-    for (int k = made > 1 ? made : 1; k < count; k++)
-        rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
-                        rung[k].level, rung[k].trace, rung[k].node);
-    for (int k = made > first ? made : first; k < count; k++)
-        normal->kernel->finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].smooth, rung[k].trace, rung[k].node,
-                                      rung[k].level);
-}
-
 /* `ratio` times the levels of the normal problem, then every other one of them, and so on, for runs from rung `first`
  * on. Nonzero: an error, or a time was not found. */
 static int make_rungs(const struct rst_problem *problem, const struct normal *normal, int64_t ratio, int first,
@@ -103,18 +82,17 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
 {
     const struct rst_solid *s = &problem->solid;
     int64_t failed = 0;
-    if (normal->degree > 0)
-        normal->kernel->sample_curve(normal->degree, normal->turn, normal->spread, s->g_inf, s->n_terms, s->g,
-                                     s->tau, normal->curve, normal->layer, rung->levels, rung->level, rung->trace,
-                                     rung->node, &failed);
-    else
-        normal->kernel->dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
-                                     normal->level, rung->level, rung->trace, rung->node, &failed);
+    normal->kernel->dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
+                                 normal->level, rung->level, rung->trace, rung->node, &failed);
     if (failed)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "iterations do not settle between %lld levels; take the method euler for this solid",
                           (long long)normal->levels);
-    thin_rungs(problem, normal, 0, first, count, rung);
+    for (int k = 1; k < count; k++)
+        rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
+                        rung[k].level, rung[k].trace, rung[k].node);
+    for (int k = first; k < count; k++)
+        normal->kernel->finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
     return RESTITUTE_OK;
 }
 
@@ -135,7 +113,6 @@ int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *wor
     lay_out_elements(NULL, rung[count - 1].levels, n_terms, &taken, &rung[count - 1]);
     if (rst_workspace_elements(workspace, taken + more)) return out_of_memory(all, error);
     lay_out_rungs(workspace->elements, all, count, n_terms, rung);
-    mark_smooth(normal, count, rung);
     const int status = make_rungs(problem, normal, resolution->ratio, count - 1, count, rung, error);
     if (status) return status;
     *store = rung[count - 1];
@@ -147,7 +124,7 @@ int rst_sync_levels(const struct rst_problem *problem, struct rst_workspace *wor
 }
 
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
-                          const struct normal *normal, const struct resolution *resolution, int runs, int needed,
+                          const struct normal *normal, const struct resolution *resolution, int runs,
                           struct store *store, double *largest_force, restitute_error *error)
 {
     struct rst_shelf *shelf = rst_sync_shelf(problem, workspace);
@@ -162,17 +139,11 @@ int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspac
         kept->ratio = 0;
         if (rst_shelf_dense(shelf, lay_out_rungs(NULL, all, count, n_terms, rung))) return out_of_memory(all, error);
         lay_out_rungs(shelf->dense, all, count, n_terms, rung);
-        mark_smooth(normal, count, rung);
-        const int status = make_rungs(problem, normal, resolution->ratio, first, first + needed, rung, error);
+        const int status = make_rungs(problem, normal, resolution->ratio, first, count, rung, error);
         if (status) return status;
-        *kept = (struct kept){resolution->ratio, resolution->levels, all, needed, rst_sync_largest_force(rung->level, all)};
+        *kept = (struct kept){resolution->ratio, resolution->levels, all, rst_sync_largest_force(rung->level, all)};
     }
     lay_out_rungs(shelf->dense, all, count, n_terms, rung);
-    mark_smooth(normal, count, rung);
-    if (kept->runs < needed) {
-        thin_rungs(problem, normal, first + (int)kept->runs, first, first + needed, rung);
-        kept->runs = needed;
-    }
     for (int k = 0; k < runs; k++) {
         store[k] = rung[first + k];
         taken = 0;

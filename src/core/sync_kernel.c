@@ -8,21 +8,15 @@
     sync_normal_levels rst_normal_levels##width;                                                                       \
     sync_double_levels rst_double_levels##width;                                                                       \
     sync_dense_levels rst_dense_levels##width;                                                                         \
-    sync_follow_curve rst_follow_curve##width;                                                                         \
-    sync_sample_curve rst_sample_curve##width;                                                                         \
     sync_finish_levels rst_finish_levels##width;                                                                       \
     sync_follow_shear rst_follow_shear##width
 
 #define KERNEL(width, loop)                                                                                            \
-    {.name = #loop,                                                                                                    \
-     .normal_levels = rst_normal_levels##width,                                                                        \
-     .double_levels = rst_double_levels##width,                                                                        \
-     .dense_levels = rst_dense_levels##width,                                                                          \
-     .follow_curve = rst_follow_curve##width,                                                                          \
-     .sample_curve = rst_sample_curve##width,                                                                          \
-     .finish_levels = rst_finish_levels##width,                                                                        \
-     .follow_shear = rst_follow_shear##width,                                                                          \
-     .elements = rst_sync_lanes_##loop}
+    {                                                                                                                  \
+        .name = #loop, .normal_levels = rst_normal_levels##width, .double_levels = rst_double_levels##width,           \
+        .dense_levels = rst_dense_levels##width, .finish_levels = rst_finish_levels##width,                            \
+        .follow_shear = rst_follow_shear##width, .elements = rst_sync_lanes_##loop                                     \
+    }
 
 DECLARE();
 sync_loop rst_sync_lanes_any;

@@ -14,16 +14,8 @@ typedef void sync_dense_levels(const struct sync_grid *grid, double g_inf, doubl
                                const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
                                struct sync_level *level, struct sync_trace *trace, struct sync_node *node,
                                int64_t *failed);
-typedef void sync_follow_curve(int64_t p, double depth, double g_inf, int64_t n_terms, const double *g,
-                               const double *tau, double closeness, double turn[4], double spread[2], double *going,
-                               double *coming, double *curve, double *layer, double *x_kept, double *inverse,
-                               double lacks[2], int64_t *failed);
-typedef void sync_sample_curve(int64_t p, const double turn[4], const double spread[2], double g_inf,
-                               int64_t n_terms, const double *g, const double *tau, const double *curve,
-                               const double *layer, int64_t n, struct sync_level *level, struct sync_trace *trace,
-                               struct sync_node *node, int64_t *failed);
-typedef void sync_finish_levels(double g_inf, int64_t n_terms, int64_t n, int64_t smooth,
-                                const struct sync_trace *trace, const struct sync_node *node, struct sync_level *level);
+typedef void sync_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
+                                const struct sync_node *node, struct sync_level *level);
 typedef void sync_follow_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
                                const struct sync_level *level, const struct sync_trace *trace,
                                const struct sync_node *node, double *body, double *beta, double *faded,
@@ -34,8 +26,6 @@ struct sync_kernel {
     sync_normal_levels *normal_levels;
     sync_double_levels *double_levels;
     sync_dense_levels *dense_levels;
-    sync_follow_curve *follow_curve;
-    sync_sample_curve *sample_curve;
     sync_finish_levels *finish_levels;
     sync_follow_shear *follow_shear;
     sync_loop *elements;

@@ -51,7 +51,8 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
                                  &store, &before, error);
     if (status) return status;
     const struct sync_scene scene = rst_sync_scene(problem, &store);
-    rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), workspace->kernel->elements, s->g, s->tau, store.level,
-                    store.trace, store.node, store.body, store.beta, store.faded, store.term, before, &outcome->ledger);
+    rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), workspace->kernel->elements, s->g, s->tau,
+                    store.level, store.trace, store.node, store.body, store.beta, store.faded, store.term, before,
+                    &outcome->ledger);
     return RESTITUTE_OK;
 }

@@ -63,14 +63,14 @@ static size_t doubles(size_t size, size_t count)
 }
 
 /* What the solution on a shelf belongs to: impacts that differ in their tangential side alone, as in a table, share it.
- * swings, thin: what it takes of chi and psi. Solids of more terms are not remembered. */
+ * swings: what it takes of chi. Solids of more terms are not remembered. */
 enum { most_terms_known = 8 };
 struct solid_known {
     double g_inf, eta, n_terms, g[most_terms_known], tau[most_terms_known];
 };
 struct question {
     struct solid_known solid;
-    double closeness, first, last, wanted, swings, thin, allowed;
+    double closeness, first, last, wanted, swings, allowed;
 };
 
 /* The head of the levels on a shelf. */
@@ -105,7 +105,6 @@ static struct question question_of(const struct rst_problem *problem, int64_t fi
                          .last = (double)last,
                          .wanted = wanted,
                          .swings = rst_sync_stepped_swings(problem),
-                         .thin = rst_sync_is_thin(problem),
                          .allowed = (double)problem->max_updates};
     for (int64_t k = 0; k < s->n_terms && k < most_terms_known; k++) {
         q.solid.g[k] = s->g[k];
@@ -138,10 +137,9 @@ static void forget_other_solids(struct rst_workspace *workspace, const struct qu
 
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms)
 {
-    const size_t n = (size_t)levels, m = (size_t)n_terms, curve = rst_sync_curve_room(n_terms);
-    const size_t of_levels =
-        doubles(sizeof(struct sync_level), 2 * n + 1) + doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
-    return doubles(sizeof(struct memo), 1) + (curve > of_levels ? curve : of_levels);
+    const size_t n = (size_t)levels, m = (size_t)n_terms;
+    return doubles(sizeof(struct memo), 1) + doubles(sizeof(struct sync_level), 2 * n + 1) +
+           doubles(sizeof(struct sync_node), n + 1) + 2 * m * (2 * n + 1);
 }
 
 /* A run with half as many levels as that is too coarse to guess from. */
@@ -237,19 +235,6 @@ static void compare(const struct rst_problem *problem, double wanted, struct ser
     *series = (struct series){series->count + 1, normal->levels, end->time, end->velocity, extrapolated};
 }
 
-/* Polynomials, if the updates allowed suffice. */
-static int follow_curve(const struct rst_problem *problem, struct rst_shelf *shelf, double wanted,
-                        struct normal *normal, restitute_error *error)
-{
-    const int status = make_room(problem, shelf, 0, error);
-    if (status) return status;
-    struct memo *memo = memo_of(shelf);
-    memo->known = 0;
-    memo->kept = (struct kept){0};
-    rst_sync_follow_curve(problem, (double *)(memo + 1), wanted, normal);
-    return RESTITUTE_OK;
-}
-
 int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t first, int64_t last,
                     double wanted, struct normal *normal, restitute_error *error)
 {
@@ -264,14 +249,6 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
     forget_other_solids(workspace, &question);
     int status = choose_grid(problem, workspace, normal, error);
     if (status) return status;
-    if (rst_sync_may_be_smooth(problem, &normal->grid)) {
-        status = follow_curve(problem, shelf, wanted, normal, error);
-        if (status) return status;
-        if (normal->degree > 0) {
-            remember(shelf, &question, normal);
-            return RESTITUTE_OK;
-        }
-    }
     for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
         normal->ahead = normal->updates + 2 * n;
         if (normal->ahead > problem->max_updates) break;

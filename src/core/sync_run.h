@@ -11,16 +11,12 @@
 /* Most levels that a run may have: with more, rounding adds up to more than they gain. */
 enum { rst_sync_most_levels = 1 << 15 };
 
-/* The solution of the normal problem, as levels or as polynomials, on its shelf. */
+/* The solution of the normal problem, on its shelf. */
 struct normal {
     const struct sync_kernel *kernel; /* what computes it, and what is made from it */
     struct sync_grid grid;
-    int64_t levels;             /* of one phase; with polynomials: for those who want levels */
+    int64_t levels;             /* of one phase */
     struct sync_level *level;   /* 2 levels + 1 */
-    int64_t degree;             /* of polynomials; 0: levels */
-    double *curve, *layer;      /* their series, and what memory has beside them */
-    double turn[4];             /* time of the turning point; see follow_curve in fortran/sync_curve.f90 */
-    double spread[2];           /* of the nodes, see fortran/sync_sample.f90 */
     double velocity, error;     /* at its end, extrapolated, with its estimated error */
     double taken_off;           /* by extrapolation, of the velocity: the levels are off by as much */
     double contact_time, depth; /* at its end and at the turning point */
@@ -36,16 +32,6 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 /* Solve again, at that number of levels alone and on the spare shelf; normal->levels is 0 if it does not settle. */
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
-
-/* Whether polynomials are worth a trial, which depends on whether little slips; if so, try: normal->degree is 0 if
- * they are not good enough. `room`: of rst_sync_curve_room doubles. */
-int rst_sync_is_thin(const struct rst_problem *problem);
-int rst_sync_may_be_smooth(const struct rst_problem *problem, const struct sync_grid *grid);
-void rst_sync_follow_curve(const struct rst_problem *problem, double *room, double wanted, struct normal *normal);
-size_t rst_sync_curve_room(int64_t n_terms);
-
-/* Largest int_0^A f dX with polynomials. */
-double rst_sync_curve_force(const struct rst_problem *problem, const struct normal *normal);
 
 /* Room that rst_sync_normal takes on its shelf. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
@@ -68,7 +54,6 @@ double rst_sync_closeness(const struct rst_problem *problem);
 /* What a run works on. */
 struct store {
     int64_t levels;           /* n */
-    int64_t smooth;           /* made from polynomials: fortran/sync_ratio.f90 */
     int64_t capacity;         /* of the arrays of elements */
     struct sync_level *level; /* 2n + 1 */
     struct sync_trace *trace; /* n_terms times 2n + 1 */
@@ -98,15 +83,14 @@ struct rst_shelf *rst_sync_shelf(const struct rst_problem *problem, struct rst_w
 /* Which dense levels of a shelf are made from the solution there. */
 struct kept {
     int64_t ratio, levels, all; /* of the resolution, ratio 0: nothing; levels that the others are taken from */
-    int64_t runs;          /* for so many runs */
     double largest_force;
 };
 struct kept *rst_sync_kept(const struct rst_shelf *shelf);
 
-/* The levels of the first `needed` of up to `runs` runs, on the shelf, where they are kept for other impacts on the
- * solid, and where asking again for more of the same runs goes on; the arrays of elements are the same for all. */
+/* The levels of the first `runs` runs, on the shelf, where they are kept for other impacts on the solid; the arrays of
+ * elements are the same for all. */
 int rst_sync_first_levels(const struct rst_problem *problem, struct rst_workspace *workspace,
-                          const struct normal *normal, const struct resolution *resolution, int runs, int needed,
+                          const struct normal *normal, const struct resolution *resolution, int runs,
                           struct store *store, double *largest_force, restitute_error *error);
 
 /* Those of a run alone, all in workspace->elements; `room`: for `more` doubles. */

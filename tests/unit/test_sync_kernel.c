@@ -61,7 +61,7 @@ static void all_widths_give_the_same_bits(void **state)
                 }
 }
 
-/* Standard solids and Kelvin-Voigt ones: polynomials, levels, fronts and elements. */
+/* Standard solids and Kelvin-Voigt ones, fronts and elements. */
 static void random_impacts_too(void **state)
 {
     uint64_t seed = 4;

@@ -1,0 +1,50 @@
+/* The methods `cvode` and `sync` where slip is hard to follow (corners.h): the former has no levels, no front and no
+ * rings of slip but element by element.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/corners.h"
+#include "../support/cvode.h"
+#include "../support/sync.h"
+
+enum { impacts = 25 };
+
+/* Both to 1e-5, to which `sync` also comes from 1e-8. An estimate may be too low in one of twenty: three times. */
+static void compare(restitute_impact impact)
+{
+    const struct solution c = solve_impact(cvode_to(1e-5), impact);
+    const restitute_result s = solve_impact(sync_to(1e-5), impact).result;
+    const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
+    CHECK(c.status == RESTITUTE_OK && c.result.error_ez <= 1e-5 && c.result.error_ex <= 1e-5, "status %d", c.status);
+    CHECK_NEAR(fine.ez, c.result.ez, 3 * c.result.error_ez, "chi %.17g psi %.17g delta1 %.17g gamma %.17g", impact.chi,
+               impact.psi, impact.delta1, impact.gamma);
+    CHECK_NEAR(fine.ex, c.result.ex, 3 * c.result.error_ex, "chi %.17g psi %.17g delta1 %.17g gamma %.17g", impact.chi,
+               impact.psi, impact.delta1, impact.gamma);
+    CHECK_NEAR(s.ex, c.result.ex, 1e-5 + 3 * c.result.error_ex, "chi %.17g psi %.17g delta1 %.17g gamma %.17g",
+               impact.chi, impact.psi, impact.delta1, impact.gamma);
+}
+
+static void slip_passes_through_a_contact_that_relaxes_at_once(void **state)
+{
+    uint64_t random = 3;
+    (void)state;
+    for (int i = 0; i < impacts; i++)
+        compare(blocked_impact(&random));
+}
+
+static void strong_friction_leaves_thin_rings_of_slip(void **state)
+{
+    uint64_t random = 4;
+    (void)state;
+    for (int i = 0; i < impacts; i++)
+        compare(thin_impact(&random, 1e-3));
+    compare(impact_of(1.106, 2.4e-5, 0.124, 0.2997));
+    compare(impact_of(1.106, 2.6e-5, 0.124, 0.2997));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slip_passes_through_a_contact_that_relaxes_at_once),
+        cmocka_unit_test(strong_friction_leaves_thin_rings_of_slip),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,89 @@
+/* The method `sync` where slip is hard to follow (corners.h), compared with itself at its smallest tolerance;
+ * test_cvode_corners.c compares that with the method `cvode`.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/corners.h"
+#include "../support/sync.h"
+
+enum { impacts = 240, tolerances = 4 };
+
+static const double tolerance_of[tolerances] = {1e-3, 1e-4, 1e-5, 1e-6};
+
+/* Of impacts that end with OK: beyond the tolerance, beyond three of them, beyond the estimate, beyond ten of it. */
+struct count {
+    int missed, far, low, far_too_low;
+};
+
+/* One impact, against the same at 1e-8, whose estimate is taken as its error. */
+static void judge(restitute_impact impact, double tolerance, struct count *count)
+{
+    const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
+    const struct solution s = solve_impact(sync_to(tolerance), impact);
+    const double z = certain_error(s.result.ez, fine.ez, fine.error_ez);
+    const double x = certain_error(s.result.ex, fine.ex, fine.error_ex);
+    const double error = s.status == RESTITUTE_OK ? fmax(z, x) : 0;
+    const double low = fmax(z / s.result.error_ez, x / s.result.error_ex);
+    CHECK(estimate_keeps_tolerance(&s, tolerance) && isfinite(s.result.ez) && isfinite(s.result.ex), "status %d",
+          s.status);
+    CHECK(fine.error_ez < 1e-7 && fine.error_ex < 3e-7, "reference: %g, %g", fine.error_ez, fine.error_ex);
+    count->missed += error > tolerance;
+    count->far += error > 3 * tolerance;
+    count->low += low > 1;
+    count->far_too_low += low > 10;
+    if (error > 3 * tolerance || low > 10)
+        print_error("at %g: chi %.17g psi %.17g delta1 %.17g gamma %.17g: errors %g, %g; estimates %g, %g\n", tolerance,
+                    impact.chi, impact.psi, impact.delta1, impact.gamma, z, x, s.result.error_ez, s.result.error_ex);
+}
+
+/* As for all impacts an estimate may be too low in one of twenty, give or take twice the scatter of so few, and few of
+ * these lie near the tolerance. */
+static void check_count(struct count c)
+{
+    CHECK(c.far == 0, "%d of %d beyond three tolerances", c.far, impacts);
+    CHECK(c.missed <= impacts / 50, "%d of %d beyond the tolerance", c.missed, impacts);
+    CHECK(c.far_too_low == 0, "%d of %d estimates ten times too low", c.far_too_low, impacts);
+    CHECK(c.low <= impacts / 20 + 2 * sqrt(impacts / 20), "%d of %d estimates too low", c.low, impacts);
+}
+
+static void slip_passes_through_a_contact_that_relaxes_at_once(void **state)
+{
+    uint64_t random = 1;
+    struct count count = {0};
+    (void)state;
+    for (int i = 0; i < impacts; i++)
+        judge(blocked_impact(&random), tolerance_of[i % tolerances], &count);
+    check_count(count);
+}
+
+static void strong_friction_leaves_thin_rings_of_slip(void **state)
+{
+    uint64_t random = 2;
+    struct count count = {0};
+    (void)state;
+    for (int i = 0; i < impacts; i++) {
+        const double tolerance = tolerance_of[i % tolerances];
+        judge(thin_impact(&random, tolerance), tolerance, &count);
+    }
+    check_count(count);
+    CHECK(count.missed == 0, "%d of %d beyond the tolerance", count.missed, impacts);
+}
+
+/* On both sides of the psi below which slip is left out: slip changes e_x by less than 2 psi. Slip at the edge that began in
+ * the last step before the turning point once weighed as much there as in a ring as wide as a cell. */
+static void leaving_slip_out_changes_little(void **state)
+{
+    (void)state;
+    const double below = solve_impact(sync_to(1e-3), impact_of(1.106, 2.4e-5, 0.124, 0.2997)).result.ex;
+    const double above = solve_impact(sync_to(1e-3), impact_of(1.106, 2.6e-5, 0.124, 0.2997)).result.ex;
+    CHECK_NEAR(below, 0.2312, 1e-3, "without slip");
+    CHECK_NEAR(above, 0.2312, 1e-3, "with slip");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slip_passes_through_a_contact_that_relaxes_at_once),
+        cmocka_unit_test(strong_friction_leaves_thin_rings_of_slip),
+        cmocka_unit_test(leaving_slip_out_changes_little),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
