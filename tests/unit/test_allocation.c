@@ -77,8 +77,9 @@ static void solver_in_use_takes_no_memory(void **state)
             uint64_t random = 11;
             const long before = calls;
             for (int i = 0; i < 30; i++) {
-                const restitute_impact impact = impact_of(random_in(&random, 0.4, 2), random_in(&random, 0.05, 3),
-                                                          random_log(&random, 1e-2, 10), random_log(&random, 1e-1, 10));
+                const double gamma = random_log(&random, 1e-1, 10), delta1 = random_log(&random, 1e-2, 10);
+                const double psi = random_in(&random, 0.05, 3), chi = random_in(&random, 0.4, 2);
+                const restitute_impact impact = impact_of(chi, psi, delta1, gamma);
                 CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, NULL) == RESTITUTE_OK, "impact %d", i);
             }
             CHECK(round == 0 || calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
