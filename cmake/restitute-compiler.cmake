@@ -60,6 +60,20 @@ if(RESTITUTE_SANITIZE)
   add_link_options(${sanitizers})
 endif()
 
+# What Debian asks of programs that read files of others. Fortran calls nothing that could be checked.
+set(RESTITUTE_HARDENED OFF)
+if(RESTITUTE_HARDEN AND NOT RESTITUTE_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$")
+  set(RESTITUTE_HARDENED ON)
+  restitute_accepted_flags(C hardening_flags -fstack-protector-strong)
+  list(APPEND RESTITUTE_C_FLAGS ${hardening_flags} -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+  foreach(flag IN ITEMS relro now)
+    check_linker_flag(C "-Wl,-z,${flag}" RESTITUTE_LINKER_ACCEPTS_${flag})
+    if(RESTITUTE_LINKER_ACCEPTS_${flag})
+      add_link_options("-Wl,-z,${flag}")
+    endif()
+  endforeach()
+endif()
+
 # Flags of our own code for a target, whatever its languages.
 function(restitute_common_flags target)
   target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:C>:${RESTITUTE_C_FLAGS}>"
