@@ -52,9 +52,26 @@ endif()
 if(RESTITUTE_SANITIZE)
   set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   list(APPEND RESTITUTE_C_FLAGS ${sanitizers})
-  list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
-  list(APPEND RESTITUTE_FORTRAN_PROGRAM_FLAGS ${sanitizers})
+  # Each family of compilers brings a run-time library of its own: with another one than gfortran's, C alone is watched.
+  if(CMAKE_C_COMPILER_ID STREQUAL CMAKE_Fortran_COMPILER_ID)
+    list(APPEND RESTITUTE_FORTRAN_FLAGS ${sanitizers})
+    list(APPEND RESTITUTE_FORTRAN_PROGRAM_FLAGS ${sanitizers})
+  endif()
   add_link_options(${sanitizers})
+endif()
+
+# What Debian asks of programs that read files of others. Fortran calls nothing that could be checked.
+set(RESTITUTE_HARDENED OFF)
+if(RESTITUTE_HARDEN AND NOT RESTITUTE_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$")
+  set(RESTITUTE_HARDENED ON)
+  restitute_accepted_flags(C hardening_flags -fstack-protector-strong)
+  list(APPEND RESTITUTE_C_FLAGS ${hardening_flags} -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+  foreach(flag IN ITEMS relro now)
+    check_linker_flag(C "-Wl,-z,${flag}" RESTITUTE_LINKER_ACCEPTS_${flag})
+    if(RESTITUTE_LINKER_ACCEPTS_${flag})
+      add_link_options("-Wl,-z,${flag}")
+    endif()
+  endforeach()
 endif()
 
 # Flags of our own code for a target, whatever its languages.

@@ -84,7 +84,14 @@ if(RESTITUTE_WITH_COMMAND)
   install(FILES "${PROJECT_SOURCE_DIR}/docs/restitute.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()
 
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
+# With FFTW the binaries are under its licence.
+file(READ "${PROJECT_SOURCE_DIR}/LICENSE" copyright)
+if(RESTITUTE_WITH_BEM)
+  file(READ "${PROJECT_SOURCE_DIR}/cmake/copyright-bem" copyright_bem)
+  string(APPEND copyright "\n${copyright_bem}")
+endif()
+file(WRITE "${PROJECT_BINARY_DIR}/cmake/copyright" "${copyright}")
+install(FILES "${PROJECT_BINARY_DIR}/cmake/copyright" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 configure_package_config_file(cmake/restitute-config.cmake.in cmake/restitute-config.cmake

@@ -122,8 +122,8 @@ static enum bem_end run_once(struct impact *impact, double elements, double step
     for (;;) {
         *setup = setup_of(impact, elements, step / impact->halved, 0);
         setup->keep_ledger = keep_ledger;
-        bem_solid_step(setup->step, impact->method->variant.explicit_euler, &impact->solid);
-        bem_run(setup, impact->memory, NULL, run);
+        rst_bem_solid_step(setup->step, impact->method->variant.explicit_euler, &impact->solid);
+        rst_bem_run(setup, impact->memory, NULL, run);
         impact->updates += run->updates;
         if (run->end == BEM_OUTGREW && ++outgrown < most_tries)
             impact->box.radius *= 1.1;
@@ -146,23 +146,23 @@ static int begin(const struct rst_problem *problem, struct rst_workspace *worksp
     if (problem->elements > most_elements)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: must be in [4, %d] with the method bem",
                           (long long)problem->elements, most_elements);
-    impact->memory = bem_memory_of(workspace);
-    double *terms = impact->memory ? bem_memory_terms(impact->memory, 4 * n) : NULL;
+    impact->memory = rst_bem_memory_of(workspace);
+    double *terms = impact->memory ? rst_bem_memory_terms(impact->memory, 4 * n) : NULL;
     if (!terms) return out_of_memory(error);
     impact->solid =
         (struct bem_solid){.compliance = terms, .lambda = terms + n, .decay = terms + 2 * n, .gain = terms + 3 * n};
     double shortest, longest;
-    bem_solid_creep(&problem->solid, &impact->solid);
-    bem_guess_times(&problem->solid, &shortest, &longest);
-    bem_solid_prune(shortest, longest, &impact->solid);
+    rst_bem_solid_creep(&problem->solid, &impact->solid);
+    rst_bem_guess_times(&problem->solid, &shortest, &longest);
+    rst_bem_solid_prune(shortest, longest, &impact->solid);
     return RESTITUTE_OK;
 }
 
 static int find_box(struct impact *impact, restitute_error *error)
 {
-    const enum bem_end end = bem_find_box(impact->problem, &impact->solid, impact->memory, &impact->box);
+    const enum bem_end end = rst_bem_find_box(impact->problem, &impact->solid, impact->memory, &impact->box);
     if (end == BEM_REBOUND) {
-        bem_solid_prune(duration_of(impact), duration_of(impact), &impact->solid);
+        rst_bem_solid_prune(duration_of(impact), duration_of(impact), &impact->solid);
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
@@ -386,7 +386,7 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
     struct bem_motion q = *motion;
     const int64_t intervals = (int64_t)s->history->capacity - 1, steps = s->outcome->steps;
     const int64_t wanted = (int64_t)s->history->count * steps / intervals; /* the step of the next sample */
-    if (s->recorder && bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
+    if (s->recorder && rst_bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
     if (s->history->count == s->history->capacity || run->steps < wanted) return;
     if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step; from there on it flew */
         q.depth -= q.velocity * (q.time - s->outcome->contact_time);
@@ -406,17 +406,17 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     struct sampler sampler = {
         .observer = {.see = see}, .outcome = outcome, .history = history, .recorder = impact.method->recorder};
     impact.box.time = outcome->followed_time;
-    bem_solid_prune(outcome->followed_time, outcome->followed_time, &impact.solid);
-    bem_solid_step(outcome->step, impact.method->variant.explicit_euler, &impact.solid);
+    rst_bem_solid_prune(outcome->followed_time, outcome->followed_time, &impact.solid);
+    rst_bem_solid_step(outcome->step, impact.method->variant.explicit_euler, &impact.solid);
     const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
     history->count = 0;
-    if (sampler.recorder) bem_recorder_begin(sampler.recorder);
+    if (sampler.recorder) rst_bem_recorder_begin(sampler.recorder);
     add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi});
-    bem_run(&setup, impact.memory, &sampler.observer, &run);
+    rst_bem_run(&setup, impact.memory, &sampler.observer, &run);
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }
 
-const struct restitute_method bem_base_method = {
+const struct restitute_method rst_bem_base_method = {
     .name = "bem", .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record};
 
 #define BASE(its_name)                                                                                                 \

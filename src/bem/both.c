@@ -29,13 +29,13 @@ static int solve_x(struct bem_stepper *s, int no_slip, double residual)
 {
     struct bem_fields *f = &s->f;
     const int64_t cells = f->m * f->m;
-    bem_plane_convolve(s->near->plane, BEM_X_FROM_Y, f->m, f->tau_y, f->cross);
+    rst_bem_plane_convolve(s->near->plane, BEM_X_FROM_Y, f->m, f->tau_y, f->cross);
     for (int64_t i = 0; i < cells; i++) {
         f->high[i] = no_slip && f->p_new[i] > 0 ? DBL_MAX : beside(f->p_new[i], f->tau_y[i]);
         f->low[i] = -f->high[i];
         f->target[i] = f->full_x[i] - f->cross[i];
     }
-    if (bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new)) return 1;
+    if (rst_bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new)) return 1;
     for (int64_t i = 0; i < cells; i++) {
         f->total_x[i] = f->f_new[i] + f->cross[i];
         f->slips[i] = f->p_new[i] > 0 && (f->tau_new[i] >= f->high[i] || f->tau_new[i] <= f->low[i]); /* slips */
@@ -49,7 +49,7 @@ static double solve_y(struct bem_stepper *s, int no_slip, double residual)
     struct bem_fields *f = &s->f;
     const int64_t cells = f->m * f->m;
     double change = 0;
-    bem_plane_convolve(s->near->plane, BEM_Y_FROM_X, f->m, f->tau_new, f->cross);
+    rst_bem_plane_convolve(s->near->plane, BEM_Y_FROM_X, f->m, f->tau_new, f->cross);
     for (int64_t i = 0; i < cells; i++) {
         const double v_x = f->full_x[i] - f->total_x[i], v_y = f->full_y[i] - f->total_y[i], v = hypot(v_x, v_y);
         f->high[i] = no_slip && f->p_new[i] > 0 ? DBL_MAX
@@ -60,7 +60,7 @@ static double solve_y(struct bem_stepper *s, int no_slip, double residual)
         f->target[i] = f->full_y[i] - f->cross[i];
         f->total_y[i] = f->tau_y[i]; /* for the change */
     }
-    if (bem_solve_target(s, (enum bem_kind)BEM_SHEAR_Y, f->resistance, residual, f->tau_y)) return -1;
+    if (rst_bem_solve_target(s, (enum bem_kind)BEM_SHEAR_Y, f->resistance, residual, f->tau_y)) return -1;
     for (int64_t i = 0; i < cells; i++) {
         change = fmax(change, fabs(f->tau_y[i] - f->total_y[i]));
         f->total_y[i] = f->f_new[i] - f->resistance[i] * f->tau_y[i] + f->cross[i];
@@ -100,14 +100,14 @@ static void finish(struct bem_stepper *s, double shift)
     s->motion.stick = stick * s->cell * s->setup->spacing;
 }
 
-enum bem_end bem_solve_both(struct bem_stepper *s, double shift)
+enum bem_end rst_bem_solve_both(struct bem_stepper *s, double shift)
 {
     struct bem_fields *f = &s->f;
     const struct bem_solid *solid = s->solid;
     const int64_t m = f->m;
     const int no_slip = s->setup->problem->mode == RST_NO_SLIP;
     const double residual = closeness * fmin(1, s->setup->problem->psi) / solid->c;
-    if (!s->near->plane && !(s->near->plane = bem_plane_create(m))) return BEM_NO_MEMORY;
+    if (!s->near->plane && !(s->near->plane = rst_bem_plane_create(m))) return BEM_NO_MEMORY;
     rst_bem_recall(m, m, solid->n_terms, solid->decay, f->b_x, solid->held, f->drift_x, f->f_x, f->h);
     rst_bem_recall(m, m, solid->n_terms, solid->decay, f->b_y, solid->held, f->drift_y, f->f_y, f->h_y);
     rst_bem_shear_target(m, m, shift, solid->c, f->anchor, f->h, f->full_x);

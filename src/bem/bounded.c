@@ -8,7 +8,7 @@
 
 static void convolve(struct bem_bounded *b, const double *x, double *u)
 {
-    bem_convolve(b->transform, b->kind, b->ld, x, u);
+    rst_bem_convolve(b->transform, b->kind, b->ld, x, u);
     for (int64_t j = 0; b->diagonal && j < b->transform->m; j++)
         for (int64_t i = j * b->ld; i < j * b->ld + b->transform->m; i++)
             u[i] += b->diagonal[i] * x[i];
@@ -19,13 +19,13 @@ static void convolve(struct bem_bounded *b, const double *x, double *u)
  * not smooth. */
 static void precondition(struct bem_bounded *b)
 {
-    bem_precondition(b->transform, b->kind, b->ld, b->r, b->z);
+    rst_bem_precondition(b->transform, b->kind, b->ld, b->r, b->z);
     for (int64_t j = 0; b->diagonal && j < b->transform->m; j++)
         for (int64_t i = j * b->ld; i < j * b->ld + b->transform->m; i++)
             b->z[i] /= 1 + b->diagonal[i];
 }
 
-int bem_solve_bounded(struct bem_bounded *b)
+int rst_bem_solve_bounded(struct bem_bounded *b)
 {
     const int64_t ld = b->ld, m = b->transform->m;
     double rz = 0;

@@ -22,6 +22,6 @@ struct bem_bounded {
 };
 
 /* Nonzero: not settled within most_iterations. */
-int bem_solve_bounded(struct bem_bounded *b);
+int rst_bem_solve_bounded(struct bem_bounded *b);
 
 #endif

@@ -19,10 +19,10 @@ enum { most_tries = 60, most_iterations = 60 };
 
 static double guess_depth(const struct rst_solid *solid)
 {
-    const double first = bem_solid_modulus(solid, 0);
+    const double first = rst_bem_solid_modulus(solid, 0);
     double depth = pow(first, -0.4);
     for (int i = 0; i < most_iterations; i++) /* up to 100 times as deep: a solid that flows would have no end */
-        depth = pow(fmax(bem_solid_modulus(solid, depth), 1e-5 * first), -0.4);
+        depth = pow(fmax(rst_bem_solid_modulus(solid, depth), 1e-5 * first), -0.4);
     return depth;
 }
 
@@ -33,7 +33,7 @@ static void settle_time(const struct bem_run *run, struct bem_box *box)
     box->time = box->sinks ? INFINITY : run->contact_time;
 }
 
-void bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest)
+void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest)
 {
     const double time = 2.94 * guess_depth(solid);
     *shortest = time / far_off;
@@ -41,8 +41,8 @@ void bem_guess_times(const struct rst_solid *solid, double *shortest, double *lo
 }
 
 /* By the steps of second order, whatever the variant: explicit ones may need so many that no search ends. */
-int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
-                 struct bem_box *box)
+int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
+                     struct bem_box *box)
 {
     const double depth = guess_depth(&problem->solid);
     double side = generous * sqrt(depth), step = 2.94 * depth / (double)coarse_steps;
@@ -56,8 +56,8 @@ int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, str
                                         .step = step,
                                         .rest_speed = 1e-4,
                                         .most_steps = 30 * coarse_steps};
-        bem_solid_step(step, 0, solid);
-        bem_run(&setup, memory, NULL, &run);
+        rst_bem_solid_step(step, 0, solid);
+        rst_bem_run(&setup, memory, NULL, &run);
         if (run.end == BEM_NO_MEMORY) return run.end;
         box->radius = sqrt(run.max_area / 3.14159265358979323846);
         if (run.end == BEM_UNSETTLED) {

@@ -12,10 +12,10 @@ struct bem_box {
 };
 
 /* BEM_REBOUND, or why there is no answer; BEM_NO_MEMORY: out of memory. */
-int bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
-                 struct bem_box *box);
+int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
+                     struct bem_box *box);
 
 /* Times between which that of the impact certainly lies. */
-void bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest);
+void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest);
 
 #endif

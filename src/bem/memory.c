@@ -9,13 +9,13 @@ static void release(struct rst_own_memory *own)
 {
     struct bem_memory *memory = (struct bem_memory *)own;
     for (int i = 0; i < BEM_SIZES; i++)
-        bem_transform_destroy(memory->transforms[i]);
+        rst_bem_transform_destroy(memory->transforms[i]);
     fftw_free(memory->block);
     free(memory->terms);
     free(memory);
 }
 
-struct bem_memory *bem_memory_of(struct rst_workspace *workspace)
+struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace)
 {
     if (!workspace->own) {
         struct bem_memory *memory = calloc(1, sizeof *memory);
@@ -26,8 +26,8 @@ struct bem_memory *bem_memory_of(struct rst_workspace *workspace)
     return (struct bem_memory *)workspace->own;
 }
 
-int bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
-                      struct bem_fields *fields)
+int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
+                          struct bem_fields *fields)
 {
     double **single[] = {&fields->p,       &fields->p_before, &fields->p_new,  &fields->tau,        &fields->tau_before,
                          &fields->tau_new, &fields->f_z,      &fields->f_x,    &fields->f_new,      &fields->drift_z,
@@ -61,17 +61,17 @@ int bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int
     return 0;
 }
 
-struct bem_transform *bem_memory_transform(struct bem_memory *memory, int64_t m)
+struct bem_transform *rst_bem_memory_transform(struct bem_memory *memory, int64_t m)
 {
     int i = 0;
     while (i < BEM_SIZES && memory->transforms[i] && memory->transforms[i]->m != m)
         i++;
-    if (i == BEM_SIZES) bem_transform_destroy(memory->transforms[--i]), memory->transforms[i] = NULL;
-    if (!memory->transforms[i]) memory->transforms[i] = bem_transform_create(m);
+    if (i == BEM_SIZES) rst_bem_transform_destroy(memory->transforms[--i]), memory->transforms[i] = NULL;
+    if (!memory->transforms[i]) memory->transforms[i] = rst_bem_transform_create(m);
     return memory->transforms[i];
 }
 
-double *bem_memory_terms(struct bem_memory *memory, size_t count)
+double *rst_bem_memory_terms(struct bem_memory *memory, size_t count)
 {
     if (count > memory->terms_size) {
         double *terms = malloc(count * sizeof *terms);

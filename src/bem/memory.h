@@ -36,16 +36,16 @@ struct bem_memory {
 };
 
 /* That of the workspace, made at first use; NULL: out of memory. */
-struct bem_memory *bem_memory_of(struct rst_workspace *workspace);
+struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace);
 
 /* Fields set to zero; nonzero: out of memory. */
-int bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
-                      struct bem_fields *fields);
+int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
+                          struct bem_fields *fields);
 
 /* Transform of a size, made at first use; NULL: out of memory. */
-struct bem_transform *bem_memory_transform(struct bem_memory *memory, int64_t m);
+struct bem_transform *rst_bem_memory_transform(struct bem_memory *memory, int64_t m);
 
 /* Room for `count` doubles, for terms; NULL: out of memory. */
-double *bem_memory_terms(struct bem_memory *memory, size_t count);
+double *rst_bem_memory_terms(struct bem_memory *memory, size_t count);
 
 #endif

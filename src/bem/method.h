@@ -13,13 +13,13 @@ struct bem_method {
     struct restitute_bem_recorder *recorder; /* NULL: keeps no fields */
 };
 
-extern const struct restitute_method bem_base_method;
+extern const struct restitute_method rst_bem_base_method;
 
 /* A new impact: forget the last one. */
-void bem_recorder_begin(struct restitute_bem_recorder *recorder);
+void rst_bem_recorder_begin(struct restitute_bem_recorder *recorder);
 
 /* Its snapshot of a step, if it is time for one; nonzero: out of memory. */
-int bem_recorder_see(struct restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step,
-                     int64_t steps, const struct bem_motion *motion, const struct bem_fields *fields);
+int rst_bem_recorder_see(struct restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step,
+                         int64_t steps, const struct bem_motion *motion, const struct bem_fields *fields);
 
 #endif

@@ -24,15 +24,15 @@ static fftw_plan plan(int n, double *data, fftw_r2r_kind kind)
 static int make_along(struct bem_plane *p, double *table)
 {
     const int64_t n = p->n;
-    bem_lock_planner();
+    rst_bem_lock_planner();
     const fftw_plan transform = plan((int)n + 1, table, FFTW_REDFT00);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     if (!transform) return 1;
     rst_bem_influence_table(BEM_SHEAR, n, table);
     fftw_execute(transform);
-    bem_lock_planner();
+    rst_bem_lock_planner();
     fftw_destroy_plan(transform);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     for (int64_t l = 0; l < n; l++)
         for (int64_t k = 0; k < n; k++)
             p->along[l * n + k] = table[(k + 1) * (n + 1) + l + 1] / (double)(4 * n * n);
@@ -42,24 +42,24 @@ static int make_along(struct bem_plane *p, double *table)
 static int make_across(struct bem_plane *p, double *table)
 {
     const int64_t n = p->n;
-    bem_lock_planner();
+    rst_bem_lock_planner();
     const fftw_plan transform = plan((int)n - 1, p->room, FFTW_RODFT00);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     if (!transform) return 1;
     rst_bem_influence_table(BEM_CROSS, n, table);
     for (int64_t j = 1; j < n; j++)
         memcpy(p->room + (j - 1) * (n - 1), table + j * (n + 1) + 1, (size_t)(n - 1) * sizeof *table);
     fftw_execute(transform);
-    bem_lock_planner();
+    rst_bem_lock_planner();
     fftw_destroy_plan(transform);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     for (int64_t l = 0; l < n; l++)
         for (int64_t k = 0; k < n; k++) /* nothing at the wave number n */
             p->across[l * n + k] = l < n - 1 && k < n - 1 ? p->room[l * (n - 1) + k] / (double)(4 * n * n) : 0;
     return 0;
 }
 
-struct bem_plane *bem_plane_create(int64_t m)
+struct bem_plane *rst_bem_plane_create(int64_t m)
 {
     struct bem_plane *p = calloc(1, sizeof *p);
     const int64_t n = 2 * m;
@@ -75,29 +75,29 @@ struct bem_plane *bem_plane_create(int64_t m)
     p->across = fftw_alloc_real((size_t)(n * n));
     int failed = !p->room || !p->along || !p->across;
     if (!failed) {
-        bem_lock_planner();
+        rst_bem_lock_planner();
         p->even_forward = plan((int)n, p->room, FFTW_REDFT10);
         p->even_backward = plan((int)n, p->room, FFTW_REDFT01);
         p->odd_forward = plan((int)n, p->room, FFTW_RODFT10);
         p->odd_backward = plan((int)n, p->room, FFTW_RODFT01);
-        bem_unlock_planner();
+        rst_bem_unlock_planner();
         failed = !p->even_forward || !p->even_backward || !p->odd_forward || !p->odd_backward || make_along(p, table) ||
                  make_across(p, table);
     }
     fftw_free(table);
     if (!failed) return p;
-    bem_plane_destroy(p);
+    rst_bem_plane_destroy(p);
     return NULL;
 }
 
-void bem_plane_destroy(struct bem_plane *p)
+void rst_bem_plane_destroy(struct bem_plane *p)
 {
     if (!p) return;
     fftw_plan plans[] = {p->even_forward, p->even_backward, p->odd_forward, p->odd_backward};
-    bem_lock_planner();
+    rst_bem_lock_planner();
     for (int i = 0; i < 4; i++)
         if (plans[i]) fftw_destroy_plan(plans[i]);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     fftw_free(p->room);
     fftw_free(p->along);
     fftw_free(p->across);
@@ -120,7 +120,7 @@ static void exchange(struct bem_plane *p, int to_odd)
             a[l * n + k] = l > 0 && k > 0 ? p->across[(l - 1) * n + k - 1] * a[(l - 1) * n + k - 1] : 0;
 }
 
-void bem_plane_convolve(struct bem_plane *p, enum bem_plane_kind kind, int64_t ld, const double *x, double *u)
+void rst_bem_plane_convolve(struct bem_plane *p, enum bem_plane_kind kind, int64_t ld, const double *x, double *u)
 {
     const int64_t n = p->n, m = p->m;
     memset(p->room, 0, (size_t)(n * n) * sizeof *p->room);

@@ -34,13 +34,13 @@ int restitute_bem_recorder_create(size_t count, restitute_bem_recorder **recorde
     restitute_bem_recorder *r = calloc(1, sizeof *r + count * sizeof *r->snapshots);
     if (!r) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a recorder");
     r->capacity = count;
-    r->method = (struct bem_method){.base = bem_base_method, .recorder = r};
+    r->method = (struct bem_method){.base = rst_bem_base_method, .recorder = r};
     *recorder = r;
     if (error) *error = (restitute_error){.status = RESTITUTE_OK};
     return RESTITUTE_OK;
 }
 
-void bem_recorder_begin(restitute_bem_recorder *recorder)
+void rst_bem_recorder_begin(restitute_bem_recorder *recorder)
 {
     for (size_t i = 0; i < recorder->count; i++)
         free(recorder->snapshots[i].values);
@@ -50,7 +50,7 @@ void bem_recorder_begin(restitute_bem_recorder *recorder)
 void restitute_bem_recorder_destroy(restitute_bem_recorder *recorder)
 {
     if (!recorder) return;
-    bem_recorder_begin(recorder);
+    rst_bem_recorder_begin(recorder);
     free(recorder);
 }
 
@@ -79,8 +79,8 @@ static void unfold(const struct bem_setup *setup, const struct bem_fields *f, do
         }
 }
 
-int bem_recorder_see(restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step, int64_t steps,
-                     const struct bem_motion *motion, const struct bem_fields *fields)
+int rst_bem_recorder_see(restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step, int64_t steps,
+                         const struct bem_motion *motion, const struct bem_fields *fields)
 {
     const size_t cells = 2 * (size_t)fields->m;
     const double wanted = (double)steps * (double)(recorder->count + 1) / (double)(recorder->capacity + 1);

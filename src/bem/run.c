@@ -55,9 +55,9 @@ static void look_back(struct bem_stepper *s, const double *p, const double *tau,
     const int64_t ld = s->f.m, m = s->all->m;
     const double c = s->solid->c;
     rst_bem_normal_target(ld, m, s->setup->spacing, motion->depth, -1, s->f.h, gap);
-    bem_convolve(s->all, BEM_NORMAL, ld, p, s->f.f_new);
+    rst_bem_convolve(s->all, BEM_NORMAL, ld, p, s->f.f_new);
     rst_bem_add_scaled(ld, m, c, s->f.f_new, gap);
-    bem_convolve(s->all, BEM_SHEAR, ld, tau, s->f.f_new);
+    rst_bem_convolve(s->all, BEM_SHEAR, ld, tau, s->f.f_new);
     for (int64_t j = 0; j < m; j++)
         for (int64_t i = j * ld; i < j * ld + m; i++)
             s_field[i] = c * s->f.f_new[i] - pull * motion->shift;
@@ -84,14 +84,14 @@ static int choose_part(struct bem_stepper *s, int64_t least)
     const int64_t m_before = s->near ? s->near->m : 0;
     const int shrinks = growth < 0 && s->motion.contact < 0.98 * s->run->max_area;
     if (m < m_before && !shrinks) m = m_before;
-    s->near = bem_memory_transform(s->memory, m);
+    s->near = rst_bem_memory_transform(s->memory, m);
     if (!s->near) return 1;
     if (m < m_before) {
         double *fields[] = {s->f.p_before, s->f.p_new, s->f.tau_before, s->f.tau_new};
         for (int i = 0; i < 4; i++)
             clear_beyond(s->f.m, m, fields[i]);
     }
-    s->all = is_elastic(s->solid) ? s->near : bem_memory_transform(s->memory, s->f.m);
+    s->all = is_elastic(s->solid) ? s->near : rst_bem_memory_transform(s->memory, s->f.m);
     if (m > m_before && is_elastic(s->solid) && s->run->steps > 0 && !s->setup->normal_only) {
         look_back(s, s->f.p_before, s->f.tau_before, &s->before, s->f.gap_before, s->f.s_before);
         look_back(s, s->f.p, s->f.tau, &s->motion, s->f.gap, s->f.s);
@@ -103,7 +103,7 @@ static int choose_part(struct bem_stepper *s, int64_t least)
 static enum bem_end press(struct bem_stepper *s, double depth, double shift)
 {
     for (;;) {
-        const enum bem_end end = bem_solve_normal(s, depth, shift);
+        const enum bem_end end = rst_bem_solve_normal(s, depth, shift);
         if (end != BEM_OUTGREW || s->near->m == s->f.m) return end;
         if (choose_part(s, s->near->m + s->near->m / 8 + 2)) return BEM_NO_MEMORY;
     }
@@ -131,7 +131,7 @@ static enum bem_end advance(struct bem_stepper *s)
     if (choose_part(s, 0)) return BEM_NO_MEMORY;
     end = press(s, q.depth, q.shift);
     if (end == BEM_REBOUND && !setup->normal_only && setup->problem->mode != RST_FRICTIONLESS)
-        end = setup->variant.both_directions ? bem_solve_both(s, q.shift) : bem_solve_shear(s, q.shift);
+        end = setup->variant.both_directions ? rst_bem_solve_both(s, q.shift) : rst_bem_solve_shear(s, q.shift);
     if (end != BEM_REBOUND) return end;
     q.force = s->motion.force, q.contact = s->motion.contact;
     q.shear_force = s->motion.shear_force, q.stick = s->motion.stick;
@@ -221,14 +221,14 @@ static void follow(struct bem_stepper *s, struct bem_observer *observer)
     }
 }
 
-void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct bem_observer *observer,
-             struct bem_run *run)
+void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct bem_observer *observer,
+                 struct bem_run *run)
 {
     struct bem_stepper s = {.setup = setup, .solid = setup->solid, .memory = memory, .run = run};
     const int both = setup->variant.both_directions && !setup->normal_only;
     *run = (struct bem_run){.end = BEM_NO_MEMORY, .step = setup->step, .ringing = setup->solid->ringing};
-    if (bem_memory_fields(memory, setup->m, setup->solid->n_terms, both, &s.f)) return;
-    if (setup->keep_ledger && !bem_memory_transform(memory, setup->m)) return;
+    if (rst_bem_memory_fields(memory, setup->m, setup->solid->n_terms, both, &s.f)) return;
+    if (setup->keep_ledger && !rst_bem_memory_transform(memory, setup->m)) return;
     run->end = BEM_TOO_LONG;
     s.cell = 4 * setup->spacing;
     s.motion.velocity = 1;
@@ -236,7 +236,7 @@ void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct be
     s.before = s.motion;
     rst_bem_normal_target(setup->m, setup->m, setup->spacing, 0, -1, s.f.h, s.f.gap); /* r^2/2 */
     follow(&s, observer);
-    if (setup->keep_ledger && (run->end == BEM_REBOUND || run->end == BEM_SUNK)) bem_find_left(&s);
+    if (setup->keep_ledger && (run->end == BEM_REBOUND || run->end == BEM_SUNK)) rst_bem_find_left(&s);
     run->last = s.motion;
     scale_work(setup, &run->work);
 }

@@ -62,7 +62,7 @@ struct bem_observer {
                 const struct bem_motion *motion, const struct bem_fields *fields);
 };
 
-void bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct bem_observer *observer,
-             struct bem_run *run);
+void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struct bem_observer *observer,
+                 struct bem_run *run);
 
 #endif

@@ -11,7 +11,7 @@
 
 #include "kernels.h"
 
-void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep)
+void rst_bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep)
 {
     rst_bem_creep_form(relaxation->g_inf, relaxation->n_terms, relaxation->g, relaxation->tau, &creep->instantaneous,
                        &creep->flow, &creep->n_terms, creep->compliance, creep->lambda);
@@ -22,7 +22,7 @@ void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep
  * compliance. */
 static const double negligible = 1e-6;
 
-void bem_solid_prune(double shortest, double longest, struct bem_solid *s)
+void rst_bem_solid_prune(double shortest, double longest, struct bem_solid *s)
 {
     double compliance = s->instantaneous + s->flow * shortest;
     int64_t kept = 0;
@@ -42,7 +42,7 @@ void bem_solid_prune(double shortest, double longest, struct bem_solid *s)
     s->n_terms = kept;
 }
 
-void bem_solid_step(double h, int jumps, struct bem_solid *s)
+void rst_bem_solid_step(double h, int jumps, struct bem_solid *s)
 {
     s->half_flow = s->flow * h / 2;
     s->c = s->instantaneous + s->half_flow;
@@ -61,7 +61,7 @@ void bem_solid_step(double h, int jumps, struct bem_solid *s)
     s->ringing = jumps ? 0 : slow / s->c;
 }
 
-double bem_solid_modulus(const struct rst_solid *relaxation, double t)
+double rst_bem_solid_modulus(const struct rst_solid *relaxation, double t)
 {
     double g = relaxation->g_inf;
     for (int64_t k = 0; k < relaxation->n_terms; k++)

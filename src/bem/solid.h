@@ -18,15 +18,15 @@ struct bem_solid {
 };
 
 /* The arrays of `creep` hold at least the terms of the solid, and at least 1. */
-void bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep);
+void rst_bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep);
 
 /* Leave out terms that no impact of a duration from `shortest` to `longest` can tell from a spring or from nothing. */
-void bem_solid_prune(double shortest, double longest, struct bem_solid *creep);
+void rst_bem_solid_prune(double shortest, double longest, struct bem_solid *creep);
 
 /* For steps of h in which f changes linearly, or (jumps) at their beginning, as in the paper. */
-void bem_solid_step(double h, int jumps, struct bem_solid *creep);
+void rst_bem_solid_step(double h, int jumps, struct bem_solid *creep);
 
 /* Relaxation modulus of the solid at time t, its dashpot left out. */
-double bem_solid_modulus(const struct rst_solid *relaxation, double t);
+double rst_bem_solid_modulus(const struct rst_solid *relaxation, double t);
 
 #endif

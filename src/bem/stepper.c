@@ -10,7 +10,7 @@
 static const double closeness = 1e-6;
 enum { most_iterations = 200 };
 
-int bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double residual, double *x)
+int rst_bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double residual, double *x)
 {
     struct bem_fields *f = &s->f;
     struct bem_bounded b = {.transform = s->near,
@@ -29,7 +29,7 @@ int bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *di
                             .kd = f->kd,
                             .closeness = residual,
                             .most_iterations = most_iterations};
-    const int failed = bem_solve_bounded(&b);
+    const int failed = rst_bem_solve_bounded(&b);
     s->run->iterations += b.iterations;
     s->run->convolutions += b.convolutions;
     s->run->updates += b.convolutions * 4 * s->near->m * s->near->m;
@@ -40,7 +40,7 @@ int bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *di
 static void spread(struct bem_stepper *s, enum bem_kind kind, const double *x)
 {
     if (s->all == s->near) return;
-    bem_convolve(s->all, kind, s->f.m, x, s->f.f_new);
+    rst_bem_convolve(s->all, kind, s->f.m, x, s->f.f_new);
     s->run->convolutions++;
     s->run->updates += 4 * s->all->m * s->all->m;
 }
@@ -52,7 +52,7 @@ static int touches_side(const struct bem_stepper *s)
     return s->f.p_new[m - 1] > 0 || s->f.p_new[(m - 1) * ld] > 0;
 }
 
-enum bem_end bem_solve_normal(struct bem_stepper *s, double depth, double shift)
+enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double shift)
 {
     struct bem_fields *f = &s->f;
     const struct bem_solid *solid = s->solid;
@@ -62,7 +62,7 @@ enum bem_end bem_solve_normal(struct bem_stepper *s, double depth, double shift)
     rst_bem_recall(ld, m, solid->n_terms, solid->decay, f->b_z, solid->held, f->drift_z, f->f_z, f->h);
     rst_bem_normal_target(ld, m, s->setup->spacing, depth, solid->c, f->h, f->target);
     rst_bem_start_normal(ld, s->near->m, f->p, f->p_before, f->p_new, f->low, f->high);
-    if (bem_solve_target(s, BEM_NORMAL, NULL, closeness * depth / solid->c, f->p_new)) return BEM_UNSETTLED;
+    if (rst_bem_solve_target(s, BEM_NORMAL, NULL, closeness * depth / solid->c, f->p_new)) return BEM_UNSETTLED;
     if (touches_side(s)) return BEM_OUTGREW;
     spread(s, BEM_NORMAL, f->p_new);
     const double first_ratio = !(s->run->max_force > 0) && !naive ? shift / depth : -1;
@@ -100,13 +100,13 @@ static int solve_by_stick_sets(struct bem_stepper *s, double residual)
     const int64_t m = s->near->m;
     rst_bem_shear_bounds(f->m, m, 1, f->p_new, f->low, f->high);
     do {
-        if (bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new)) return 1;
+        if (rst_bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new)) return 1;
     } while (s->setup->problem->mode != RST_NO_SLIP && shrink_stick_set(s) > 0);
     rst_bem_shear_bounds(f->m, m, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
     return 0;
 }
 
-enum bem_end bem_solve_shear(struct bem_stepper *s, double shift)
+enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift)
 {
     struct bem_fields *f = &s->f;
     const struct bem_solid *solid = s->solid;
@@ -118,7 +118,7 @@ enum bem_end bem_solve_shear(struct bem_stepper *s, double shift)
     rst_bem_shear_target(ld, near, shift, solid->c, f->anchor, f->h, f->target);
     rst_bem_start_shear(ld, near, f->p, f->tau, f->tau_before, f->high, f->tau_new);
     if (s->setup->variant.stick_sets ? solve_by_stick_sets(s, residual)
-                                     : bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new))
+                                     : rst_bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new))
         return BEM_UNSETTLED;
     spread(s, BEM_SHEAR, f->tau_new);
     rst_bem_settle(ld, m, near, shift, solid->c, f->h, f->f_new, f->p_new, f->tau, f->tau_new, f->low, f->high,
@@ -147,17 +147,17 @@ static double energy_of_terms(struct bem_stepper *s, enum bem_kind kind, const d
         memset(x, 0, (size_t)cells * sizeof *x);
         for (int64_t i = 0; i < cells; i++)
             largest = fmax(largest, fabs(f->target[i]));
-        if (!(largest > 0) || bem_solve_target(s, kind, NULL, 1e-3 * largest, x)) continue;
+        if (!(largest > 0) || rst_bem_solve_target(s, kind, NULL, 1e-3 * largest, x)) continue;
         for (int64_t i = 0; i < cells; i++)
             energy += 0.5 * x[i] * f->target[i] / s->solid->compliance[k];
     }
     return energy * s->cell;
 }
 
-void bem_find_left(struct bem_stepper *s)
+void rst_bem_find_left(struct bem_stepper *s)
 {
     const int64_t updates = s->run->updates; /* those of the impact alone, with a ledger or without */
-    s->near = s->all = bem_memory_transform(s->memory, s->f.m); /* there since the run began */
+    s->near = s->all = rst_bem_memory_transform(s->memory, s->f.m); /* there since the run began */
     s->run->work.left_normal = energy_of_terms(s, BEM_NORMAL, s->f.b_z, s->f.p_new);
     if (!s->setup->normal_only) s->run->work.left_shear = energy_of_terms(s, BEM_SHEAR, s->f.b_x, s->f.tau_new);
     s->run->updates = updates;

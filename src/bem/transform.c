@@ -13,12 +13,12 @@
 /* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing needs no lock. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-void bem_lock_planner(void)
+void rst_bem_lock_planner(void)
 {
     pthread_mutex_lock(&planner);
 }
 
-void bem_unlock_planner(void)
+void rst_bem_unlock_planner(void)
 {
     pthread_mutex_unlock(&planner);
 }
@@ -47,22 +47,22 @@ static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
     c->columns_after = fftw_alloc_complex((size_t)(c->line * n / 2));
     if (!c->twiddles || !c->scratch || !c->rows || !c->columns || !c->rows_after || !c->columns_after) return 1;
     rst_bem_set_twiddles(n, c->twiddles);
-    bem_lock_planner();
+    rst_bem_lock_planner();
     c->row_forward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_FORWARD);
     c->row_backward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_BACKWARD);
     c->column_forward = plan_lines(n, n / 2, c->line, c->columns, c->columns_after, FFTW_FORWARD);
     c->column_backward = plan_lines(n, n / 2, c->line, c->columns_after, c->columns, FFTW_BACKWARD);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     return !c->row_forward || !c->row_backward || !c->column_forward || !c->column_backward;
 }
 
 static void cosine_release(struct bem_cosine *c)
 {
     fftw_plan plans[] = {c->row_forward, c->row_backward, c->column_forward, c->column_backward};
-    bem_lock_planner();
+    rst_bem_lock_planner();
     for (int i = 0; i < 4; i++)
         if (plans[i]) fftw_destroy_plan(plans[i]);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     fftw_free(c->twiddles);
     fftw_free(c->scratch);
     fftw_free(c->rows);
@@ -88,14 +88,14 @@ static void apply(const struct bem_cosine *c, const double *factor, int64_t ld, 
 static int transform_table(enum bem_kind kind, int64_t n, double *table)
 {
     rst_bem_influence_table(kind, n, table);
-    bem_lock_planner();
+    rst_bem_lock_planner();
     fftw_plan plan = fftw_plan_r2r_2d((int)n + 1, (int)n + 1, table, table, FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     if (!plan) return 1;
     fftw_execute(plan);
-    bem_lock_planner();
+    rst_bem_lock_planner();
     fftw_destroy_plan(plan);
-    bem_unlock_planner();
+    rst_bem_unlock_planner();
     return 0;
 }
 
@@ -118,7 +118,7 @@ static double *make_factor(enum bem_kind kind, int64_t n, int invert)
     return factor;
 }
 
-struct bem_transform *bem_transform_create(int64_t m)
+struct bem_transform *rst_bem_transform_create(int64_t m)
 {
     struct bem_transform *t = calloc(1, sizeof *t);
     if (!t) return NULL;
@@ -130,16 +130,16 @@ struct bem_transform *bem_transform_create(int64_t m)
         failed = !t->spectrum[kind] || !t->inverse[kind];
     }
     if (!failed) return t;
-    bem_transform_destroy(t);
+    rst_bem_transform_destroy(t);
     return NULL;
 }
 
-void bem_transform_destroy(struct bem_transform *t)
+void rst_bem_transform_destroy(struct bem_transform *t)
 {
     if (!t) return;
     cosine_release(&t->padded);
     cosine_release(&t->plain);
-    bem_plane_destroy(t->plane);
+    rst_bem_plane_destroy(t->plane);
     for (int kind = 0; kind < 2; kind++) {
         fftw_free(t->spectrum[kind]);
         fftw_free(t->inverse[kind]);
@@ -147,15 +147,15 @@ void bem_transform_destroy(struct bem_transform *t)
     free(t);
 }
 
-void bem_convolve(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *x, double *u)
+void rst_bem_convolve(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *x, double *u)
 {
     if ((int)kind == BEM_SHEAR_Y)
-        bem_plane_convolve(t->plane, BEM_Y_FROM_Y, ld, x, u);
+        rst_bem_plane_convolve(t->plane, BEM_Y_FROM_Y, ld, x, u);
     else
         apply(&t->padded, t->spectrum[kind], ld, x, u);
 }
 
-void bem_precondition(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *r, double *z)
+void rst_bem_precondition(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *r, double *z)
 {
     if ((int)kind == BEM_SHEAR_Y) /* seldom needed: none */
         for (int64_t j = 0; j < t->m; j++)

@@ -22,17 +22,17 @@ struct bem_transform {
 };
 
 /* FFTW plans by one thread at a time. */
-void bem_lock_planner(void);
-void bem_unlock_planner(void);
+void rst_bem_lock_planner(void);
+void rst_bem_unlock_planner(void);
 
 /* A new transform; NULL: out of memory. m: even. */
-struct bem_transform *bem_transform_create(int64_t m);
-void bem_transform_destroy(struct bem_transform *transform);
+struct bem_transform *rst_bem_transform_create(int64_t m);
+void rst_bem_transform_destroy(struct bem_transform *transform);
 
 /* u = K x without images; x and u are m x m in lines of length ld, may be the same. */
-void bem_convolve(struct bem_transform *transform, enum bem_kind kind, int64_t ld, const double *x, double *u);
+void rst_bem_convolve(struct bem_transform *transform, enum bem_kind kind, int64_t ld, const double *x, double *u);
 
 /* z: nearly K^-1 r. */
-void bem_precondition(struct bem_transform *transform, enum bem_kind kind, int64_t ld, const double *r, double *z);
+void rst_bem_precondition(struct bem_transform *transform, enum bem_kind kind, int64_t ld, const double *r, double *z);
 
 #endif

@@ -23,6 +23,14 @@ static const char usage[] =
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
 
+#ifdef RESTITUTE_WITH_BEM
+static const char licence[] =
+    "Licence: BSD-3-Clause. This build links FFTW, which is under the GNU General Public License, version 2 or\n"
+    "later, for the method bem: it can be passed on under that licence only.\n";
+#else
+static const char licence[] = "Licence: BSD-3-Clause.\n";
+#endif
+
 static int run_subcommand(int count, char **arguments)
 {
     struct settings settings;
@@ -53,7 +61,7 @@ int main(int count, char **arguments)
     else if (strcmp(word, "--help") == 0)
         fputs(usage, stdout);
     else if (strcmp(word, "--version") == 0)
-        printf("restitute %s\n", restitute_version());
+        printf("restitute %s\n%s", restitute_version(), licence);
     else
         status =
             *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help",

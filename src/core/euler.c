@@ -35,7 +35,7 @@ struct run {
 };
 
 struct layout {
-    double *g, *tau, *decay, *gain, *stress;                   /* per term */
+    double *g, *tau, *decay, *gain;                            /* per term */
     double *x2, *f, *u, *q, *slip, *move, *q_before, *yz, *yx; /* per element, yz and yx per element and term */
 };
 
@@ -63,17 +63,21 @@ static int64_t capacity_of(int64_t elements)
     return 2 * elements + 8; /* the scout may have underrated the depth, a coarse run may overshoot it */
 }
 
+/* The terms have arrays before the elements have any. */
+static double *array_of_terms(const struct rst_workspace *workspace, size_t number)
+{
+    return workspace->terms + number * (workspace->terms_size / rst_term_arrays);
+}
+
 static struct layout lay_out(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t capacity)
 {
     struct layout l;
     size_t n = (size_t)capacity, terms = (size_t)problem->solid.n_terms;
-    size_t stride = workspace->terms_size / rst_term_arrays;
     double *p = workspace->elements;
     l.g = problem->solid.g;
     l.tau = problem->solid.tau;
-    l.decay = workspace->terms + 2 * stride;
-    l.gain = workspace->terms + 3 * stride;
-    l.stress = workspace->terms + 4 * stride;
+    l.decay = array_of_terms(workspace, 2);
+    l.gain = array_of_terms(workspace, 3);
     double **arrays[] = {&l.x2, &l.f, &l.u, &l.q, &l.slip, &l.move, &l.q_before};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++, p += n)
         *arrays[i] = p;
@@ -85,9 +89,8 @@ static struct layout lay_out(const struct rst_problem *problem, struct rst_works
 static void look_ahead(const struct rst_problem *problem, struct rst_workspace *workspace, struct scout *scout)
 {
     const struct rst_solid *s = &problem->solid;
-    struct layout l = lay_out(problem, workspace, 0);
-    rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem), l.stress,
-                          &scout->depth, &scout->time, &scout->force, &scout->sinks);
+    rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem),
+                          array_of_terms(workspace, 4), &scout->depth, &scout->time, &scout->force, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
     double coupling = 15.0 / 8.0 * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);

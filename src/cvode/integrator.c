@@ -168,8 +168,8 @@ static int set_up(struct integrator *g, double t)
     return status ? status : watch_roots(g);
 }
 
-int integrator_create(const struct integrator_system *system, double t, const double *y, struct integrator **integrator,
-                      char *text, int text_size)
+int rst_integrator_create(const struct integrator_system *system, double t, const double *y,
+                          struct integrator **integrator, char *text, int text_size)
 {
     const size_t roots = system->n_roots > 0 ? (size_t)system->n_roots : 1;
     struct integrator *g = calloc(1, sizeof *g);
@@ -193,13 +193,13 @@ int integrator_create(const struct integrator_system *system, double t, const do
         *integrator = g;
     else {
         snprintf(text, (size_t)text_size, "%s",
-                 status == RESTITUTE_ERROR_MEMORY ? "out of memory for CVODE" : integrator_text(g));
-        integrator_destroy(g);
+                 status == RESTITUTE_ERROR_MEMORY ? "out of memory for CVODE" : rst_integrator_text(g));
+        rst_integrator_destroy(g);
     }
     return status;
 }
 
-void integrator_destroy(struct integrator *g)
+void rst_integrator_destroy(struct integrator *g)
 {
     if (!g) return;
     if (g->cvode) CVodeFree(&g->cvode);
@@ -212,7 +212,7 @@ void integrator_destroy(struct integrator *g)
     free(g);
 }
 
-enum integrator_return integrator_advance(struct integrator *g, double *t, double *y)
+enum integrator_return rst_integrator_advance(struct integrator *g, double *t, double *y)
 {
     const int status = CVode(g->cvode, g->system.horizon + *t, g->y, t, CV_ONE_STEP);
     if (status < 0) return INTEGRATOR_FAILED;
@@ -220,20 +220,20 @@ enum integrator_return integrator_advance(struct integrator *g, double *t, doubl
     return status == CV_ROOT_RETURN ? INTEGRATOR_EVENT : INTEGRATOR_STEP;
 }
 
-const int *integrator_events(struct integrator *g)
+const int *rst_integrator_events(struct integrator *g)
 {
     if (CVodeGetRootInfo(g->cvode, g->events)) memset(g->events, 0, (size_t)g->system.n_roots * sizeof *g->events);
     return g->events;
 }
 
-int integrator_look(struct integrator *g, double t, double *y)
+int rst_integrator_look(struct integrator *g, double t, double *y)
 {
     if (CVodeGetDky(g->cvode, t, 0, g->y)) return 1;
     memcpy(y, NV_DATA_S(g->y), (size_t)g->system.n_states * sizeof *y);
     return 0;
 }
 
-double integrator_reached(struct integrator *g)
+double rst_integrator_reached(struct integrator *g)
 {
     double t = 0;
     CVodeGetCurrentTime(g->cvode, &t);
@@ -251,7 +251,7 @@ static void count(struct integrator *g, int64_t *steps, int64_t *rates, int64_t 
     *roots = n_roots;
 }
 
-int integrator_restart(struct integrator *g, double t, const double *y)
+int rst_integrator_restart(struct integrator *g, double t, const double *y)
 {
     int64_t steps, rates, roots;
     count(g, &steps, &rates, &roots);
@@ -263,7 +263,7 @@ int integrator_restart(struct integrator *g, double t, const double *y)
     return CVodeReInit(g->cvode, t, g->y);
 }
 
-struct integrator_counts integrator_work(struct integrator *g)
+struct integrator_counts rst_integrator_work(struct integrator *g)
 {
     struct integrator_counts work;
     count(g, &work.steps, &work.rates, &work.roots);
@@ -274,12 +274,12 @@ struct integrator_counts integrator_work(struct integrator *g)
     return work;
 }
 
-const char *integrator_text(const struct integrator *g)
+const char *rst_integrator_text(const struct integrator *g)
 {
     return g->text[0] ? g->text : "no message";
 }
 
-const char *integrator_version(void)
+const char *rst_integrator_version(void)
 {
     return SUNDIALS_VERSION;
 }

@@ -32,32 +32,32 @@ struct integrator;
 
 /* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y: the states at t,
  * copied. */
-int integrator_create(const struct integrator_system *system, double t, const double *y, struct integrator **integrator,
-                      char *text, int text_size);
-void integrator_destroy(struct integrator *integrator);
+int rst_integrator_create(const struct integrator_system *system, double t, const double *y,
+                          struct integrator **integrator, char *text, int text_size);
+void rst_integrator_destroy(struct integrator *integrator);
 
 /* One step, or the rest of one up to the next event: t and y, in: where it is, out: where that ends. */
-enum integrator_return integrator_advance(struct integrator *integrator, double *t, double *y);
+enum integrator_return rst_integrator_advance(struct integrator *integrator, double *t, double *y);
 
 /* After EVENT: nonzero entries are the functions that fell through 0. */
-const int *integrator_events(struct integrator *integrator);
+const int *rst_integrator_events(struct integrator *integrator);
 
 /* The states at a time within the last step. Nonzero: it is not in there. */
-int integrator_look(struct integrator *integrator, double t, double *y);
+int rst_integrator_look(struct integrator *integrator, double t, double *y);
 
 /* Where the last step of CVODE itself ends; an event may lie before that. */
-double integrator_reached(struct integrator *integrator);
+double rst_integrator_reached(struct integrator *integrator);
 
 /* Begin anew at t, with another right-hand side. Nonzero: failed. */
-int integrator_restart(struct integrator *integrator, double t, const double *y);
+int rst_integrator_restart(struct integrator *integrator, double t, const double *y);
 
 /* Work since creation. */
-struct integrator_counts integrator_work(struct integrator *integrator);
+struct integrator_counts rst_integrator_work(struct integrator *integrator);
 
 /* CVODE's words on what failed last. */
-const char *integrator_text(const struct integrator *integrator);
+const char *rst_integrator_text(const struct integrator *integrator);
 
 /* Version of SUNDIALS in use. */
-const char *integrator_version(void);
+const char *rst_integrator_version(void);
 
 #endif

@@ -56,7 +56,7 @@ static void post(struct run *run, double from, double to)
     const struct recovery *r = &run->recovery;
     double rate[3];
     const double half = 0.5 * (to - from);
-    run_evaluate(run);
+    rst_run_evaluate(run);
     memcpy(keeper->before_z, keeper->held_z, (size_t)run->scene.n_nodes * sizeof(double));
     memcpy(keeper->before_x, keeper->held_x, (size_t)run->scene.n_nodes * sizeof(double));
     rst_cvode_energy_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->motion, e->shift, e->c,
@@ -102,8 +102,8 @@ static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
     ledger->viscous_x = psi * psi - outcome->shear_velocity * outcome->shear_velocity - ledger->friction_x;
 }
 
-int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
-                 restitute_error *error)
+int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
+                     restitute_error *error)
 {
     struct run_setup all = *setup;
     struct bookkeeper keeper = {.ledger = {0}};
@@ -122,14 +122,14 @@ int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, str
     keeper.held_x = keeper.held_z + all.n_nodes;
     keeper.before_z = keeper.held_x + all.n_nodes;
     keeper.before_x = keeper.before_z + all.n_nodes;
-    const int status = run_follow(&run, &all, &memory->trace, NULL);
+    const int status = rst_run_follow(&run, &all, &memory->trace, NULL);
     add_gross_slip(&all, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
     const double scale = setup->shear_scale * setup->shear_scale; /* of energies */
     keeper.ledger.friction_x *= scale;
     keeper.ledger.viscous_x *= scale;
     keeper.ledger.left_x *= scale;
     if (status == RESTITUTE_OK) outcome->ledger = keeper.ledger;
-    run_release(&run);
+    rst_run_release(&run);
     free(keeper.held_z);
     return status ? rst_report(error, status, "%s", run.text) : RESTITUTE_OK;
 }

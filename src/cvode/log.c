@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-int log_add(struct event_log *log, const restitute_cvode_event *event)
+int rst_log_add(struct event_log *log, const restitute_cvode_event *event)
 {
     if (log->count == log->capacity) {
         const size_t capacity = log->capacity ? 2 * log->capacity : 256;
@@ -17,7 +17,7 @@ int log_add(struct event_log *log, const restitute_cvode_event *event)
     return 0;
 }
 
-void log_release(struct event_log *log)
+void rst_log_release(struct event_log *log)
 {
     free(log->event);
     *log = (struct event_log){0};

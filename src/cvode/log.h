@@ -11,8 +11,8 @@ struct event_log {
 };
 
 /* Nonzero: no memory. */
-int log_add(struct event_log *log, const restitute_cvode_event *event);
+int rst_log_add(struct event_log *log, const restitute_cvode_event *event);
 
-void log_release(struct event_log *log);
+void rst_log_release(struct event_log *log);
 
 #endif

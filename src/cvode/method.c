@@ -9,8 +9,8 @@
 static void release(struct rst_own_memory *own)
 {
     struct cvode_memory *memory = (struct cvode_memory *)own;
-    trace_release(&memory->trace);
-    log_release(&memory->log);
+    rst_trace_release(&memory->trace);
+    rst_log_release(&memory->log);
     free(memory);
 }
 
@@ -32,14 +32,14 @@ static int solve_with(const enum integrator_family *family, const struct rst_pro
                       restitute_error *error)
 {
     if (reserve(problem->tolerance, workspace)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    return cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);
+    return rst_cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);
 }
 
 static int record_with(const enum integrator_family *family, const struct rst_problem *problem,
                        struct rst_workspace *workspace, const struct rst_outcome *outcome, struct rst_history *history,
                        restitute_error *error)
 {
-    return cvode_record(problem, (struct cvode_memory *)workspace->own, family, outcome, history, error);
+    return rst_cvode_record(problem, (struct cvode_memory *)workspace->own, family, outcome, history, error);
 }
 
 /* A method object with its two functions. */
@@ -82,5 +82,5 @@ const restitute_method *restitute_method_cvode_adams(void)
 
 const char *restitute_cvode_sundials_version(void)
 {
-    return integrator_version();
+    return rst_integrator_version();
 }

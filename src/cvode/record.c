@@ -20,11 +20,11 @@ static void keep(struct run *run, double t, const double *y)
         (struct rst_sample){.time = t,
                             .indentation = y[0],
                             .contact_radius = run->contact.radius,
-                            .stick_radius = run_stick_radius(run),
+                            .stick_radius = rst_run_stick_radius(run),
                             .normal_force = 15.0 / 8 * run->contact.force,
                             .shear_force = 15.0 / 8 * force * run->setup->shear_scale,
-                            .velocity = run_velocity(run, y),
-                            .shear_velocity = run_shear_velocity(run, y) / recorder->psi};
+                            .velocity = rst_run_velocity(run, y),
+                            .shear_velocity = rst_run_shear_velocity(run, y) / recorder->psi};
 }
 
 static void sample(struct run *run)
@@ -34,15 +34,16 @@ static void sample(struct run *run)
     while (history->count + 1 < history->capacity) {
         const double t = (double)history->count * recorder->interval;
         const double *y;
-        if (t > run->time || run_look(run, t, &y)) return;
+        if (t > run->time || rst_run_look(run, t, &y)) return;
         keep(run, t, y);
     }
 }
 
-int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
-                 const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
+                     const enum integrator_family *family, const struct rst_outcome *outcome,
+                     struct rst_history *history, restitute_error *error)
 {
-    struct run_setup setup = cvode_setup(problem, family);
+    struct run_setup setup = rst_cvode_setup(problem, family);
     struct recorder recorder = {.history = history, .psi = setup.psi};
     struct run run = {.sample = sample, .observer = &recorder};
     const double *y;
@@ -54,8 +55,8 @@ int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
     setup.budget = INT64_MAX;
     history->samples[0] = (struct rst_sample){.velocity = 1, .shear_velocity = 1};
     history->count = 1;
-    const int status = run_follow(&run, &setup, &memory->trace, NULL);
-    if (!status && run_look(&run, run.time, &y) == 0) keep(&run, run.time, y);
-    run_release(&run);
+    const int status = rst_run_follow(&run, &setup, &memory->trace, NULL);
+    if (!status && rst_run_look(&run, run.time, &y) == 0) keep(&run, run.time, y);
+    rst_run_release(&run);
     return status ? rst_report(error, status, "%s", run.text) : RESTITUTE_OK;
 }

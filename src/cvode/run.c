@@ -41,14 +41,14 @@ static size_t position_of_shear(const struct cvode_scene *scene)
     return 2 + 2 * (size_t)scene->n_terms;
 }
 
-double run_velocity(const struct run *run, const double *y)
+double rst_run_velocity(const struct run *run, const double *y)
 {
     (void)run;
     return y[1];
 }
 
 /* While all slips, U' follows from D' (27); without friction it does not change. */
-double run_shear_velocity(const struct run *run, const double *y)
+double rst_run_shear_velocity(const struct run *run, const double *y)
 {
     const struct run_setup *s = run->setup;
     if (run->shears) return y[position_of_shear(&run->scene) + 1];
@@ -56,7 +56,7 @@ double run_shear_velocity(const struct run *run, const double *y)
     return s->psi - 2 * s->chi * (1 - y[1]);
 }
 
-double run_stick_radius(const struct run *run)
+double rst_run_stick_radius(const struct run *run)
 {
     const struct elements *e = &run->elements;
     int64_t i = run->inside;
@@ -159,10 +159,16 @@ static void call_weights(void *owner, const double *y, double *weight)
 
 /* ------------------------------------------------------------------------------------------------ memory */
 
-static double *take(double **block, int64_t count)
+/* What is taken of a block; without one it is only counted. */
+struct taken {
+    double *block;
+    int64_t count;
+};
+
+static double *take(struct taken *taken, int64_t count)
 {
-    double *start = *block;
-    *block += count;
+    double *start = taken->block ? taken->block + taken->count : NULL;
+    taken->count += count;
     return start;
 }
 
@@ -171,7 +177,7 @@ static int64_t lay_out(struct run *run, double *block)
     struct elements *e = &run->elements;
     struct recovery *r = &run->recovery;
     const int64_t n = run->setup->n_nodes, k = run->scene.n_terms, m = run->scene.n_modes, states = 4 + 3 * k;
-    double *place = block;
+    struct taken place = {block, 0};
     e->x = take(&place, n);
     e->entry = take(&place, n);
     e->shift = take(&place, n);
@@ -194,7 +200,7 @@ static int64_t lay_out(struct run *run, double *block)
     run->start_rate = take(&place, states);
     run->look = take(&place, states);
     run->scratch = take(&place, states);
-    return place - block;
+    return place.count;
 }
 
 static int fail(struct run *run, int status, const char *text)
@@ -211,7 +217,7 @@ static void place_elements(struct run *run)
     double *past = run->look; /* holds more than that */
     for (int64_t i = 0; i < n; i++) {
         e->x[i] = run->setup->radius * sin(asin(1.0) * (double)i / (double)n);
-        e->entry[i] = i > 0 ? trace_time(run->trace, e->x[i] * e->x[i]) : 0;
+        e->entry[i] = i > 0 ? rst_trace_time(run->trace, e->x[i] * e->x[i]) : 0;
         e->motion[i] = RST_ELEMENT_STICKS;
         rst_cvode_past(&run->scene, run->trace->knot, run->trace->memory, e->entry[i], past);
         for (int64_t k = 0; k < terms; k++)
@@ -242,7 +248,7 @@ static int prepare(struct run *run)
         return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     lay_out(run, run->doubles);
     if (n == 0) {
-        trace_begin(run->trace, k);
+        rst_trace_begin(run->trace, k);
         return RESTITUTE_OK;
     }
     place_elements(run);
@@ -255,25 +261,25 @@ static int prepare(struct run *run)
 static void count_work(struct run *run)
 {
     if (!run->integrator) return;
-    const struct integrator_counts work = integrator_work(run->integrator);
+    const struct integrator_counts work = rst_integrator_work(run->integrator);
     const int64_t inside = run->shears ? run->setup->n_nodes : 1;
     run->work.steps += work.steps;
     run->work.restarts += work.restarts;
     run->work.rates += work.rates;
     run->work.roots += work.roots;
     run->updates += (work.rates + work.roots) * inside * (1 + run->scene.n_terms);
-    integrator_destroy(run->integrator);
+    rst_integrator_destroy(run->integrator);
     run->integrator = NULL;
 }
 
 static int64_t spent(const struct run *run)
 {
-    const struct integrator_counts work = integrator_work(run->integrator);
+    const struct integrator_counts work = rst_integrator_work(run->integrator);
     const int64_t inside = run->shears ? run->setup->n_nodes : 1;
     return run->updates + (work.rates + work.roots) * inside * (1 + run->scene.n_terms);
 }
 
-void run_release(struct run *run)
+void rst_run_release(struct run *run)
 {
     count_work(run);
     free(run->doubles); /* run->y is gone with it */
@@ -298,7 +304,7 @@ static int integrate_from(struct run *run)
                                              .newton = call_newton,
                                              .weights = call_weights,
                                              .owner = run};
-    return integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
+    return rst_integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
 /* ------------------------------------------------------------------------------------------------ elements */
@@ -322,7 +328,7 @@ static int admit(struct run *run, double t)
         const double entry = fmax(e->entry[i], run->scene.step_start);
         const double *y = run->start_y;
         if (entry > run->scene.step_start) {
-            if (integrator_look(run->integrator, entry, run->look)) return 1;
+            if (rst_integrator_look(run->integrator, entry, run->look)) return 1;
             y = run->look;
         }
         run->scene.n_entered++;
@@ -387,10 +393,10 @@ static int note(struct run *run, int kind, double position, int elements)
                                          .position = position,
                                          .indentation = run->y[0],
                                          .normal_velocity = run->y[1],
-                                         .tangential_velocity = run_shear_velocity(run, run->y),
+                                         .tangential_velocity = rst_run_shear_velocity(run, run->y),
                                          .kind = kind,
                                          .elements = elements};
-    return log_add(run->log, &event) ? fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for events") : RESTITUTE_OK;
+    return rst_log_add(run->log, &event) ? fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for events") : RESTITUTE_OK;
 }
 
 /* How much U' has suffered from elements that have stuck since now, over a weight of contact, until the end of CVODE's
@@ -398,11 +404,11 @@ static int note(struct run *run, int kind, double position, int elements)
 static double suffered(struct run *run, double weight)
 {
     const struct rst_solid *s = &run->setup->solid;
-    const double reached = integrator_reached(run->integrator), late = reached - run->time;
+    const double reached = rst_integrator_reached(run->integrator), late = reached - run->time;
     double stiffness = s->g_inf;
     for (int64_t k = 0; k < s->n_terms; k++)
         stiffness += s->g[k];
-    if (late <= 0 || integrator_look(run->integrator, reached, run->look)) return 0;
+    if (late <= 0 || rst_integrator_look(run->integrator, reached, run->look)) return 0;
     const double *now = run->y, *then = run->look;
     const size_t v = position_of_shear(&run->scene) + 1;
     const double slip =
@@ -476,8 +482,8 @@ static int change_motion(struct run *run, int *restart)
 static int restart(struct run *run)
 {
     begin_step(run);
-    if (integrator_restart(run->integrator, run->time, run->y) == 0) return RESTITUTE_OK;
-    return fail(run, RESTITUTE_ERROR_INTEGRATOR, integrator_text(run->integrator));
+    if (rst_integrator_restart(run->integrator, run->time, run->y) == 0) return RESTITUTE_OK;
+    return fail(run, RESTITUTE_ERROR_INTEGRATOR, rst_integrator_text(run->integrator));
 }
 
 static int end_contact(struct run *run)
@@ -504,7 +510,7 @@ static int turn(struct run *run)
 
 static int react(struct run *run, int64_t first)
 {
-    const int *fell = integrator_events(run->integrator);
+    const int *fell = rst_integrator_events(run->integrator);
     int status = RESTITUTE_OK, again = 0;
     evaluate(run, run->time, run->y, run->scratch);
     if (fell[ROOT_ENTRY]) {
@@ -545,11 +551,11 @@ static int extend_trace(struct run *run, double from)
         const double t = i < parts ? from + (run->time - from) * i / parts : run->time;
         const double *y = run->y;
         if (i < parts) {
-            if (integrator_look(run->integrator, t, run->look))
+            if (rst_integrator_look(run->integrator, t, run->look))
                 return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
             y = run->look;
         }
-        if (trace_add(run->trace, t, y[0], y[1], y + 2))
+        if (rst_trace_add(run->trace, t, y[0], y[1], y + 2))
             return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for the trace");
     }
     return RESTITUTE_OK;
@@ -589,8 +595,8 @@ static int advance(struct run *run)
 {
     const double from = run->time;
     const int64_t first = run->scene.n_entered;
-    const enum integrator_return what = integrator_advance(run->integrator, &run->time, run->y);
-    if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, integrator_text(run->integrator));
+    const enum integrator_return what = rst_integrator_advance(run->integrator, &run->time, run->y);
+    if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, rst_integrator_text(run->integrator));
     if (run->sample) run->sample(run);
     if (run->shears && admit(run, run->time))
         return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
@@ -610,7 +616,7 @@ static int check_work(struct run *run)
         snprintf(run->text, sizeof run->text,
                  "an event storm: %lld events of %lld elements, which change between stick and slip without end",
                  (long long)run->event_count, (long long)s->n_nodes);
-    else if (integrator_work(run->integrator).steps > s->most_steps)
+    else if (rst_integrator_work(run->integrator).steps > s->most_steps)
         snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
     else if (spent(run) > s->budget) {
         run->spent = 1;
@@ -621,7 +627,7 @@ static int check_work(struct run *run)
     return RESTITUTE_ERROR_TOO_MUCH_WORK;
 }
 
-int run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)
+int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)
 {
     run->setup = setup;
     run->trace = trace;
@@ -636,7 +642,7 @@ int run_follow(struct run *run, const struct run_setup *setup, struct trace *tra
     const int slides_on = setup->mode == RST_GROSS_SLIP && (2 * setup->chi <= 1 || setup->psi >= psi_c);
     if (friction && setup->mode == RST_GROSS_SLIP && !slides_on)
         run->slip_end = (2 * setup->chi - setup->psi) / (2 * setup->chi - 1);
-    if (setup->n_nodes == 0 && trace_add(trace, 0, 0, 1, run->y + 2))
+    if (setup->n_nodes == 0 && rst_trace_add(trace, 0, 0, 1, run->y + 2))
         return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (setup->n_nodes > 0) status = note(run, RESTITUTE_EVENT_ENTRY, 0, 1);
     if (status) return status;
@@ -647,19 +653,19 @@ int run_follow(struct run *run, const struct run_setup *setup, struct trace *tra
         if (!status && is_lost(run)) run->ended = run->sunk = 1;
     }
     run->end_velocity = run->y[1];
-    run->end_shear_velocity = run_shear_velocity(run, run->y);
+    run->end_shear_velocity = rst_run_shear_velocity(run, run->y);
     run->depth = run->y[0];
     return status;
 }
 
-void run_evaluate(struct run *run)
+void rst_run_evaluate(struct run *run)
 {
     evaluate(run, run->time, run->y, run->scratch);
 }
 
-int run_look(struct run *run, double t, const double **y)
+int rst_run_look(struct run *run, double t, const double **y)
 {
-    if (integrator_look(run->integrator, t, run->look)) return 1;
+    if (rst_integrator_look(run->integrator, t, run->look)) return 1;
     *y = run->look;
     evaluate(run, t, run->look, run->scratch);
     return 0;

@@ -66,28 +66,28 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
-    int spent; /* the budget is: run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
+    int spent; /* the budget is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
     char text[200];
 };
 
 /* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is released by
- * run_release(), whatever the status. */
-int run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log);
-void run_release(struct run *run);
+ * rst_run_release(), whatever the status. */
+int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log);
+void rst_run_release(struct run *run);
 
 /* States at a time within the last step, with the contact and, where there are elements, their margins and sums.
  * Nonzero: not there. Memory of elements fades from where it is kept: looking back from there would make exp(t/tau)
  * overflow. */
-int run_look(struct run *run, double t, const double **y);
+int rst_run_look(struct run *run, double t, const double **y);
 
 /* The contact, margins and sums of where the run is. */
-void run_evaluate(struct run *run);
+void rst_run_evaluate(struct run *run);
 
 /* Velocities of the sphere now. */
-double run_velocity(const struct run *run, const double *y);
-double run_shear_velocity(const struct run *run, const double *y);
+double rst_run_velocity(const struct run *run, const double *y);
+double rst_run_shear_velocity(const struct run *run, const double *y);
 
 /* Radius of the zone that sticks, of the margins last computed. */
-double run_stick_radius(const struct run *run);
+double rst_run_stick_radius(const struct run *run);
 
 #endif

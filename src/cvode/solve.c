@@ -73,7 +73,7 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
     return stiffness_of(problem, depth) > stiff ? INTEGRATOR_BDF : INTEGRATOR_ADAMS;
 }
 
-struct run_setup cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
+struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
 {
     const double depth = likely_depth(&problem->solid);
     const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
@@ -121,8 +121,8 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
         struct run run = {0};
         setup->closeness = i == 0 ? fmin(looser * close, 1e-3) : close;
         setup->budget = setup->max_updates - memory->updates;
-        const int status = run_follow(&run, setup, &memory->trace, NULL);
-        run_release(&run);
+        const int status = rst_run_follow(&run, setup, &memory->trace, NULL);
+        rst_run_release(&run);
         add_work(memory, &run);
         if (status) return rst_report(error, status, "%s", run.text);
         *outcome = (struct rst_outcome){
@@ -149,8 +149,8 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     struct run_setup with_elements = *setup;
     with_elements.n_nodes = n;
     *run = (struct run){0};
-    const int status = run_follow(run, &with_elements, &memory->trace, log);
-    run_release(run);
+    const int status = rst_run_follow(run, &with_elements, &memory->trace, log);
+    rst_run_release(run);
     add_work(memory, run);
     return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
 }
@@ -347,10 +347,11 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     return status;
 }
 
-int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
-                int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory,
+                    const enum integrator_family *family, int keep_ledger, struct rst_outcome *outcome,
+                    restitute_error *error)
 {
-    struct run_setup setup = cvode_setup(problem, family);
+    struct run_setup setup = rst_cvode_setup(problem, family);
     struct rst_outcome normal;
     const double stiffness = stiffness_of(problem, setup.depth);
     if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
@@ -372,7 +373,7 @@ int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, 
     else
         status = refine(problem, &setup, memory, outcome, error);
     if (status >= 0 && keep_ledger) {
-        const int kept = cvode_ledger(&setup, memory, outcome, error);
+        const int kept = rst_cvode_ledger(&setup, memory, outcome, error);
         if (kept < 0) return kept;
     }
     if (status < 0 || !memory->wants_log) return status;

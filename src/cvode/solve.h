@@ -16,16 +16,18 @@ struct cvode_memory {
 };
 
 /* A run without elements, as the problem wants it. */
-struct run_setup cvode_setup(const struct rst_problem *problem, const enum integrator_family *family);
+struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family);
 
 /* See struct restitute_method; family NULL: chosen by the scene. */
-int cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
-                int keep_ledger, struct rst_outcome *outcome, restitute_error *error);
-int cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const enum integrator_family *family,
-                 const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error);
+int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory,
+                    const enum integrator_family *family, int keep_ledger, struct rst_outcome *outcome,
+                    restitute_error *error);
+int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
+                     const enum integrator_family *family, const struct rst_outcome *outcome,
+                     struct rst_history *history, restitute_error *error);
 
 /* Fill outcome->ledger; the rest of the outcome is known. */
-int cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
-                 restitute_error *error);
+int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
+                     restitute_error *error);
 
 #endif

@@ -8,9 +8,9 @@
 
 #include "cvode_kernels.h"
 
-void trace_begin(struct trace *trace, int64_t n_terms)
+void rst_trace_begin(struct trace *trace, int64_t n_terms)
 {
-    if (trace->n_terms != n_terms) trace_release(trace);
+    if (trace->n_terms != n_terms) rst_trace_release(trace);
     trace->n_terms = n_terms;
     trace->count = 0;
 }
@@ -28,7 +28,7 @@ static int grow(struct trace *trace)
     return 0;
 }
 
-int trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory)
+int rst_trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory)
 {
     if (trace->count == trace->capacity && grow(trace)) return 1;
     double *knot = trace->knot + 3 * trace->count;
@@ -40,7 +40,7 @@ int trace_add(struct trace *trace, double time, double depth, double velocity, c
     return 0;
 }
 
-double trace_time(const struct trace *trace, double depth)
+double rst_trace_time(const struct trace *trace, double depth)
 {
     int64_t low = 0, high = trace->count - 1;
     while (high - low > 1) {
@@ -67,7 +67,7 @@ double trace_time(const struct trace *trace, double depth)
     return t;
 }
 
-void trace_release(struct trace *trace)
+void rst_trace_release(struct trace *trace)
 {
     free(trace->knot);
     free(trace->memory);

@@ -12,14 +12,14 @@ struct trace {
 };
 
 /* Empty it, for a solid of n_terms terms. */
-void trace_begin(struct trace *trace, int64_t n_terms);
+void rst_trace_begin(struct trace *trace, int64_t n_terms);
 
 /* One more instant, later than all before. Nonzero: no memory. */
-int trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory);
+int rst_trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory);
 
 /* When the sphere first was that deep, which it has been. */
-double trace_time(const struct trace *trace, double depth);
+double rst_trace_time(const struct trace *trace, double depth);
 
-void trace_release(struct trace *trace);
+void rst_trace_release(struct trace *trace);
 
 #endif

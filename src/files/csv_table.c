@@ -182,6 +182,7 @@ static int parse_table(struct reading *reading, const struct file_text *text)
 {
     struct csv_parser parser;
     if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) return no_memory(reading);
+    csv_set_blk_size(&parser, 128 + text->length / 16); /* a long cell must not grow by 128 bytes again and again */
     feed_lines(&parser, reading, text);
     if (csv_fini(&parser, on_cell, on_row_end, reading) != 0 && reading->status == RESTITUTE_OK)
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a quote is never closed",
@@ -195,19 +196,19 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     return reading->status;
 }
 
-int csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error)
+int rst_csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error)
 {
     struct file_text text;
-    int status = file_text_read(path, most, &text, error);
+    int status = rst_file_text_read(path, most, &text, error);
     if (status != RESTITUTE_OK) return status;
     restitute_csv *table = calloc(1, sizeof *table);
-    struct reading reading = {table, file_name_for_message(path), 0, 0, RESTITUTE_OK, error};
+    struct reading reading = {table, rst_file_name_for_message(path), 0, 0, RESTITUTE_OK, error};
     if (!table)
         status = no_memory(&reading);
     else
         status = parse_table(&reading, &text);
     if (status == RESTITUTE_OK) {
-        table->fingerprint = file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+        table->fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
         *csv = table;
         rst_done(error);
     } else {
@@ -220,7 +221,7 @@ int csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, resti
 int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
 {
     if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
-    return csv_read_bounded(path, FILE_TEXT_OF_TABLE, csv, error);
+    return rst_csv_read_bounded(path, FILE_TEXT_OF_TABLE, csv, error);
 }
 
 void restitute_csv_destroy(restitute_csv *csv)

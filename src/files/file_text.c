@@ -6,7 +6,7 @@
 
 #include "whole_file.h"
 
-const char *file_name_for_message(const char *path)
+const char *rst_file_name_for_message(const char *path)
 {
     const size_t longest = 96;
     const size_t length = strlen(path);
@@ -46,9 +46,9 @@ static int read_standard_input(uint64_t most, struct file_text *text)
     return RESTITUTE_OK;
 }
 
-int file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error)
+int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error)
 {
-    const char *name = file_name_for_message(path);
+    const char *name = rst_file_name_for_message(path);
     if (strcmp(path, "-") != 0) return rst_read_whole(path, name, most, &text->bytes, &text->length, error);
     const int status = read_standard_input(most, text);
     if (status == RESTITUTE_OK) return status;
@@ -56,7 +56,7 @@ int file_text_read(const char *path, uint64_t most, struct file_text *text, rest
     return rst_report(error, status, "%s: has more than %llu bytes", name, (unsigned long long)most);
 }
 
-uint64_t file_text_fingerprint(const struct file_text *text, uint64_t start)
+uint64_t rst_file_text_fingerprint(const struct file_text *text, uint64_t start)
 {
     uint64_t hash = start;
     for (size_t i = 0; i < text->length; i++)

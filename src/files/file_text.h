@@ -18,16 +18,16 @@ struct file_text {
 #define FILE_TEXT_OF_TABLE (UINT64_C(1) << 32)
 
 /* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees text->bytes. */
-int file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
+int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
 
 /* A CSV table of up to `most` bytes. */
-int csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error);
+int rst_csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error);
 
 /* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */
 #define FILE_FINGERPRINT_START UINT64_C(14695981039346656037)
-uint64_t file_text_fingerprint(const struct file_text *text, uint64_t start);
+uint64_t rst_file_text_fingerprint(const struct file_text *text, uint64_t start);
 
 /* The path, or only its end if it would crowd the rest out of a message. */
-const char *file_name_for_message(const char *path);
+const char *rst_file_name_for_message(const char *path);
 
 #endif

@@ -53,7 +53,7 @@ static int walk_to_key(struct walk *walk, const char *key)
     return 0;
 }
 
-size_t json_line_of_key(const char *text, const char *key)
+size_t rst_json_line_of_key(const char *text, const char *key)
 {
     struct walk walk = {text, 1, 0, NULL, 0};
     return walk_to_key(&walk, key) ? walk.line : 0;
@@ -66,7 +66,7 @@ static void skip_space(struct walk *walk)
         if (*walk->at == '\n') walk->line++;
 }
 
-void json_lines_of_items(const char *text, const char *key, size_t *line, size_t count)
+void rst_json_lines_of_items(const char *text, const char *key, size_t *line, size_t count)
 {
     struct walk walk = {text, 1, 0, NULL, 0};
     size_t found = 0;

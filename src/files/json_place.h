@@ -6,9 +6,9 @@
 #include <stddef.h>
 
 /* The line, from 1, of `key` in the outermost object; 0 if it is not there. The text is valid JSON. */
-size_t json_line_of_key(const char *text, const char *key);
+size_t rst_json_line_of_key(const char *text, const char *key);
 
 /* Lines on which the first `count` items of the array `key` of the outermost object begin, in one walk. */
-void json_lines_of_items(const char *text, const char *key, size_t *line, size_t count);
+void rst_json_lines_of_items(const char *text, const char *key, size_t *line, size_t count);
 
 #endif

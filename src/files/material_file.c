@@ -68,7 +68,7 @@ static int copy_text(const struct material_file *file, const char *key, int requ
     const json_t *value = json_object_get(file->root, key);
     if (!value && !required) return RESTITUTE_OK;
     if (!value) return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
-    const size_t line = json_line_of_key(file->text, key);
+    const size_t line = rst_json_line_of_key(file->text, key);
     if (!json_is_string(value))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
                           key);
@@ -94,7 +94,7 @@ static int read_number(const struct material_file *file, const json_t *object, c
                     : rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
     if (!json_is_number(value))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
-                          line ? line : json_line_of_key(file->text, key), key);
+                          line ? line : rst_json_line_of_key(file->text, key), key);
     *number = json_number_value(value);
     return RESTITUTE_OK;
 }
@@ -107,7 +107,7 @@ static int read_positive(const struct material_file *file, const char *key, int 
     if (status != RESTITUTE_OK || !json_object_get(file->root, key)) return status;
     if (isfinite(*number) && (*number > 0 || (zero_allowed && *number == 0))) return RESTITUTE_OK;
     return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
-                      file->name, json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
+                      file->name, rst_json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
 }
 
 static int read_poisson_ratio(const struct material_file *file, double *poisson_ratio)
@@ -115,7 +115,7 @@ static int read_poisson_ratio(const struct material_file *file, double *poisson_
     const int status = read_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
     if (status != RESTITUTE_OK || (*poisson_ratio >= 0 && *poisson_ratio <= 0.5)) return status;
     return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
-                      file->name, json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
+                      file->name, rst_json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
 }
 
 static const struct model *find_model(const struct material_file *file, const char *name)
@@ -125,7 +125,7 @@ static const struct model *find_model(const struct material_file *file, const ch
     rst_report(file->error, RESTITUTE_ERROR_FORMAT,
                "%s line %zu: model = \"%s\": must be elastic, standard_solid, "
                "kelvin_voigt, maxwell or prony",
-               file->name, json_line_of_key(file->text, "model"), name);
+               file->name, rst_json_line_of_key(file->text, "model"), name);
     return NULL;
 }
 
@@ -147,7 +147,7 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
     {
         if (!is_allowed(model, key))
             return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
-                              file->name, json_line_of_key(file->text, key), key, model->name);
+                              file->name, rst_json_line_of_key(file->text, key), key, model->name);
     }
     return RESTITUTE_OK;
 }
@@ -174,20 +174,20 @@ static int read_term(const struct material_file *file, const json_t *term, size_
 
 static int read_term_list(const struct material_file *file, const json_t *list, struct prony_terms *terms)
 {
-    const size_t line = json_line_of_key(file->text, "terms");
+    const size_t line = rst_json_line_of_key(file->text, "terms");
     if (!json_is_array(list) || json_array_size(list) == 0)
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
                           "%s line %zu: \"terms\" must be an array of at least one "
                           "{\"tau_s\": .., \"modulus_pa\": ..}",
                           file->name, line);
-    int status = prony_terms_allocate(json_array_size(list), terms, file->error);
+    int status = rst_prony_terms_allocate(json_array_size(list), terms, file->error);
     if (status != RESTITUTE_OK) return status;
-    json_lines_of_items(file->text, "terms", terms->line, terms->count);
+    rst_json_lines_of_items(file->text, "terms", terms->line, terms->count);
     for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++)
         status =
             read_term(file, json_array_get(list, i), terms->line[i], &terms->relaxation_time[i], &terms->modulus[i]);
-    if (status == RESTITUTE_OK) status = prony_terms_check(terms, file->name, "tau_s", "modulus_pa", file->error);
-    if (status != RESTITUTE_OK) prony_terms_release(terms);
+    if (status == RESTITUTE_OK) status = rst_prony_terms_check(terms, file->name, "tau_s", "modulus_pa", file->error);
+    if (status != RESTITUTE_OK) rst_prony_terms_release(terms);
     return status;
 }
 
@@ -220,7 +220,7 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
     char *path = path_beside(file->path, name);
     if (!path) return rst_report(file->error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file->name);
     uint64_t fingerprint;
-    status = prony_terms_read_csv(path, terms, &fingerprint, file->error);
+    status = rst_prony_terms_read_csv(path, terms, &fingerprint, file->error);
     if (status == RESTITUTE_OK) file->fingerprint ^= fingerprint;
     free(path);
     return status;
@@ -254,7 +254,7 @@ static int create_prony(struct material_file *file, const struct material_conten
     status =
         restitute_material_prony(content->number[EQUILIBRIUM_MODULUS], content->number[PARALLEL_VISCOSITY], terms.count,
                                  terms.relaxation_time, terms.modulus, content->poisson_ratio, material, why);
-    prony_terms_release(&terms);
+    rst_prony_terms_release(&terms);
     return status;
 }
 
@@ -300,11 +300,11 @@ static int read_json_material(const char *path, restitute_material **material, r
                               restitute_error *error)
 {
     struct file_text text;
-    int status = file_text_read(path, FILE_TEXT_OF_MATERIAL, &text, error);
+    int status = rst_file_text_read(path, FILE_TEXT_OF_MATERIAL, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
-    struct material_file file = {path, file_name_for_message(path), text.bytes, NULL, 0, error};
-    file.fingerprint = file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+    struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
+    file.fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
     errno = 0; /* for want of memory Jansson says nothing, or speaks of syntax */
     file.root = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
     if (file.root)
@@ -325,11 +325,11 @@ static int read_csv_material(const char *path, restitute_material **material, re
     struct prony_terms terms;
     uint64_t fingerprint;
     restitute_error why;
-    int status = prony_terms_read_csv(path, &terms, &fingerprint, error);
+    int status = rst_prony_terms_read_csv(path, &terms, &fingerprint, error);
     if (status != RESTITUTE_OK) return status;
     status = restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, &why);
-    prony_terms_release(&terms);
-    if (status != RESTITUTE_OK) return rst_report(error, status, "%s: %s", file_name_for_message(path), why.message);
+    rst_prony_terms_release(&terms);
+    if (status != RESTITUTE_OK) return rst_report(error, status, "%s: %s", rst_file_name_for_message(path), why.message);
     rst_done(error);
     if (!info) return status;
     const char *slash = strrchr(path, '/');
@@ -350,7 +350,7 @@ int restitute_material_read_info(const char *path, restitute_material **material
     if (extension && strcasecmp(extension, ".json") == 0) return read_json_material(path, material, info, error);
     if (extension && strcasecmp(extension, ".csv") == 0) return read_csv_material(path, material, info, error);
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
-                      file_name_for_message(path));
+                      rst_file_name_for_message(path));
 }
 
 int restitute_material_read(const char *path, restitute_material **material, restitute_error *error)

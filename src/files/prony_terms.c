@@ -8,17 +8,17 @@
 
 #include "file_text.h"
 
-int prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error)
+int rst_prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error)
 {
     const struct prony_terms fresh = {count, calloc(count + 1, sizeof(double)), calloc(count + 1, sizeof(double)),
                                       calloc(count + 1, sizeof(size_t))};
     *terms = fresh;
     if (fresh.relaxation_time && fresh.modulus && fresh.line) return RESTITUTE_OK;
-    prony_terms_release(terms);
+    rst_prony_terms_release(terms);
     return rst_report(error, RESTITUTE_ERROR_MEMORY, "no memory for %zu Prony terms", count);
 }
 
-void prony_terms_release(struct prony_terms *terms)
+void rst_prony_terms_release(struct prony_terms *terms)
 {
     free(terms->relaxation_time);
     free(terms->modulus);
@@ -59,8 +59,8 @@ static int check_distinct(const struct prony_terms *terms, const char *file, con
     return status;
 }
 
-int prony_terms_check(const struct prony_terms *terms, const char *file, const char *time_key, const char *modulus_key,
-                      restitute_error *error)
+int rst_prony_terms_check(const struct prony_terms *terms, const char *file, const char *time_key,
+                          const char *modulus_key, restitute_error *error)
 {
     for (size_t i = 0; i < terms->count; i++) {
         const double value[2] = {terms->relaxation_time[i], terms->modulus[i]};
@@ -111,24 +111,24 @@ static int terms_from_table(const restitute_csv *csv, const char *file, struct p
     int status = find_columns(csv, file, column, error);
     if (status == RESTITUTE_OK && restitute_csv_rows(csv) == 0)
         status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: has column names but no rows", file);
-    if (status == RESTITUTE_OK) status = prony_terms_allocate(restitute_csv_rows(csv), terms, error);
+    if (status == RESTITUTE_OK) status = rst_prony_terms_allocate(restitute_csv_rows(csv), terms, error);
     if (status != RESTITUTE_OK) return status;
     for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++) {
         terms->line[i] = restitute_csv_line(csv, i);
         status = read_cell(csv, file, i, column[0], &terms->relaxation_time[i], error);
         if (status == RESTITUTE_OK) status = read_cell(csv, file, i, column[1], &terms->modulus[i], error);
     }
-    if (status == RESTITUTE_OK) status = prony_terms_check(terms, file, "tau_s", "G_Pa", error);
-    if (status != RESTITUTE_OK) prony_terms_release(terms);
+    if (status == RESTITUTE_OK) status = rst_prony_terms_check(terms, file, "tau_s", "G_Pa", error);
+    if (status != RESTITUTE_OK) rst_prony_terms_release(terms);
     return status;
 }
 
-int prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint, restitute_error *error)
+int rst_prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint, restitute_error *error)
 {
     restitute_csv *csv;
-    int status = csv_read_bounded(path, FILE_TEXT_OF_MATERIAL, &csv, error);
+    int status = rst_csv_read_bounded(path, FILE_TEXT_OF_MATERIAL, &csv, error);
     if (status != RESTITUTE_OK) return status;
-    status = terms_from_table(csv, file_name_for_message(path), terms, error);
+    status = terms_from_table(csv, rst_file_name_for_message(path), terms, error);
     *fingerprint = restitute_csv_fingerprint(csv);
     restitute_csv_destroy(csv);
     return status;

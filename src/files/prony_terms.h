@@ -13,15 +13,16 @@ struct prony_terms {
 };
 
 /* Room for `count` terms, all zero. */
-int prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error);
-void prony_terms_release(struct prony_terms *terms);
+int rst_prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error);
+void rst_prony_terms_release(struct prony_terms *terms);
 
 /* Refuse values that are not finite and > 0 and two terms with one relaxation time; `file` is for the message, the key
  * names are those of the file's format. */
-int prony_terms_check(const struct prony_terms *terms, const char *file, const char *time_key, const char *modulus_key,
-                      restitute_error *error);
+int rst_prony_terms_check(const struct prony_terms *terms, const char *file, const char *time_key,
+                          const char *modulus_key, restitute_error *error);
 
 /* Read the columns tau_s and G_Pa of a CSV file, and its fingerprint. */
-int prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint, restitute_error *error);
+int rst_prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint,
+                             restitute_error *error);
 
 #endif

@@ -58,7 +58,8 @@ static void draw(uint64_t *random, restitute_body *a, restitute_body *b, double 
         a->position[i] = random_in(random, -1, 1);
         b->position[i] = a->position[i] + (a->radius + b->radius) * n[i];
         b->velocity[i] = random_in(random, -3, 3);
-        a->velocity[i] = b->velocity[i] + random_in(random, 0.5, 1.5) * n[i] + 0.4 * random_in(random, -1, 1);
+        const double along = random_in(random, 0.5, 1.5), across = random_in(random, -1, 1);
+        a->velocity[i] = b->velocity[i] + along * n[i] + 0.4 * across;
         a->spin[i] = random_in(random, -100, 100);
         b->spin[i] = random_in(random, -100, 100);
     }

@@ -410,8 +410,10 @@ static void changed_bytes(void **state)
     for (int number = 0; number < 1000; number++) {
         char bytes[sizeof rich_table];
         memcpy(bytes, rich_table, sizeof bytes);
-        for (int i = 0; i < 1 + number % 3; i++)
-            bytes[random_below(&seed, sizeof bytes - 1)] = (char)random_bits(&seed);
+        for (int i = 0; i < 1 + number % 3; i++) {
+            const int place = random_below(&seed, sizeof bytes - 1);
+            bytes[place] = (char)random_bits(&seed);
+        }
         check_any_bytes(bytes, sizeof bytes - 1, number);
     }
 }

@@ -31,8 +31,9 @@ static void prepare(size_t n, restitute_result *results, int *statuses)
 /* Wide and cheap: rough tolerance, and every ninth case is refused. Solids of 0 to 40 terms make a solver's arrays grow. */
 static restitute_impact random_impact(const restitute_material *const solids[3], uint64_t *random, int i)
 {
-    restitute_impact impact = impact_of(random_in(random, 0.4, 4), random_log(random, 0.05, 10),
-                                        random_log(random, 1e-3, 100), random_log(random, 1e-3, 1e3));
+    const double gamma = random_log(random, 1e-3, 1e3), delta1 = random_log(random, 1e-3, 100);
+    const double psi = random_log(random, 0.05, 10), chi = random_in(random, 0.4, 4);
+    restitute_impact impact = impact_of(chi, psi, delta1, gamma);
     if (i % 2 == 0) impact.solid = solids[random_below(random, 3)];
     if (i % 9 == 5) impact.psi = i % 18 == 5 ? -1 : NAN;
     return impact;

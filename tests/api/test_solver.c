@@ -90,8 +90,9 @@ static void rough_overrides_are_not_trusted(void **state)
     uint64_t random = 13;
     int above = 0;
     for (int i = 0; i < 200; i++) {
-        restitute_impact impact = impact_of(random_in(&random, 0.4, 4), random_log(&random, 0.05, 10),
-                                            random_log(&random, 1e-3, 10), random_log(&random, 1e-2, 1e2));
+        const double gamma = random_log(&random, 1e-2, 1e2), delta1 = random_log(&random, 1e-3, 10);
+        const double psi = random_log(&random, 0.05, 10), chi = random_in(&random, 0.4, 4);
+        restitute_impact impact = impact_of(chi, psi, delta1, gamma);
         struct restitute_result fine = solve_impact(default_options(), impact).result;
         restitute_options options = as_told(0, 1e6);
         restitute_solver *solver;
@@ -331,8 +332,9 @@ static void a_used_solver_gives_the_bits_of_a_fresh_one(void **state)
     uint64_t random = 5;
     CHECK(restitute_solver_create(NULL, &used, NULL) == RESTITUTE_OK, "solver");
     for (int i = 0; i < 40; i++) {
-        restitute_impact impact = impact_of(random_in(&random, 0.4, 4), random_log(&random, 0.05, 10),
-                                            random_log(&random, 1e-3, 100), random_log(&random, 1e-3, 1e3));
+        const double gamma = random_log(&random, 1e-3, 1e3), delta1 = random_log(&random, 1e-3, 100);
+        const double psi = random_log(&random, 0.05, 10), chi = random_in(&random, 0.4, 4);
+        restitute_impact impact = impact_of(chi, psi, delta1, gamma);
         if (i % 3 == 0) impact.solid = solid;
         restitute_result again;
         restitute_result_init(&again);

@@ -34,8 +34,9 @@ static void time_step_is_refused(void **state)
 
 static restitute_impact random_impact(uint64_t *random, const restitute_material *solid, int i)
 {
-    restitute_impact impact = impact_of(random_in(random, 0.4, 4), random_log(random, 0.05, 5),
-                                        random_log(random, 1e-3, 100), random_log(random, 1e-3, 1e3));
+    const double gamma = random_log(random, 1e-3, 1e3), delta1 = random_log(random, 1e-3, 100);
+    const double psi = random_log(random, 0.05, 5), chi = random_in(random, 0.4, 4);
+    restitute_impact impact = impact_of(chi, psi, delta1, gamma);
     if (i % 4 == 0) impact.solid = solid;
     if (i % 4 == 1) impact.gamma = 0;
     if (i % 4 == 2) impact.psi = 0;

@@ -300,9 +300,9 @@ static void gaps_do_no_harm(void **state)
         restitute_table *made = cells_table(&gaps);
         for (int n = 0; n < 5000; n++) {
             restitute_table_value pair = {NAN, NAN};
-            assert_int_equal(restitute_table_numbers_pair(made, random_in(&seed, 0.9, 1.7), random_in(&seed, 0, 3),
-                                                          random_log(&seed, 0.1, 10), random_log(&seed, 0.1, 2), &pair),
-                             RESTITUTE_OK);
+            const double gamma = random_log(&seed, 0.1, 2), delta1 = random_log(&seed, 0.1, 10);
+            const double psi = random_in(&seed, 0, 3), chi = random_in(&seed, 0.9, 1.7);
+            assert_int_equal(restitute_table_numbers_pair(made, chi, psi, delta1, gamma, &pair), RESTITUTE_OK);
             CHECK(pair.ez >= 0 && pair.ez <= 1 && fabs(pair.ex) <= 1, "%g, %g", pair.ez, pair.ex);
         }
         restitute_table_destroy(made);

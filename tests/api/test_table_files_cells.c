@@ -140,8 +140,9 @@ static void nothing_leads_out_of_the_table(void **state)
         CHECK(status == RESTITUTE_ERROR_FORMAT || (status == RESTITUTE_OK && read), "byte %zu: status %d", i, status);
         for (int n = 0; read && n < 50; n++) {
             restitute_table_value pair = {NAN, NAN};
-            restitute_table_numbers_pair(read, random_in(&seed, 0.9, 1.7), random_in(&seed, 0, 3),
-                                         random_log(&seed, 0.1, 10), random_log(&seed, 0.1, 2), &pair);
+            const double gamma = random_log(&seed, 0.1, 2), delta1 = random_log(&seed, 0.1, 10);
+            const double psi = random_in(&seed, 0, 3), chi = random_in(&seed, 0.9, 1.7);
+            restitute_table_numbers_pair(read, chi, psi, delta1, gamma, &pair);
             CHECK(pair.ez >= 0 && pair.ez <= 1 && fabs(pair.ex) <= 1, "byte %zu: %g, %g", i, pair.ez, pair.ex);
         }
         taken += read != NULL;

@@ -103,9 +103,10 @@ static void check_ranges(double delta1_low, double delta1_high, double gamma_low
         restitute_table_value pair;
         restitute_result result;
         restitute_result_init(&result);
-        const restitute_impact impact =
-            impact_of(random_in(&random, 2.0 / 3, 7.0 / 4), random_in(&random, 0, 4),
-                      random_log(&random, delta1_low, delta1_high), random_log(&random, gamma_low, gamma_high));
+        const double gamma = random_log(&random, gamma_low, gamma_high);
+        const double delta1 = random_log(&random, delta1_low, delta1_high);
+        const double psi = random_in(&random, 0, 4), chi = random_in(&random, 2.0 / 3, 7.0 / 4);
+        const restitute_impact impact = impact_of(chi, psi, delta1, gamma);
         CHECK(restitute_solve(solver, &impact, &result, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
         assert_int_equal(
             restitute_table_numbers_pair(table, impact.chi, impact.psi, impact.delta1, impact.gamma, &pair),

@@ -24,7 +24,7 @@ static void press(struct bem_bounded *b, int64_t m, double spacing, double *targ
     rst_bem_normal_target(m, m, spacing, 1, 1, b->low, target); /* low: a field of zeros */
     memset(b->x, 0, (size_t)(m * m) * sizeof *b->x);
     b->iterations = b->convolutions = 0;
-    if (bem_solve_bounded(b)) exit(1);
+    if (rst_bem_solve_bounded(b)) exit(1);
 }
 
 int main(int count, char **arguments)
@@ -37,7 +37,7 @@ int main(int count, char **arguments)
         if (!(fields[i] = calloc((size_t)(m * m), sizeof(double)))) return 1;
     for (int64_t i = 0; i < m * m; i++)
         fields[1][i] = DBL_MAX;
-    struct bem_bounded b = {.transform = bem_transform_create(m),
+    struct bem_bounded b = {.transform = rst_bem_transform_create(m),
                             .kind = BEM_NORMAL,
                             .ld = m,
                             .low = fields[0],
@@ -68,7 +68,7 @@ int main(int count, char **arguments)
         }
     fclose(file);
     printf("%.17g %.17g %lld %.6g\n", spacing, force, (long long)b.iterations, best);
-    bem_transform_destroy(b.transform);
+    rst_bem_transform_destroy(b.transform);
     for (int i = 0; i < 10; i++)
         free(fields[i]);
     return 0;

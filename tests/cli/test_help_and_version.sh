@@ -4,7 +4,15 @@
 . "$(dirname -- "$0")/common.sh"
 
 expect 0 --version
-grep -Eq '^restitute [0-9]+\.[0-9]+\.[0-9]+$' out || fail "--version prints $(cat out)"
+head -n 1 out | grep -Eq '^restitute [0-9]+\.[0-9]+\.[0-9]+$' || fail "--version prints $(cat out)"
+has out 'BSD-3-Clause'
+cp out version
+"$RESTITUTE" pair --psi 1 --method bem --tolerance 0.1 >out 2>err
+if grep -q 'is not in this build' err; then
+    ! grep GPL version || fail "the GPL is named by a build without FFTW"
+else
+    has version FFTW 'GNU General Public License, version 2 or'
+fi
 
 expect 0 --help
 has out pair history

@@ -44,6 +44,15 @@ mv first second # whatever still points to the first place fails from here on
 ! grep -rIl "$work/first" second || fail "the files named above hold the path that the tree was installed to"
 prefix=$work/second
 
+echo "== licences"
+copyright=$prefix/share/doc/restitute/copyright
+grep -q "BSD 3-Clause License" "$copyright" || fail "$copyright does not name our licence"
+if [ "$WITH_BEM" = OFF ]; then
+    ! grep FFTW "$copyright" || fail "$copyright names a library that is not linked"
+else
+    grep -q "linked with FFTW" "$copyright" && grep -q "GPL-2+" "$copyright" || fail "$copyright does not name the GPL"
+fi
+
 echo "== find_package"
 components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"

@@ -150,7 +150,8 @@ static void merging_changes_the_pair_by_less_than_its_bound(void **state)
         }
         restitute_material *solid = solid_of(random_below(&random, 4) ? 1 : 0, 0, 12, tau, g);
         /* psi > 0: without slip elements leave with a force, and the instant of leaving shows at 32 elements */
-        restitute_impact impact = impact_on(solid, random_in(&random, 0.4, 3), random_log(&random, 0.1, 5));
+        const double psi = random_log(&random, 0.1, 5), chi = random_in(&random, 0.4, 3);
+        restitute_impact impact = impact_on(solid, chi, psi);
         restitute_options options = to_tolerance(1e-2);
         options.elements = 32;
         struct restitute_result r = solve_impact(options, impact).result;

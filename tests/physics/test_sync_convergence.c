@@ -90,8 +90,10 @@ static void check_standard(double delta1, double gamma, struct grid grid, double
 {
     uint64_t random = 4;
     restitute_impact impact[impacts];
-    for (int i = 0; i < impacts; i++)
-        impact[i] = impact_of(random_in(&random, 0.6, 1.75), some_psi(&random), delta1, gamma);
+    for (int i = 0; i < impacts; i++) {
+        const double psi = some_psi(&random), chi = random_in(&random, 0.6, 1.75);
+        impact[i] = impact_of(chi, psi, delta1, gamma);
+    }
     check_orders(impact, grid, least, what);
 }
 
@@ -138,8 +140,10 @@ static void check_solid(const restitute_material *solid, const char *what)
 {
     uint64_t random = 5;
     restitute_impact impact[impacts];
-    for (int i = 0; i < impacts; i++)
-        impact[i] = impact_on(solid, random_in(&random, 0.5, 2), some_psi(&random));
+    for (int i = 0; i < impacts; i++) {
+        const double psi = some_psi(&random), chi = random_in(&random, 0.5, 2);
+        impact[i] = impact_on(solid, chi, psi);
+    }
     check_orders(impact, usual, usual_order, what);
 }
 

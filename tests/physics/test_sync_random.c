@@ -30,7 +30,8 @@ static restitute_impact random_impact(uint64_t *random)
     if (kind == 3) { /* rotation blocked and strong damping: slip begins in the moment in which the contact shrinks */
         delta1 = random_log(random, 3, 30);
         gamma = random_log(random, 1e-6, 1e-3);
-        return impact_of(random_in(random, 1.0 / 3, 0.5), random_log(random, 0.05, 1), delta1, gamma);
+        psi = random_log(random, 0.05, 1);
+        return impact_of(random_in(random, 1.0 / 3, 0.5), psi, delta1, gamma);
     }
     return impact_of(fmax(chi, 1.0 / 3), psi, delta1, gamma);
 }

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Shows that check.sh can fail: all its complaints must come for a library that deserves them.  counter_check.sh LIBRARY
+# Shows that check.sh and objects.sh can fail: all their complaints must come for a library that deserves them.
+#   counter_check.sh LIBRARY OBJECT
 set -eu
 openmp=$WITH_OPENMP # the library has it only where there is one
 WITH_OPENMP=OFF
@@ -9,7 +10,12 @@ if sh "$(dirname -- "$0")/check.sh" "$1" >complaints 2>&1; then
     echo "check.sh finds nothing wrong with $1" >&2
     exit 1
 fi
-for complaint in "other names than restitute_\*: leaky_name" "calls the Fortran run-time library: _gfortran" \
+if sh "$(dirname -- "$0")/objects.sh" "$2" >>complaints 2>&1; then
+    echo "objects.sh finds nothing wrong with $2" >&2
+    exit 1
+fi
+for complaint in "other names than rst_\* and restitute_\*: leaky_name" "$2 takes memory" \
+    "other names than restitute_\*: leaky_name" "calls the Fortran run-time library: _gfortran" \
     "needs a Fortran run-time library: libgfortran" "prints: puts" "ends the program: abort"; do
     grep "$complaint" complaints || { cat complaints; echo "no complaint '$complaint'" >&2; exit 1; }
 done

@@ -76,8 +76,9 @@ static void use_twice(double tolerance, const restitute_material *solid, restitu
         uint64_t random = 11;
         const long before = calls;
         for (int i = 0; i < 30; i++) {
-            restitute_impact impact = impact_of(random_in(&random, 0.4, 2), random_in(&random, 0.05, 3),
-                                                random_log(&random, 1e-2, 10), random_log(&random, 1e-1, 10));
+            const double gamma = random_log(&random, 1e-1, 10), delta1 = random_log(&random, 1e-2, 10);
+            const double psi = random_in(&random, 0.05, 3), chi = random_in(&random, 0.4, 2);
+            restitute_impact impact = impact_of(chi, psi, delta1, gamma);
             impact.solid = solid;
             CHECK(restitute_solve(solver, &impact, &result, ledger, history, NULL) == RESTITUTE_OK, "impact %d", i);
         }

@@ -37,7 +37,7 @@ static void solve(enum bem_kind kind)
                             .kd = room[4],
                             .closeness = 1e-9,
                             .most_iterations = 200};
-    CHECK(bem_solve_bounded(&b) == 0, "not settled after %d iterations", (int)b.iterations);
+    CHECK(rst_bem_solve_bounded(&b) == 0, "not settled after %d iterations", (int)b.iterations);
     CHECK(b.iterations < 60, "%d iterations: the preconditioner does nothing", (int)b.iterations);
     for (int i = 0; i < cells; i++) { /* the conditions that make it the solution */
         const double r = target[i] - u[i];
@@ -151,14 +151,14 @@ static void cattaneo_mindlin(void **state)
 static int make_transform(void **state)
 {
     (void)state;
-    transform = bem_transform_create(m);
+    transform = rst_bem_transform_create(m);
     return !transform;
 }
 
 static int drop_transform(void **state)
 {
     (void)state;
-    bem_transform_destroy(transform);
+    rst_bem_transform_destroy(transform);
     return 0;
 }
 

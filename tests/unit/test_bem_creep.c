@@ -139,7 +139,7 @@ static void recursion_is_exact_for_lines(void **state)
                           .decay = &decay,
                           .gain = &gain};
     (void)state;
-    bem_solid_step(0.125, 0, &s);
+    rst_bem_solid_step(0.125, 0, &s);
     for (int i = 0; i < 8; i++)
         b = decay * b + gain * 0.125; /* f = t */
     CHECK_NEAR(b, 0.7 * 0.3 * -expm1(-1 / 0.3), 1e-15, "int_0^1 J exp(-(1-s)/lambda) ds");

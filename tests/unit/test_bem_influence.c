@@ -81,20 +81,20 @@ static void convolution_is_the_sum(void **state)
         const int n = 2 * m, ld = m + 3;
         double *table = malloc(sizeof *table * (size_t)((n + 1) * (n + 1)));
         double *x = malloc(sizeof *x * (size_t)(ld * m)), *u = calloc((size_t)(ld * m), sizeof *u);
-        struct bem_transform *t = bem_transform_create(m);
+        struct bem_transform *t = rst_bem_transform_create(m);
         uint64_t seed = 7;
         assert_non_null(t);
         for (int i = 0; i < ld * m; i++)
             x[i] = random_in(&seed, -1, 1);
         for (enum bem_kind kind = BEM_NORMAL; kind <= BEM_SHEAR; kind++) {
             rst_bem_influence_table(kind, n, table);
-            bem_convolve(t, kind, ld, x, u);
+            rst_bem_convolve(t, kind, ld, x, u);
             for (int j = 0; j < m; j++)
                 for (int i = 0; i < m; i++) /* sums of some hundred terms of order 0.1 */
                     CHECK_NEAR(u[j * ld + i], by_sum(table, n, m, ld, x, i, j), 1e-13, "m %d kind %d at %d, %d", m,
                                kind, i, j);
         }
-        bem_transform_destroy(t);
+        rst_bem_transform_destroy(t);
         free(table);
         free(x);
         free(u);
@@ -111,7 +111,7 @@ static void plane_is_the_sum(void **state)
 {
     enum { m = 8, n = 2 * m };
     static double shear[(n + 1) * (n + 1)], cross[(n + 1) * (n + 1)], x[m * m], u[m * m];
-    struct bem_plane *plane = bem_plane_create(m);
+    struct bem_plane *plane = rst_bem_plane_create(m);
     uint64_t seed = 3;
     (void)state;
     assert_non_null(plane);
@@ -120,7 +120,7 @@ static void plane_is_the_sum(void **state)
     for (int i = 0; i < m * m; i++)
         x[i] = random_in(&seed, -1, 1);
     for (enum bem_plane_kind kind = BEM_Y_FROM_Y; kind <= BEM_X_FROM_Y; kind++) {
-        bem_plane_convolve(plane, kind, m, x, u);
+        rst_bem_plane_convolve(plane, kind, m, x, u);
         for (int j = 0; j < m; j++)
             for (int i = 0; i < m; i++) {
                 double sum = 0;
@@ -135,7 +135,7 @@ static void plane_is_the_sum(void **state)
                 CHECK_NEAR(u[j * m + i], sum, 1e-13, "kind %d at %d, %d", kind, i, j); /* like the sums above */
             }
     }
-    bem_plane_destroy(plane);
+    rst_bem_plane_destroy(plane);
 }
 
 /* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from the side within a few percent. */
@@ -143,7 +143,7 @@ static void preconditioner_inverts(void **state)
 {
     enum { m = 32 };
     static double x[m * m], u[m * m], z[m * m];
-    struct bem_transform *t = bem_transform_create(m);
+    struct bem_transform *t = rst_bem_transform_create(m);
     (void)state;
     assert_non_null(t);
     for (enum bem_kind kind = BEM_NORMAL; kind <= BEM_SHEAR; kind++) {
@@ -151,15 +151,15 @@ static void preconditioner_inverts(void **state)
         for (int j = 0; j < m; j++)
             for (int i = 0; i < m; i++)
                 x[j * m + i] = exp(-((i + 0.5) * (i + 0.5) + (j + 0.5) * (j + 0.5)) / 40.0);
-        bem_convolve(t, kind, m, x, u);
-        bem_precondition(t, kind, m, u, z);
+        rst_bem_convolve(t, kind, m, x, u);
+        rst_bem_precondition(t, kind, m, u, z);
         for (int i = 0; i < m * m; i++) {
             error += (z[i] - x[i]) * (z[i] - x[i]);
             size += x[i] * x[i];
         }
         CHECK(error < 0.05 * 0.05 * size, "kind %d: off by %g of it", kind, sqrt(error / size));
     }
-    bem_transform_destroy(t);
+    rst_bem_transform_destroy(t);
 }
 
 int main(void)

@@ -20,7 +20,7 @@ static struct bem_run run_of(const struct rst_problem *problem, struct bem_varia
 {
     struct bem_solid solid = {.compliance = room, .lambda = room + 2, .decay = room + 4, .gain = room + 6};
     struct rst_workspace workspace = {0};
-    struct bem_memory *memory = bem_memory_of(&workspace);
+    struct bem_memory *memory = rst_bem_memory_of(&workspace);
     struct bem_run run;
     const struct bem_setup setup = {.problem = problem,
                                     .solid = &solid,
@@ -31,9 +31,9 @@ static struct bem_run run_of(const struct rst_problem *problem, struct bem_varia
                                     .rest_speed = 1e-5,
                                     .most_steps = 100000};
     assert_non_null(memory);
-    bem_solid_creep(&problem->solid, &solid);
-    bem_solid_step(step, variant.explicit_euler, &solid);
-    bem_run(&setup, memory, observer, &run);
+    rst_bem_solid_creep(&problem->solid, &solid);
+    rst_bem_solid_step(step, variant.explicit_euler, &solid);
+    rst_bem_run(&setup, memory, observer, &run);
     workspace.own->release(workspace.own);
     assert_int_equal(run.end, BEM_REBOUND);
     return run;

@@ -85,7 +85,7 @@ static struct integrator *decay_by(enum integrator_family family, struct decay *
                                              .owner = decay};
     const double y = 1;
     struct integrator *integrator;
-    *status = integrator_create(&system, 0, &y, &integrator, text, size);
+    *status = rst_integrator_create(&system, 0, &y, &integrator, text, size);
     return integrator;
 }
 
@@ -101,7 +101,7 @@ static struct course follow(struct integrator *integrator)
 {
     struct course c = {.what = INTEGRATOR_STEP, .y = 1};
     for (int i = 0; i < 5000 && c.t < 1 && c.what != INTEGRATOR_FAILED; i++) {
-        c.what = integrator_advance(integrator, &c.t, &c.y);
+        c.what = rst_integrator_advance(integrator, &c.t, &c.y);
         if (c.what == INTEGRATOR_EVENT) c.event_time = c.t;
         c.events += c.what == INTEGRATOR_EVENT;
     }
@@ -122,8 +122,8 @@ static void failures_have_the_words_of_cvode_and_print_nothing(void **state)
             struct capture c = capture();
             struct integrator *integrator = decay_by(families[i], &decay, text, sizeof text, &status);
             if (integrator) course = follow(integrator);
-            snprintf(words, sizeof words, "%s", integrator ? integrator_text(integrator) : text);
-            integrator_destroy(integrator);
+            snprintf(words, sizeof words, "%s", integrator ? rst_integrator_text(integrator) : text);
+            rst_integrator_destroy(integrator);
             const long written = captured(&c);
             if (k == 0) calls = decay.calls;
             CHECK(written == 0, "family %d, case %d: %ld bytes printed", i, k, written);
@@ -150,20 +150,20 @@ static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup),
                                         .solid = {.g_inf = modulus},
                                         .tolerance = 1e-4,
                                         .max_updates = 1000000000};
-    struct run_setup setup = cvode_setup(&problem, NULL);
+    struct run_setup setup = rst_cvode_setup(&problem, NULL);
     struct trace trace = {0};
     *run = (struct run){0};
-    int status = run_follow(run, &setup, &trace, NULL); /* the normal side */
-    run_release(run);
+    int status = rst_run_follow(run, &setup, &trace, NULL); /* the normal side */
+    rst_run_release(run);
     if (!status) {
         setup.radius = sqrt(run->max_depth);
         setup.n_nodes = 40;
         spoil(&setup);
         *run = (struct run){0};
-        status = run_follow(run, &setup, &trace, NULL);
-        run_release(run);
+        status = rst_run_follow(run, &setup, &trace, NULL);
+        rst_run_release(run);
     }
-    trace_release(&trace);
+    rst_trace_release(&trace);
     return status;
 }
 
@@ -228,9 +228,9 @@ static void a_call_hands_on_the_words_of_cvode(void **state)
     restitute_error error = {.status = RESTITUTE_OK};
     (void)state;
     struct capture c = capture();
-    const int status = cvode_solve(&problem, &memory, NULL, 0, &outcome, &error);
+    const int status = rst_cvode_solve(&problem, &memory, NULL, 0, &outcome, &error);
     const long written = captured(&c);
-    trace_release(&memory.trace);
+    rst_trace_release(&memory.trace);
     CHECK(written == 0, "%ld bytes printed", written);
     CHECK(status == RESTITUTE_ERROR_INTEGRATOR && error.status == status, "%d: %s", status, error.message);
     CHECK(strstr(error.message, "right-hand side routine failed") != NULL, "\"%s\"", error.message);
