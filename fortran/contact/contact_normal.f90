@@ -198,7 +198,7 @@ contains
       edge = motion%overlap
       call rise_at_rim(law, motion%velocity, velocity, edge - beyond, w, contact)
     else
-      edge = beyond + contact%f(last)/merge(slope, max(law%g_start, least), slope > 0)
+      edge = beyond + contact%f(last)/merge(slope, max(law%g_inf, least), slope > 0)
       if (edge > motion%overlap) then
         edge = motion%overlap
         if (last > 1) contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
