@@ -32,12 +32,14 @@ contains
     real(dp), intent(in) :: overlap_before, width
     real(dp), intent(inout) :: state(*)
     type(normal_type), intent(out) :: contact
-    real(dp) :: change
+    real(dp) :: change, rim, carried
     call follow_profile(law, rates, motion, law%n, law%n_terms, width**2/motion%radius, overlap_before, state(law%at%w_z), &
                         state(law%at%u_z), contact)
     call close_rim(law, motion, motion%velocity, width, state(law%at%w_z), state(law%at%u_z), contact)
     if (.not. rates%drag > 0 .or. contact%last == 0) return
-    change = -relief(motion%mobility(1), law%normal*width*contact%edge*rates%drag)*contact%force
+    rim = width*contact%edge ! the equilibrium spring carries what does not accelerate, such as a weight at rest
+    carried = law%normal*law%g_inf*rim*(motion%overlap - rim**2/(3*motion%radius))
+    change = -relief(motion%mobility(1), law%normal*rim*rates%drag)*(contact%force - carried)
     call feel_end_velocity(law, rates, change, law%n, law%n_terms, state(law%at%w_z), state(law%at%u_z), contact)
     call close_rim(law, motion, motion%velocity + change, width, state(law%at%w_z), state(law%at%u_z), contact)
   end subroutine press
@@ -182,7 +184,7 @@ contains
     real(dp), intent(in) :: velocity, width
     real(dp), intent(in) :: w(law%n, law%n_terms), surface(law%n)
     type(normal_type), intent(inout) :: contact
-    real(dp), parameter :: least = tiny(1.0_dp)  !! of a dashpot alone: as far as the profile
+    real(dp), parameter :: least = tiny(1.0_dp)  !! without equilibrium modulus: as far as the profile
     real(dp) :: scale, edge, beyond, slope
     integer(ip) :: last
     contact%force = 0

@@ -30,7 +30,6 @@ module rst_contact_types
     integer(c_int64_t) :: accounts !! 1: work and friction are kept
     type(layout_type) :: at
     real(c_double) :: g_inf, eta
-    real(c_double) :: g_start        !! g_inf + sum g
     real(c_double) :: softness       !! 1/g_inf, 0 if there is none
     real(c_double) :: normal, tangential  !! 4/(1-nu) and 8/(2-nu): both sides of the contact (9)
     real(c_double) :: g(most_terms), tau(most_terms)

@@ -108,9 +108,6 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     k->tangential = 8 / (2 - nu);
     made->halved = options->deformable == RESTITUTE_BOTH_BODIES_DEFORM;
     if (made->halved) halve(k);
-    k->g_start = k->g_inf;
-    for (int64_t i = 0; i < k->n_terms; i++)
-        k->g_start += k->g[i];
     k->softness = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
     made->size = (size_t)k->layout[7];
