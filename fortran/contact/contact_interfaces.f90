@@ -23,6 +23,7 @@ module rst_contact_interfaces
   real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the radius expected: growth costs resolution
   real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
   real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
+  real(dp), parameter :: least_overlap = 1.0e-30_dp  !! over the radius, of a new grid: the square of its width is not to underflow
 
 contains
 
@@ -105,7 +106,7 @@ contains
     integer(ip), intent(out) :: status
     real(dp) :: overlap, mass
     status = done
-    overlap = motion%overlap
+    overlap = max(motion%overlap, least_overlap*motion%radius)
     if (motion%velocity > 0 .and. motion%mobility(1) > 0) then
       mass = rates%step/(2*motion%mobility(1))
       overlap = max(overlap, largest_overlap(law, mass, motion%velocity, motion%radius))
