@@ -14,7 +14,7 @@ struct rst_law {
     double normal, tangential;
     double g[rst_most_terms], tau[rst_most_terms];
     double x[rst_most_nodes + 1], y[rst_most_nodes + 1];
-    double left[rst_most_nodes], right[rst_most_nodes];
+    double weight[rst_most_nodes], outwards[rst_most_nodes];
 };
 
 enum { rst_step_done, rst_step_too_long, rst_normal_jumped };
