@@ -2,7 +2,7 @@
 !> whatever the number of nodes (docs/contact.md).
 module rst_contact_grid
   use rst_precision, only: dp, ip
-  use rst_contact_types, only: law_type, at_width, at_arrays, lanes
+  use rst_contact_types, only: law_type, layout_of, at_width, at_arrays, lanes
   implicit none (type, external)
   private
   public :: place_nodes, weight, integral, stretch
@@ -19,8 +19,8 @@ contains
     if (x1 + x2 > 0) weight = abs(x2 - x1)*(2*x2 + x1)/(3*(x1 + x2))
   end function weight
 
-  !> Nodes half-way between evenly spaced ones and those of sin, which are dense at the rim.
-  pure subroutine place_nodes(law)
+  !> Set the layout of the state and the grid. Nodes are half-way between evenly spaced ones and those of sin, which are dense at the rim.
+  pure subroutine place_nodes(law) bind(c, name="rst_law_grid")
     type(law_type), intent(inout) :: law
     real(dp), parameter :: half_pi = acos(0.0_dp)
     real(dp) :: part
@@ -30,6 +30,7 @@ contains
       law%x(j) = 0.5_dp*(part + sin(half_pi*part))
       law%y(j) = law%x(j)**2
     end do
+    law%at = layout_of(law)
     n = law%n
     law%outwards(1:n) = weight(law%x(1:n), law%x(2:n + 1))
     law%weight(1:n) = law%outwards(1:n)

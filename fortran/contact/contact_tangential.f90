@@ -31,17 +31,14 @@ contains
     real(dp), intent(out) :: force(2)  !! that body 1 feels is the opposite
     real(dp), intent(out) :: friction  !! energy lost in the step
     type(shear_type) :: s
-    real(dp) :: ratio, sticking
-    real(dp) :: change(2)
+    real(dp) :: ratio, sticking, change(2)
 
     ratio = motion%friction*law%normal/law%tangential
-    s%limit(1:law%n) = ratio*contact%f(1:law%n)
     s%limit_at_rim = ratio*contact%at_rim
     call stick(law, rates, displacement(1), law%n, law%n_terms, contact, state(law%at%u_x), state(law%at%w_x), s%trial(:, 1))
     call stick(law, rates, displacement(2), law%n, law%n_terms, contact, state(law%at%u_y), state(law%at%w_y), s%trial(:, 2))
-    call limit_by_friction(law%n, s)
-    change = 0
-    call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
+    call limit_by_friction(law%n, ratio, contact%f, s)
+    call hold_rim(law, rates, displacement/rates%step, contact, state(law%at%w_x), state(law%at%w_y), s)
     force = law%tangential*width*summed(law, contact, s)
     if (rates%drag > 0 .and. contact%last > 0) then
       sticking = sum(law%weight(1:contact%last), mask=.not. s%excess(1:contact%last) > 0)
@@ -49,7 +46,7 @@ contains
       change = -relief(motion%mobility(2), law%tangential*width*sticking*rates%drag)*force
       call feel_end_velocity(rates, change(1), law%n, law%n_terms, contact, state(law%at%w_x), s%trial(:, 1))
       call feel_end_velocity(rates, change(2), law%n, law%n_terms, contact, state(law%at%w_y), s%trial(:, 2))
-      call limit_by_friction(law%n, s)
+      call limit_by_friction(law%n, ratio, contact%f, s)
       call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
       force = law%tangential*width*summed(law, contact, s)
     end if
@@ -97,8 +94,9 @@ contains
     trial = trial + rates%drag*change*contact%part(1:n)
   end subroutine feel_end_velocity
 
-  pure subroutine limit_by_friction(n, s)
+  pure subroutine limit_by_friction(n, ratio, f, s)
     integer(ip), intent(in) :: n
+    real(dp), intent(in) :: ratio, f(*)
     type(shear_type), intent(inout) :: s
     real(dp), parameter :: least = 1.0e-300_dp
     real(dp) :: q
@@ -106,8 +104,9 @@ contains
     do first = 0, n - 1, lanes
       !$omp simd private(q)
       do j = first + 1, first + lanes
+        s%limit(j) = ratio*f(j)
         q = sqrt(s%trial(j, 1)**2 + s%trial(j, 2)**2)
-        s%excess(j) = merge(q - s%limit(j), 0.0_dp, q > s%limit(j))/(q + least)
+        s%excess(j) = max(q - s%limit(j), 0.0_dp)/(q + least)
         s%q(j, 1) = s%trial(j, 1)*(1 - s%excess(j))
         s%q(j, 2) = s%trial(j, 2)*(1 - s%excess(j))
       end do
