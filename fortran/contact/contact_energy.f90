@@ -1,5 +1,6 @@
 !> Energy of a contact: what is stored in its springs (docs/contact.md).
 module rst_contact_energy
+  use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, at_width, at_overlap, most_nodes
   implicit none (type, external)
@@ -8,10 +9,12 @@ module rst_contact_energy
 
 contains
 
-  pure function stored_energy(law, radius, state) result(energy)
+  pure function stored_energy(law, radius, state) result(energy) bind(c, name="rst_law_stored")
     type(law_type), intent(in) :: law
-    real(dp), intent(in) :: radius, state(*)
-    real(dp) :: energy, u(most_nodes), edge
+    real(c_double), intent(in), value :: radius
+    real(dp), intent(in) :: state(*)
+    real(c_double) :: energy
+    real(dp) :: u(most_nodes), edge
     integer(ip) :: n
     energy = 0
     if (.not. state(at_width) > 0) return

@@ -2,10 +2,10 @@
 !> whatever the number of nodes (docs/contact.md).
 module rst_contact_grid
   use rst_precision, only: dp, ip
-  use rst_contact_types, only: law_type, at_width, at_arrays
+  use rst_contact_types, only: law_type, layout_of, at_width, at_arrays, lanes
   implicit none (type, external)
   private
-  public :: place_nodes, weight, stretch
+  public :: place_nodes, weight, integral, stretch
 
   real(dp), parameter :: stretch_ratio = 1.5_dp  !! of a grid that is outgrown; twice loses more resolution, less stretches more often
 
@@ -19,22 +19,38 @@ contains
     if (x1 + x2 > 0) weight = abs(x2 - x1)*(2*x2 + x1)/(3*(x1 + x2))
   end function weight
 
-  !> Nodes half-way between evenly spaced ones and those of sin, which are dense at the rim.
-  pure subroutine place_nodes(law)
+  !> Set the layout of the state and the grid. Nodes are half-way between evenly spaced ones and those of sin, which are dense at the rim.
+  pure subroutine place_nodes(law) bind(c, name="rst_law_grid")
     type(law_type), intent(inout) :: law
     real(dp), parameter :: half_pi = acos(0.0_dp)
     real(dp) :: part
-    integer(ip) :: j
+    integer(ip) :: j, n
     do j = 1, law%n + 1
       part = real(j - 1, dp)/real(law%n, dp)
       law%x(j) = 0.5_dp*(part + sin(half_pi*part))
       law%y(j) = law%x(j)**2
     end do
-    do j = 1, law%n
-      law%left(j) = weight(law%x(j), law%x(j + 1))
-      law%right(j) = weight(law%x(j + 1), law%x(j))
-    end do
+    law%at = layout_of(law)
+    n = law%n
+    law%outwards(1:n) = weight(law%x(1:n), law%x(2:n + 1))
+    law%weight(1:n) = law%outwards(1:n)
+    law%weight(2:n) = law%weight(2:n) + weight(law%x(2:n), law%x(1:n - 1))
   end subroutine place_nodes
+
+  !> int f dx over a contact that ends at the last element where f is not zero, and that element's outer cell.
+  pure function integral(law, f)
+    type(law_type), intent(in) :: law
+    real(dp), intent(in) :: f(*)
+    real(dp) :: integral
+    integer(ip) :: first, j
+    integral = 0
+    do first = 0, law%n - 1, lanes
+      !$omp simd reduction(+: integral)
+      do j = first + 1, first + lanes
+        integral = integral + law%weight(j)*f(j)
+      end do
+    end do
+  end function integral
 
   !> A contact of radius^2 `area` that outgrows its grid: the grid is widened, states are interpolated linearly in y; what lies
   !> beyond the old width is virgin.

@@ -1,16 +1,15 @@
-!> What C calls (src/contact/kernels.h): one step of one contact, its grid, rates, forces and frame.
+!> One step of one contact, as C calls it (src/contact/kernels.h), its force and its frame.
 module rst_contact_interfaces
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
-  use rst_contact_types, only: law_type, rates_type, motion_type, layout_of, at_width, at_overlap, at_force, at_axis
-  use rst_contact_grid, only: place_nodes, stretch
-  use rst_contact_rates, only: rates_of, largest_overlap
+  use rst_contact_types, only: law_type, rates_type, motion_type, at_width, at_overlap, at_force, at_axis
+  use rst_contact_grid, only: stretch
+  use rst_contact_rates, only: largest_overlap
   use rst_contact_normal, only: normal_type, press
   use rst_contact_tangential, only: shear
-  use rst_contact_energy, only: stored_energy
   implicit none (type, external)
   private
-  public :: contact_grid, contact_rates, contact_overlap, contact_step, contact_force, contact_turn, contact_stored, force_type
+  public :: contact_step, contact_force, contact_turn, force_type
 
   !> restitute_contact_force of include/restitute/contact.h.
   type, bind(c) :: force_type
@@ -23,28 +22,9 @@ module rst_contact_interfaces
   real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the radius expected: growth costs resolution
   real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
   real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
+  real(dp), parameter :: least_overlap = 1.0e-30_dp  !! over the radius, of a new grid: the square of its width is not to underflow
 
 contains
-
-  pure subroutine contact_grid(law) bind(c, name="rst_law_grid")
-    type(law_type), intent(inout) :: law
-    law%at = layout_of(law)
-    call place_nodes(law)
-  end subroutine contact_grid
-
-  pure subroutine contact_rates(law, step, rates) bind(c, name="rst_law_rates")
-    type(law_type), intent(in) :: law
-    real(dp), intent(in), value :: step
-    type(rates_type), intent(out) :: rates
-    rates = rates_of(law, step)
-  end subroutine contact_rates
-
-  pure function contact_overlap(law, mass, speed, radius) result(overlap) bind(c, name="rst_law_overlap")
-    type(law_type), intent(in) :: law
-    real(dp), intent(in), value :: mass, speed, radius
-    real(dp) :: overlap
-    overlap = largest_overlap(law, mass, speed, radius)
-  end function contact_overlap
 
   pure subroutine contact_step(law, rates, motion, state, force, status) bind(c, name="rst_law_step")
     type(law_type), intent(in) :: law
@@ -88,14 +68,6 @@ contains
     account(2) = account(2) + friction
   end subroutine keep_account
 
-  pure function contact_stored(law, radius, state) result(energy) bind(c, name="rst_law_stored")
-    type(law_type), intent(in) :: law
-    real(dp), intent(in), value :: radius
-    real(dp), intent(in) :: state(*)
-    real(dp) :: energy
-    energy = stored_energy(law, radius, state)
-  end function contact_stored
-
   !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.
   pure subroutine touch(law, rates, motion, state, status)
     type(law_type), intent(in) :: law
@@ -105,7 +77,7 @@ contains
     integer(ip), intent(out) :: status
     real(dp) :: overlap, mass
     status = done
-    overlap = motion%overlap
+    overlap = max(motion%overlap, least_overlap*motion%radius)
     if (motion%velocity > 0 .and. motion%mobility(1) > 0) then
       mass = rates%step/(2*motion%mobility(1))
       overlap = max(overlap, largest_overlap(law, mass, motion%velocity, motion%radius))

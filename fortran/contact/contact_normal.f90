@@ -3,11 +3,11 @@
 module rst_contact_normal
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, most_nodes, most_terms, lanes
-  use rst_contact_grid, only: weight
+  use rst_contact_grid, only: weight, integral
   use rst_contact_rates, only: arm_of, relief
   implicit none (type, external)
   private
-  public :: normal_type, press
+  public :: normal_type, press, strain
 
   !> What the tangential problem needs.
   type :: normal_type
@@ -15,9 +15,8 @@ module rst_contact_normal
     logical :: entered               !! some element has entered in this step
     real(dp) :: f(most_nodes)        !! force density in units of law%normal
     real(dp) :: part(most_nodes)     !! of the step in contact, 0 outside
-    real(dp) :: w(most_nodes)        !! weights of the whole cells within the contact
     real(dp) :: edge                 !! contact radius in grid widths
-    real(dp) :: inner, outer         !! weights of the last, cut cell: of the last element, of the rim
+    real(dp) :: inner, outer         !! weights of the last, cut cell: of the last element (beside its law%weight), of the rim
     real(dp) :: at_rim               !! f at the rim
     real(dp) :: rise(most_terms)     !! w at the rim over that of the last element
     real(dp) :: force
@@ -32,12 +31,14 @@ contains
     real(dp), intent(in) :: overlap_before, width
     real(dp), intent(inout) :: state(*)
     type(normal_type), intent(out) :: contact
-    real(dp) :: change
+    real(dp) :: change, rim, carried
     call follow_profile(law, rates, motion, law%n, law%n_terms, width**2/motion%radius, overlap_before, state(law%at%w_z), &
                         state(law%at%u_z), contact)
     call close_rim(law, motion, motion%velocity, width, state(law%at%w_z), state(law%at%u_z), contact)
     if (.not. rates%drag > 0 .or. contact%last == 0) return
-    change = -relief(motion%mobility(1), law%normal*width*contact%edge*rates%drag)*contact%force
+    rim = width*contact%edge ! the equilibrium spring carries what does not accelerate, such as a weight at rest
+    carried = law%normal*law%g_inf*rim*(motion%overlap - rim**2/(3*motion%radius))
+    change = -relief(motion%mobility(1), law%normal*rim*rates%drag)*(contact%force - carried)
     call feel_end_velocity(law, rates, change, law%n, law%n_terms, state(law%at%w_z), state(law%at%u_z), contact)
     call close_rim(law, motion, motion%velocity + change, width, state(law%at%w_z), state(law%at%u_z), contact)
   end subroutine press
@@ -51,9 +52,9 @@ contains
     real(dp), intent(in) :: scale, overlap_before  !! scale: width^2/R
     real(dp), intent(inout) :: w(n, n_terms), surface(n)
     type(normal_type), intent(inout) :: contact
-    real(dp), dimension(most_nodes) :: before, pressed, move, gap
+    real(dp), dimension(most_nodes) :: before, pressed, move
     real(dp), dimension(lanes) :: held, pull
-    real(dp) :: free, y, missed
+    real(dp) :: free, y, gap, missed
     integer(ip) :: first, i, j, k
 
     missed = 0
@@ -73,22 +74,22 @@ contains
           before(first + i) = max(overlap_before - law%y(first + i)*scale, -held(i)*law%softness)
         end do
       end if
-      !$omp simd private(y, free, j) reduction(+: missed)
+      !$omp simd private(y, free, gap, j) reduction(+: missed)
       do i = 1, lanes
         j = first + i
         y = law%y(j)*scale
-        gap(j) = (overlap_before - y) - before(j)
+        gap = (overlap_before - y) - before(j)
         free = -(law%g_inf*before(j) + pull(i))*rates%softness
         move(j) = (motion%overlap - y) - before(j)
         pressed(j) = move(j) - free
         contact%part(j) = merge(1.0_dp, 0.0_dp, pressed(j) > 0)
-        move(j) = merge(move(j), free, pressed(j) > 0)
-        missed = missed + merge(gap(j), 0.0_dp, gap(j) < 0)*contact%part(j)
+        move(j) = max(move(j), free)
+        missed = missed + min(gap, 0.0_dp)*contact%part(j)
         contact%f(j) = law%g_inf*(before(j) + move(j)) + law%eta*motion%velocity
       end do
     end do
     contact%entered = missed < 0
-    if (contact%entered) call enter(n, pressed, gap, contact%part)
+    if (contact%entered) call enter(n, pressed, overlap_before - law%y(1:n)*scale - before(1:n), contact%part)
     do k = 1, n_terms
       call strain(law, rates, k, n, contact%entered, contact%part, move, w(:, k), contact%f)
     end do
@@ -125,24 +126,24 @@ contains
     logical, intent(in) :: entered
     real(dp), intent(in) :: part(n), move(n)
     real(dp), intent(inout) :: w(n), f(n)
-    real(dp) :: before(most_nodes), decay, gain, bend
+    real(dp) :: decay, gain, bend
     integer(ip) :: first, j
-    do first = 0, n - 1, lanes
-      do j = first + 1, first + lanes
-        before(j) = w(j)
-        w(j) = rates%decay(k)*w(j) + rates%gain(k)*move(j)
+    if (entered) then
+      do j = 1, n
+        decay = rates%decay(k)
+        gain = rates%gain(k)
+        if (part(j) > 0 .and. part(j) < 1) call arm_of(part(j)*rates%step, law%tau(k), decay, gain, bend)
+        w(j) = decay*w(j) + gain*move(j)
         f(j) = f(j) + law%g(k)*w(j)
       end do
-    end do
-    if (.not. entered) return
-    do j = 1, n
-      if (part(j) > 0 .and. part(j) < 1) then
-        call arm_of(part(j)*rates%step, law%tau(k), decay, gain, bend)
-        f(j) = f(j) - law%g(k)*w(j)
-        w(j) = decay*before(j) + gain*move(j)
-        f(j) = f(j) + law%g(k)*w(j)
-      end if
-    end do
+    else
+      do first = 0, n - 1, lanes
+        do j = first + 1, first + lanes
+          w(j) = rates%decay(k)*w(j) + rates%gain(k)*move(j)
+          f(j) = f(j) + law%g(k)*w(j)
+        end do
+      end do
+    end if
   end subroutine strain
 
   !> The viscous force at the velocity of the end of the step. An element that this would make pull springs back at once.
@@ -182,7 +183,7 @@ contains
     real(dp), intent(in) :: velocity, width
     real(dp), intent(in) :: w(law%n, law%n_terms), surface(law%n)
     type(normal_type), intent(inout) :: contact
-    real(dp), parameter :: least = tiny(1.0_dp)  !! of a dashpot alone: as far as the profile
+    real(dp), parameter :: least = tiny(1.0_dp)  !! without equilibrium modulus: as far as the profile
     real(dp) :: scale, edge, beyond, slope
     integer(ip) :: last
     contact%force = 0
@@ -198,7 +199,7 @@ contains
       edge = motion%overlap
       call rise_at_rim(law, motion%velocity, velocity, edge - beyond, w, contact)
     else
-      edge = beyond + contact%f(last)/merge(slope, max(law%g_start, least), slope > 0)
+      edge = beyond + contact%f(last)/merge(slope, max(law%g_inf, least), slope > 0)
       if (edge > motion%overlap) then
         edge = motion%overlap
         if (last > 1) contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
@@ -209,13 +210,9 @@ contains
       if (.not. contact%at_rim > 0 .and. last > 1) contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
     end if
     contact%edge = sqrt(max(edge/scale, law%y(last)))
-    contact%inner = weight(law%x(last), contact%edge)
+    contact%inner = weight(law%x(last), contact%edge) - law%outwards(last)
     contact%outer = weight(contact%edge, law%x(last))
-    contact%w(1) = 0
-    contact%w(2:last) = law%right(1:last - 1)
-    contact%w(1:last - 1) = contact%w(1:last - 1) + law%left(1:last - 1)
-    contact%force = law%normal*width*(dot_product(contact%w(1:last), contact%f(1:last)) + contact%inner*contact%f(last) &
-                                      + contact%outer*contact%at_rim)
+    contact%force = law%normal*width*(integral(law, contact%f) + contact%inner*contact%f(last) + contact%outer*contact%at_rim)
   end subroutine close_rim
 
   !> No element from there on has ever been touched.

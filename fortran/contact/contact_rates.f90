@@ -1,10 +1,11 @@
 !> Springs and dashpots over one time step, exact for a velocity that is linear in it (THEORY 5), and the width of a new contact.
 module rst_contact_rates
+  use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type
   implicit none (type, external)
   private
-  public :: rates_of, arm_of, relief, largest_overlap
+  public :: set_rates, arm_of, relief, largest_overlap
 
 contains
 
@@ -26,10 +27,10 @@ contains
     end if
   end subroutine arm_of
 
-  pure function rates_of(law, step) result(rates)
+  pure subroutine set_rates(law, step, rates) bind(c, name="rst_law_rates")
     type(law_type), intent(in) :: law
-    real(dp), intent(in) :: step
-    type(rates_type) :: rates
+    real(c_double), intent(in), value :: step
+    type(rates_type), intent(out) :: rates
     real(dp) :: stiffness
     integer(ip) :: k
     rates%step = step
@@ -45,7 +46,7 @@ contains
       rates%drag = rates%drag + law%g(k)*rates%bend(k)
     end do
     rates%softness = 1/stiffness
-  end function rates_of
+  end subroutine set_rates
 
   !> Change of the velocity until the end of the step by a unit force that holds it back, with a drag of that force over velocity.
   !> Such that a mere dashpot decays by exp(-drag dt/m) in a velocity-Verlet step, however strong it is.
@@ -63,10 +64,11 @@ contains
 
   !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24) with the mean modulus over
   !> 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a parallel dashpot +-3 %, its part is fitted).
-  pure function largest_overlap(law, mass, speed, radius) result(d)
+  pure function largest_overlap(law, mass, speed, radius) result(d) bind(c, name="rst_law_overlap")
     type(law_type), intent(in) :: law
-    real(dp), intent(in) :: mass, speed, radius
-    real(dp) :: d, g, z, time, energy
+    real(c_double), intent(in), value :: mass, speed, radius
+    real(c_double) :: d
+    real(dp) :: g, z, time, energy
     real(dp), parameter :: share_of_time = 0.88_dp, share_of_dashpot = 0.735_dp
     integer(ip) :: i, k
     integer(ip), parameter :: iterations = 24  !! each takes 30 to 50 % off the error of log d, which starts below 20

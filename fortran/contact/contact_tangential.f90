@@ -3,9 +3,9 @@
 module rst_contact_tangential
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, most_nodes, lanes
-  use rst_contact_grid, only: weight
-  use rst_contact_rates, only: arm_of, relief
-  use rst_contact_normal, only: normal_type
+  use rst_contact_grid, only: weight, integral
+  use rst_contact_rates, only: relief
+  use rst_contact_normal, only: normal_type, strain
   implicit none (type, external)
   private
   public :: shear
@@ -31,30 +31,27 @@ contains
     real(dp), intent(out) :: force(2)  !! that body 1 feels is the opposite
     real(dp), intent(out) :: friction  !! energy lost in the step
     type(shear_type) :: s
-    real(dp) :: ratio, sticking
-    real(dp) :: change(2)
+    real(dp) :: ratio, sticking, change(2)
 
     ratio = motion%friction*law%normal/law%tangential
-    s%limit(1:law%n) = ratio*contact%f(1:law%n)
     s%limit_at_rim = ratio*contact%at_rim
     call stick(law, rates, displacement(1), law%n, law%n_terms, contact, state(law%at%u_x), state(law%at%w_x), s%trial(:, 1))
     call stick(law, rates, displacement(2), law%n, law%n_terms, contact, state(law%at%u_y), state(law%at%w_y), s%trial(:, 2))
-    call limit_by_friction(law%n, s)
-    change = 0
-    call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
+    call limit_by_friction(law%n, ratio, contact%f, s)
+    call hold_rim(law, rates, displacement/rates%step, contact, state(law%at%w_x), state(law%at%w_y), s)
     force = law%tangential*width*summed(law, contact, s)
     if (rates%drag > 0 .and. contact%last > 0) then
-      sticking = sum(contact%w(1:contact%last), mask=.not. s%excess(1:contact%last) > 0)
+      sticking = sum(law%weight(1:contact%last), mask=.not. s%excess(1:contact%last) > 0)
       if (.not. s%excess(contact%last) > 0) sticking = sticking + contact%inner + contact%outer
       change = -relief(motion%mobility(2), law%tangential*width*sticking*rates%drag)*force
       call feel_end_velocity(rates, change(1), law%n, law%n_terms, contact, state(law%at%w_x), s%trial(:, 1))
       call feel_end_velocity(rates, change(2), law%n, law%n_terms, contact, state(law%at%w_y), s%trial(:, 2))
-      call limit_by_friction(law%n, s)
+      call limit_by_friction(law%n, ratio, contact%f, s)
       call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
       force = law%tangential*width*summed(law, contact, s)
     end if
     friction = 0
-    if (law%accounts /= 0) friction = law%tangential*width*rates%softness*lost(contact, s)
+    if (law%accounts /= 0) friction = law%tangential*width*rates%softness*lost(law, contact, s)
     call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 1), state(law%at%u_x), state(law%at%w_x))
     call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 2), state(law%at%u_y), state(law%at%w_y))
   end subroutine shear
@@ -68,46 +65,20 @@ contains
     type(normal_type), intent(in) :: contact
     real(dp), intent(inout) :: u(n), w(n, n_terms)
     real(dp), intent(out) :: trial(n)
-    real(dp) :: before(most_nodes), viscous
+    real(dp) :: move(most_nodes), viscous
     integer(ip) :: first, j, k
     viscous = law%eta*displacement/rates%step
     do first = 0, n - 1, lanes
       do j = first + 1, first + lanes
-        u(j) = u(j) + contact%part(j)*displacement
+        move(j) = contact%part(j)*displacement
+        u(j) = u(j) + move(j)
         trial(j) = law%g_inf*u(j) + merge(viscous, 0.0_dp, contact%part(j) > 0)
       end do
     end do
     do k = 1, n_terms
-      do first = 0, n - 1, lanes
-        do j = first + 1, first + lanes
-          before(j) = w(j, k)
-          w(j, k) = rates%decay(k)*w(j, k) + (rates%gain(k)*displacement)*contact%part(j)
-        end do
-      end do
-      if (contact%entered) call shorten(law, rates, k, displacement, n, contact%part, before, w(:, k))
-      do first = 0, n - 1, lanes
-        do j = first + 1, first + lanes
-          trial(j) = trial(j) + law%g(k)*w(j, k)
-        end do
-      end do
+      call strain(law, rates, k, n, contact%entered, contact%part, move, w(:, k), trial)
     end do
   end subroutine stick
-
-  !> Elements that have entered in the step have had less time.
-  pure subroutine shorten(law, rates, k, displacement, n, part, before, w)
-    type(law_type), intent(in) :: law
-    type(rates_type), intent(in) :: rates
-    integer(ip), intent(in) :: k, n
-    real(dp), intent(in) :: displacement, part(n), before(n)
-    real(dp), intent(inout) :: w(n)
-    real(dp) :: decay, gain, bend
-    integer(ip) :: j
-    do j = 1, n
-      if (.not. part(j) > 0 .or. part(j) >= 1) cycle
-      call arm_of(part(j)*rates%step, law%tau(k), decay, gain, bend)
-      w(j) = decay*before(j) + gain*part(j)*displacement
-    end do
-  end subroutine shorten
 
   !> The viscous force at the velocity of the end of the step.
   pure subroutine feel_end_velocity(rates, change, n, n_terms, contact, w, trial)
@@ -123,8 +94,9 @@ contains
     trial = trial + rates%drag*change*contact%part(1:n)
   end subroutine feel_end_velocity
 
-  pure subroutine limit_by_friction(n, s)
+  pure subroutine limit_by_friction(n, ratio, f, s)
     integer(ip), intent(in) :: n
+    real(dp), intent(in) :: ratio, f(*)
     type(shear_type), intent(inout) :: s
     real(dp), parameter :: least = 1.0e-300_dp
     real(dp) :: q
@@ -132,8 +104,9 @@ contains
     do first = 0, n - 1, lanes
       !$omp simd private(q)
       do j = first + 1, first + lanes
+        s%limit(j) = ratio*f(j)
         q = sqrt(s%trial(j, 1)**2 + s%trial(j, 2)**2)
-        s%excess(j) = merge(q - s%limit(j), 0.0_dp, q > s%limit(j))/(q + least)
+        s%excess(j) = max(q - s%limit(j), 0.0_dp)/(q + least)
         s%q(j, 1) = s%trial(j, 1)*(1 - s%excess(j))
         s%q(j, 2) = s%trial(j, 2)*(1 - s%excess(j))
       end do
@@ -164,7 +137,8 @@ contains
   end subroutine slip
 
   !> Integral of the friction limit times the slip, over the softness of the elements.
-  pure function lost(contact, s)
+  pure function lost(law, contact, s)
+    type(law_type), intent(in) :: law
     type(normal_type), intent(in) :: contact
     type(shear_type), intent(in) :: s
     real(dp) :: lost
@@ -173,7 +147,7 @@ contains
     last = contact%last
     if (last == 0) return
     do j = 1, last
-      lost = lost + contact%w(j)*s%excess(j)*dot_product(s%q(j, :), s%trial(j, :))
+      lost = lost + law%weight(j)*s%excess(j)*dot_product(s%q(j, :), s%trial(j, :))
     end do
     lost = lost + s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, s%trial(last, :))
   end function lost
@@ -213,10 +187,7 @@ contains
     total = 0
     last = contact%last
     if (last == 0) return
-    total = contact%inner*s%q(last, :) + contact%outer*s%at_rim
-    do j = 1, last
-      total = total + contact%w(j)*s%q(j, :)
-    end do
+    total = [integral(law, s%q(:, 1)), integral(law, s%q(:, 2))] + contact%inner*s%q(last, :) + contact%outer*s%at_rim
     do j = 1, last - 1
       if (s%excess(j) > 0 .and. .not. s%excess(j + 1) > 0) then
         if (j + 2 <= last) call add_kink(law, s, j + 1, j + 2, j, total)
@@ -262,7 +233,7 @@ contains
     if (.not. margin(1) > 0 .or. margin(2) <= margin(1)) return
     kink = law%y(last) + margin(1)*(law%y(last) - law%y(last - 1))/(margin(2) - margin(1))
     if (kink >= contact%edge**2) return
-    total = total + direction*margin(1)*(contact%inner - weight(law%x(last), sqrt(kink))) &
+    total = total + direction*margin(1)*(contact%inner + law%outwards(last) - weight(law%x(last), sqrt(kink))) &
             + contact%outer*(s%limit_at_rim*direction - s%at_rim)
   end subroutine add_kink_at_rim
 end module rst_contact_tangential

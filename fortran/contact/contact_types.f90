@@ -30,13 +30,13 @@ module rst_contact_types
     integer(c_int64_t) :: accounts !! 1: work and friction are kept
     type(layout_type) :: at
     real(c_double) :: g_inf, eta
-    real(c_double) :: g_start        !! g_inf + sum g
     real(c_double) :: softness       !! 1/g_inf, 0 if there is none
     real(c_double) :: normal, tangential  !! 4/(1-nu) and 8/(2-nu): both sides of the contact (9)
     real(c_double) :: g(most_terms), tau(most_terms)
     real(c_double) :: x(most_nodes + 1)  !! nodes, x(n + 1) = 1: where the next one would be
     real(c_double) :: y(most_nodes + 1)  !! x^2
-    real(c_double) :: left(most_nodes), right(most_nodes)  !! weights of the cell from x(j) to x(j + 1): of its inner and outer end
+    real(c_double) :: weight(most_nodes)     !! of a node within the contact, in both of its cells
+    real(c_double) :: outwards(most_nodes)   !! its part in the outer one, from x(j) to x(j + 1)
   end type law_type
 
   !> What depends on the time step alone: a displacement du, even over the step, makes w <- decay w + gain du.

@@ -10,11 +10,11 @@ enum { rst_most_nodes = 32, rst_most_terms = 8 };
 struct rst_law {
     int64_t n, n_terms, surface, slips, accounts;
     int64_t layout[8]; /* set with the grid; the last two: where the work is (from 1), the size of a state */
-    double g_inf, eta, g_start, softness;
+    double g_inf, eta, softness;
     double normal, tangential;
     double g[rst_most_terms], tau[rst_most_terms];
     double x[rst_most_nodes + 1], y[rst_most_nodes + 1];
-    double left[rst_most_nodes], right[rst_most_nodes];
+    double weight[rst_most_nodes], outwards[rst_most_nodes];
 };
 
 enum { rst_step_done, rst_step_too_long, rst_normal_jumped };

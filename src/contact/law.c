@@ -108,9 +108,6 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     k->tangential = 8 / (2 - nu);
     made->halved = options->deformable == RESTITUTE_BOTH_BODIES_DEFORM;
     if (made->halved) halve(k);
-    k->g_start = k->g_inf;
-    for (int64_t i = 0; i < k->n_terms; i++)
-        k->g_start += k->g[i];
     k->softness = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
     made->size = (size_t)k->layout[7];
@@ -177,6 +174,9 @@ int restitute_contact_time_step_limit(const restitute_contact_law *law, double m
     if (!status) status = check_positive(radius, "radius (m)", error);
     if (!status) status = check_positive(speed, "speed (m/s)", error);
     if (status) return status;
-    *limit = 2.94 * rst_law_overlap(&law->kernel, mass, speed, radius) / speed / 50; /* 2.94 d/v: an elastic contact */
+    const double step = 2.94 * rst_law_overlap(&law->kernel, mass, speed, radius) / speed / 50; /* 2.94 d/v: elastic */
+    status = check_positive(step, "limit (s)", error);
+    if (status) return status;
+    *limit = step;
     return rst_done(error);
 }

@@ -47,39 +47,36 @@ static int is_good(const restitute_contact_rates *rates, const restitute_contact
 {
     const double *u = m->displacement, r = m->radius;
     return m->struct_size == sizeof *m && r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
-           fabs(m->normal_velocity) * rates->step <= r && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
+           fabs(m->normal_velocity) <= r / rates->step && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
            m->half_step_over_mass >= 0 && m->half_step_over_mass <= largest_mobility &&
            m->half_step_over_tangential_mass >= 0 && m->half_step_over_tangential_mass <= largest_mobility &&
            m->friction >= 0 && m->friction <= largest_friction && is_unit(m->normal);
 }
 
-static int refuse_range(restitute_error *error, const char *name, double value, double low, double high)
-{
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", name, value, low, high);
-}
-
 /* The first thing that is wrong with a motion that is not good. */
 static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
 {
-    const double r = m->radius, fastest = r / rates->step;
+    const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
+    const struct {
+        const char *name;
+        double value, low, high;
+    } numbers[] = {{"radius", r, least_radius, largest_radius},
+                   {"overlap", m->overlap, -r, r},
+                   {"normal_velocity", m->normal_velocity, -fastest, fastest},
+                   {"displacement[0]", u[0], -r, r},
+                   {"displacement[1]", u[1], -r, r},
+                   {"displacement[2]", u[2], -r, r},
+                   {"half_step_over_mass", m->half_step_over_mass, 0, largest_mobility},
+                   {"half_step_over_tangential_mass", m->half_step_over_tangential_mass, 0, largest_mobility},
+                   {"friction", m->friction, 0, largest_friction}};
     if (m->struct_size != sizeof *m)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
                           "motion.struct_size = %zu: must be %zu; prepare it with restitute_contact_motion_init",
                           m->struct_size, sizeof *m);
-    if (!(r >= least_radius && r <= largest_radius))
-        return refuse_range(error, "radius", r, least_radius, largest_radius);
-    if (!(fabs(m->overlap) <= r)) return refuse_range(error, "overlap", m->overlap, -r, r);
-    if (!(fabs(m->normal_velocity) * rates->step <= r))
-        return refuse_range(error, "normal_velocity", m->normal_velocity, -fastest, fastest);
-    for (int i = 0; i < 3; i++)
-        if (!(fabs(m->displacement[i]) <= r)) return refuse_range(error, "displacement", m->displacement[i], -r, r);
-    if (!(m->half_step_over_mass >= 0 && m->half_step_over_mass <= largest_mobility))
-        return refuse_range(error, "half_step_over_mass", m->half_step_over_mass, 0, largest_mobility);
-    if (!(m->half_step_over_tangential_mass >= 0 && m->half_step_over_tangential_mass <= largest_mobility))
-        return refuse_range(error, "half_step_over_tangential_mass", m->half_step_over_tangential_mass, 0,
-                            largest_mobility);
-    if (!(m->friction >= 0 && m->friction <= largest_friction))
-        return refuse_range(error, "friction", m->friction, 0, largest_friction);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,
+                              numbers[i].value, numbers[i].low, numbers[i].high);
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.normal = (%g, %g, %g): must be a unit vector",
                       m->normal[0], m->normal[1], m->normal[2]);
 }

@@ -162,6 +162,11 @@ static void steps_too_long_are_refused(void **unused)
     }
     assert_int_equal(restitute_contact_time_step_limit(law, 0, 1, 1, &limit, &error), RESTITUTE_ERROR_DOMAIN);
     restitute_contact_law_destroy(law);
+    restitute_material *material = solid_of(1e300, 0, 0, NULL, NULL); /* beyond the arithmetic */
+    law = law_of(material, 8, 0);
+    assert_int_equal(restitute_contact_time_step_limit(law, 1e-60, 1e60, 1e-60, &limit, &error), RESTITUTE_ERROR_DOMAIN);
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
 }
 
 /* An elastic impact lasts 2.94 d/v, d from (24): the limit is a fiftieth. */
@@ -205,6 +210,19 @@ static void bodies_apart_are_no_contact(void **unused)
     d.motion.overlap = -1e-5;
     drive_by(&d, 1e-6, 1e-3, 0);
     assert_memory_equal(d.state, none, sizeof none);
+    restitute_contact_law_destroy(law);
+}
+
+/* A contact that begins with the least overlap there is grows like any other. */
+static void least_overlap_spoils_nothing(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = drive_of(law, 1e-2, 0.3);
+    d.motion.radius = 1e-3;
+    drive_by(&d, 5e-324, 0, 0);
+    drive_by(&d, 1e-6, 1e-7, 0);
+    assert_true(d.force.normal > 0 && d.force.tangential[0] < 0);
     restitute_contact_law_destroy(law);
 }
 
@@ -325,6 +343,7 @@ int main(void)
         cmocka_unit_test(time_step_limit_of_an_elastic_impact),
         cmocka_unit_test(peek_repeats_the_last_force),
         cmocka_unit_test(bodies_apart_are_no_contact),
+        cmocka_unit_test(least_overlap_spoils_nothing),
         cmocka_unit_test(many_steps_are_single_steps),
         cmocka_unit_test(no_input_makes_what_is_not_a_number),
         cmocka_unit_test(long_series_are_reduced_within_their_bound),

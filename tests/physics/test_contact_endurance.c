@@ -10,26 +10,28 @@ static restitute_material *standard_solid(double tau)
     return material;
 }
 
-/* A sphere of unit radius under its weight on a standard solid, G = 1 + 2 exp(-t/tau): it creeps from near the
- * indentation of the unrelaxed solid to that of the relaxed one, where F = (8/3) G/(1 - nu) d^(3/2), and stays. */
-static void weight_creeps_to_the_relaxed_indentation(void **unused)
+/* A sphere of unit radius lies under its weight on a solid of G_inf = 1 Pa: in the end F = (8/3) G_inf/(1 - nu) d^(3/2). At first
+ * the load is `heavier` times as much, and falls to the weight from a tenth to half of the time. */
+static void rest(double eta, size_t n_terms, double heavier, double h, long steps)
 {
-    (void)unused;
-    const double tau = 1, mass = 1e-4, weight = 1e-7, h = 2e-3;
-    restitute_material *material = standard_solid(tau);
+    const double tau[1] = {1}, g[1] = {2}, mass = 1e-4, weight = 1e-7, nu = 0.5;
+    restitute_material *material;
+    assert_int_equal(restitute_material_prony(1, eta, n_terms, tau, g, nu, &material, NULL), 0);
     restitute_contact_law *law = law_of(material, 8, 0);
-    struct drive d = drive_of(law, h, 0.3);
     restitute_error error;
     double v = 0, lowest = 1, highest = 0;
-    const double relaxed = pow(weight / (8.0 / 3 / 0.5), 2.0 / 3);
+    const double relaxed = pow(weight / (8.0 / 3 / (1 - nu)), 2.0 / 3);
+    if (h <= 0) restitute_contact_time_step_limit(law, mass, 1, 1e-3, &h, &error);
+    struct drive d = drive_of(law, h, 0.3);
     d.motion.half_step_over_mass = h / (2 * mass);
-    for (long i = 0; i < 1000000; i++) {
-        const double half = v + h / (2 * mass) * (weight - d.force.normal);
+    for (long i = 0; i < steps; i++) {
+        const double part = fmin(1, fmax(0, ((double)i / (double)steps - 0.1) / 0.4)), load = weight * pow(heavier, 1 - part);
+        const double half = v + h / (2 * mass) * (load - d.force.normal);
         d.motion.overlap += h * half;
         d.motion.normal_velocity = half;
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
-        v = half + h / (2 * mass) * (weight - d.force.normal);
-        if (i < 900000) continue;
+        v = half + h / (2 * mass) * (load - d.force.normal);
+        if (i < steps - steps / 10) continue;
         lowest = fmin(lowest, d.motion.overlap);
         highest = fmax(highest, d.motion.overlap);
     }
@@ -38,6 +40,28 @@ static void weight_creeps_to_the_relaxed_indentation(void **unused)
     CHECK_NEAR(d.force.normal / weight, 1, 1e-6, "at rest");
     restitute_contact_law_destroy(law);
     restitute_material_destroy(material);
+}
+
+/* From near the indentation of the unrelaxed solid, G = 3 Pa, to that of the relaxed one; and it stays. */
+static void weight_creeps_to_the_relaxed_indentation(void **unused)
+{
+    (void)unused;
+    rest(0, 1, 1, 2e-3, 1000000);
+}
+
+/* A dashpot has no force at rest, at the longest step that is safe for an impact at 1 mm/s. */
+static void weight_rests_on_a_dashpot(void **unused)
+{
+    (void)unused;
+    rest(1, 0, 1, 0, 200000);
+    rest(10, 1, 1, 0, 2000000);
+}
+
+/* A contact that was 100 times deeper, so that a single element of its grid is left in it. */
+static void weight_rests_after_a_heavy_load(void **unused)
+{
+    (void)unused;
+    rest(0, 1, 1000, 2e-3, 1000000);
 }
 
 /* Force after a steady approach to `overlap`, of a contact whose grid was made for the overlap `first`. */
@@ -110,6 +134,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weight_creeps_to_the_relaxed_indentation),
+        cmocka_unit_test(weight_rests_on_a_dashpot),
+        cmocka_unit_test(weight_rests_after_a_heavy_load),
         cmocka_unit_test(outgrown_grids_keep_the_force),
         cmocka_unit_test(surfaces_remember_until_they_have_relaxed),
     };
