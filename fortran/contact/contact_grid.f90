@@ -49,7 +49,7 @@ contains
       ratio = stretch_ratio*ratio
     end do
     if (ratio <= 1) return
-    do array = at_arrays, law%at%size - law%n + 1, law%n
+    do array = at_arrays, law%at%work - law%n, law%n
       call resample(law%n, law%y, ratio**2, state(array))
     end do
     state(at_width) = ratio*state(at_width)

@@ -7,9 +7,10 @@ module rst_contact_interfaces
   use rst_contact_rates, only: rates_of, largest_overlap
   use rst_contact_normal, only: normal_type, press
   use rst_contact_tangential, only: shear
+  use rst_contact_energy, only: stored_energy
   implicit none (type, external)
   private
-  public :: contact_grid, contact_rates, contact_overlap, contact_step, contact_force, contact_turn, force_type
+  public :: contact_grid, contact_rates, contact_overlap, contact_step, contact_force, contact_turn, contact_stored, force_type
 
   !> restitute_contact_force of include/restitute/contact.h.
   type, bind(c) :: force_type
@@ -53,7 +54,7 @@ contains
     type(force_type), intent(out) :: force
     integer(ip), intent(out) :: status
     type(normal_type) :: contact
-    real(dp) :: displacement(2), axis(3), other(3)
+    real(dp) :: displacement(2), axis(3), other(3), before(3), approach, friction
     logical :: lost
     axis = state(at_axis:at_axis + 2)
     call follow_normal(motion%axis, axis, lost)
@@ -63,15 +64,37 @@ contains
     state(at_axis:at_axis + 2) = axis
     call stretch(law, motion%overlap*motion%radius, state)
     call press(law, rates, motion, state(at_overlap), state(at_width), state, contact)
+    before = state(at_force:at_force + 2)
+    approach = motion%overlap - state(at_overlap)
     state(at_overlap) = motion%overlap
     state(at_force) = contact%force
+    displacement = 0
+    friction = 0
     if (law%slips /= 0) then
       other = cross(motion%axis, axis)
       displacement = [dot_product(axis, motion%displacement), dot_product(other, motion%displacement)]
-      call shear(law, rates, motion, displacement, state(at_width), contact, state, state(at_force + 1))
+      call shear(law, rates, motion, displacement, state(at_width), contact, state, state(at_force + 1), friction)
     end if
+    if (law%accounts /= 0) call keep_account(approach, displacement, before + state(at_force:at_force + 2), friction, &
+                                             state(law%at%work))
     call contact_force(motion%axis, state, force)
   end subroutine contact_step
+
+  !> Work of the bodies on the contact, by the trapezoid that velocity Verlet has, and what friction took of it.
+  pure subroutine keep_account(approach, displacement, both_forces, friction, account)
+    real(dp), intent(in) :: approach, displacement(2), both_forces(3), friction
+    real(dp), intent(inout) :: account(2)
+    account(1) = account(1) + 0.5_dp*(approach*both_forces(1) + dot_product(displacement, both_forces(2:3)))
+    account(2) = account(2) + friction
+  end subroutine keep_account
+
+  pure function contact_stored(law, radius, state) result(energy) bind(c, name="rst_law_stored")
+    type(law_type), intent(in) :: law
+    real(dp), intent(in), value :: radius
+    real(dp), intent(in) :: state(*)
+    real(dp) :: energy
+    energy = stored_energy(law, radius, state)
+  end function contact_stored
 
   !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.
   pure subroutine touch(law, rates, motion, state, status)

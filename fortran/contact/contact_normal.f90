@@ -95,7 +95,7 @@ contains
     if (law%surface /= 0) surface = before(1:n) + move(1:n)
     do first = 0, n - 1, lanes
       do j = first + 1, first + lanes
-        contact%f(j) = merge(contact%f(j), 0.0_dp, contact%part(j) > 0)
+        contact%f(j) = merge(max(contact%f(j), 0.0_dp), 0.0_dp, contact%part(j) > 0)
       end do
     end do
     contact%last = n

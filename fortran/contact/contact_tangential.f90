@@ -21,7 +21,7 @@ module rst_contact_tangential
 
 contains
 
-  pure subroutine shear(law, rates, motion, displacement, width, contact, state, force)
+  pure subroutine shear(law, rates, motion, displacement, width, contact, state, force, friction)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
     type(motion_type), intent(in) :: motion
@@ -29,6 +29,7 @@ contains
     type(normal_type), intent(in) :: contact
     real(dp), intent(inout) :: state(*)
     real(dp), intent(out) :: force(2)  !! that body 1 feels is the opposite
+    real(dp), intent(out) :: friction  !! energy lost in the step
     type(shear_type) :: s
     real(dp) :: ratio, sticking
     real(dp) :: change(2)
@@ -52,6 +53,8 @@ contains
       call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
       force = law%tangential*width*summed(law, contact, s)
     end if
+    friction = 0
+    if (law%accounts /= 0) friction = law%tangential*width*rates%softness*lost(contact, s)
     call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 1), state(law%at%u_x), state(law%at%w_x))
     call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 2), state(law%at%u_y), state(law%at%w_y))
   end subroutine shear
@@ -159,6 +162,21 @@ contains
       end do
     end do
   end subroutine slip
+
+  !> Integral of the friction limit times the slip, over the softness of the elements.
+  pure function lost(contact, s)
+    type(normal_type), intent(in) :: contact
+    type(shear_type), intent(in) :: s
+    real(dp) :: lost
+    integer(ip) :: j, last
+    lost = 0
+    last = contact%last
+    if (last == 0) return
+    do j = 1, last
+      lost = lost + contact%w(j)*s%excess(j)*dot_product(s%q(j, :), s%trial(j, :))
+    end do
+    lost = lost + s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, s%trial(last, :))
+  end function lost
 
   !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that of the last element by as much;
   !> else the same part of the limit.

@@ -15,9 +15,10 @@ module rst_contact_types
   !> components), first tangential axis.
   integer(ip), parameter :: at_width = 1, at_overlap = 2, at_force = 3, at_axis = 6, at_arrays = 9
 
-  !> Where the arrays of the state begin, each of n values: w_z(n, n_terms), u_x, u_y, w_x(n, n_terms), w_y(n, n_terms), u_z.
+  !> Where the arrays of the state begin, each of n values: w_z(n, n_terms), u_x, u_y, w_x(n, n_terms), w_y(n, n_terms), u_z;
+  !> then the work of the bodies on the contact and what friction took of it.
   type, bind(c) :: layout_type
-    integer(c_int64_t) :: w_z, u_x, u_y, w_x, w_y, u_z, size
+    integer(c_int64_t) :: w_z, u_x, u_y, w_x, w_y, u_z, work, size
   end type layout_type
 
   !> An immutable law. Moduli are those of the effective solid; the grid is in units of its width.
@@ -26,6 +27,7 @@ module rst_contact_types
     integer(c_int64_t) :: n_terms
     integer(c_int64_t) :: surface  !! 1: the free surface is a state (dashpot or no equilibrium modulus)
     integer(c_int64_t) :: slips    !! 1: there are tangential states
+    integer(c_int64_t) :: accounts !! 1: work and friction are kept
     type(layout_type) :: at
     real(c_double) :: g_inf, eta
     real(c_double) :: g_start        !! g_inf + sum g
@@ -72,6 +74,7 @@ contains
     at%w_x = at%u_y + n*slips
     at%w_y = at%w_x + arms*slips
     at%u_z = at%w_y + arms*slips
-    at%size = at%u_z + n*law%surface - 1
+    at%work = at%u_z + n*law%surface
+    at%size = at%work + 2*law%accounts - 1
   end function layout_of
 end module rst_contact_types

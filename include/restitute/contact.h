@@ -46,6 +46,7 @@ typedef struct restitute_contact_law_options {
     double shortest;     /**< s, > 0: times from here, the time step of the host, ... */
     double longest;      /**< s, > shortest: ... to here, the longest contact time of interest, are met. Default 0, 0 */
     int frictionless;    /**< nonzero: no tangential force, no states for it; default 0 */
+    int energies;        /**< nonzero: two more doubles a contact, for @ref restitute_contact_energies_of; default 0 */
 } restitute_contact_law_options;
 
 RESTITUTE_API void restitute_contact_law_options_init(restitute_contact_law_options *options);
@@ -64,7 +65,7 @@ RESTITUTE_API int restitute_contact_law_create(const restitute_material *materia
 RESTITUTE_API void restitute_contact_law_destroy(restitute_contact_law *law);
 
 /** Doubles of the state of one contact: 8 + elements x (2 with friction + terms x (1, 3 with friction) + 1 with a parallel
- *  dashpot or without equilibrium modulus). With 8 elements and friction: elastic 24, Kelvin-Voigt 32, standard solid 48. 0 for NULL. */
+ *  dashpot or without equilibrium modulus) + 2 with energies. With 8 elements and friction: elastic 24, Kelvin-Voigt 32, standard solid 48. 0 for NULL. */
 RESTITUTE_API size_t restitute_contact_law_state_size(const restitute_contact_law *law);
 
 /** A number that two laws share if they are the same, for restart files; 0 for NULL. A state carries 24 bits of it. */
@@ -144,6 +145,19 @@ RESTITUTE_API int restitute_contact_step_many(const restitute_contact_law *law, 
  *  @param normal  unit vector of now */
 RESTITUTE_API int restitute_contact_peek(const restitute_contact_law *law, const double normal[3], const double *state,
                                          restitute_contact_force *force, restitute_error *error);
+
+/** Where the work that two bodies have done on their contact went, J. The three add up to it. */
+typedef struct restitute_contact_energies {
+    double stored;   /**< in springs, those outside the contact that have not relaxed yet included */
+    double friction; /**< lost to slip */
+    double viscous;  /**< lost in dashpots: the rest, so that the errors of the other two (some percent of them) are here */
+} restitute_contact_energies;
+
+/** Energies of a contact since it began; of a law made with `energies`.
+ *
+ *  @param radius  effective, m, as in the motion */
+RESTITUTE_API int restitute_contact_energies_of(const restitute_contact_law *law, double radius, const double *state,
+                                                restitute_contact_energies *energies, restitute_error *error);
 
 /** Turn the memory of a contact with a normal that jumps, as when a sphere slides onto the next triangle of a mesh.
  *

@@ -8,8 +8,8 @@
 enum { rst_most_nodes = 32, rst_most_terms = 8 };
 
 struct rst_law {
-    int64_t n, n_terms, surface, slips;
-    int64_t layout[7]; /* set with the grid; the last one is the size of a state */
+    int64_t n, n_terms, surface, slips, accounts;
+    int64_t layout[8]; /* set with the grid; the last two: where the work is (from 1), the size of a state */
     double g_inf, eta, g_start, softness;
     double normal, tangential;
     double g[rst_most_terms], tau[rst_most_terms];
@@ -26,6 +26,7 @@ void rst_law_step(const struct rst_law *law, const restitute_contact_rates *rate
                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                   int64_t *status);
 void rst_law_force(const double *normal, const double *state, restitute_contact_force *force);
+double rst_law_stored(const struct rst_law *law, double radius, const double *state);
 void rst_law_turn(const double *from, const double *to, double *state);
 
 #endif

@@ -102,6 +102,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     const double nu = restitute_material_poisson_ratio(material);
     k->n = options->elements;
     k->slips = !options->frictionless;
+    k->accounts = options->energies != 0;
     k->surface = k->eta > 0 || !(k->g_inf > 0);
     k->normal = 4 / (1 - nu);
     k->tangential = 8 / (2 - nu);
@@ -112,7 +113,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
         k->g_start += k->g[i];
     k->softness = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
-    made->size = (size_t)k->layout[6];
+    made->size = (size_t)k->layout[7];
     made->hash = hash_of(k);
     *law = made;
     return rst_done(error);

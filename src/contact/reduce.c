@@ -1,11 +1,16 @@
-/* A long Prony series as a short one, for the times that a simulation can feel: least squares in the relative error of G(t), with
- * evenly spaced log(tau) and moduli >= 0, so that it stays a solid (docs/contact.md). SPDX-License-Identifier: BSD-3-Clause */
+/* A long Prony series as a short one, for the times that a simulation can feel: least squares in the relative error of G(t) and
+ * of its integral over the first step, with evenly spaced log(tau) and moduli >= 0, so that it stays a solid
+ * (docs/contact.md). SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
 #include "law.h"
 
 /* Times are sampled that often; for the bound ten times as often, since G falls between samples. */
 enum { samples = 128, checks = 10 * samples, unknowns = rst_most_terms + 1, most_sweeps = 20000 };
+
+/* How far the times reach beyond both ends of the window: the pair with the smallest bound is taken. */
+static const double reaches[] = {1, 0.5, 0.25, 0.1, 0.03};
+enum { reach_count = sizeof reaches / sizeof reaches[0] };
 
 /* Relative change of all moduli in a sweep below which it ends: far below the errors that a few terms leave. */
 static const double settled = 1e-9;
@@ -85,10 +90,11 @@ static void solve_positive(const struct equations *e, double *x)
     }
 }
 
-/* Both moduli fall with time, so that between two times each is between its values there. */
+/* Largest relative error. Both moduli fall with time, so that between two times each is between its values there. */
 static double bound_error(const struct rst_series *whole, const struct rst_series *few, double shortest, double longest)
 {
-    double bound = 0, before[2] = {0};
+    const double first = impulse(whole, shortest);
+    double bound = fabs(impulse(few, shortest) - first) / first, before[2] = {0};
     for (int i = 0; i < checks; i++) {
         const double t = sample_time(shortest, longest, i, checks), now[2] = {modulus(whole, t), modulus(few, t)};
         if (i > 0) bound = fmax(bound, fmax(before[0] - now[1], before[1] - now[0]) / now[0]);
@@ -98,20 +104,51 @@ static double bound_error(const struct rst_series *whole, const struct rst_serie
     return bound;
 }
 
-void rst_reduce_series(const struct rst_series *series, int terms, double shortest, double longest, struct rst_law *law,
-                       double *error_bound)
+/* The best moduli for times from `fastest` to `slowest`, and their bound. */
+static double fit(const struct rst_series *series, double shortest, double longest, double fastest, double slowest,
+                  struct rst_law *law)
 {
     struct equations equations;
     double x[unknowns] = {0};
-    law->n_terms = terms;
-    law->eta = series->eta;
+    const int terms = (int)law->n_terms;
     for (int k = 0; k < terms; k++)
-        law->tau[k] = sample_time(shortest, longest, 2 * k + 1, 2 * terms + 1);
+        law->tau[k] = terms > 1 ? sample_time(fastest, slowest, k, terms) : sqrt(fastest * slowest);
     set_up(series, law, shortest, longest, &equations);
     solve_positive(&equations, x);
     law->g_inf = x[terms];
     for (int k = 0; k < terms; k++)
         law->g[k] = x[k];
     const struct rst_series few = {.g_inf = law->g_inf, .n_terms = (size_t)terms, .tau = law->tau, .g = law->g};
-    *error_bound = bound_error(series, &few, shortest, longest);
+    return bound_error(series, &few, shortest, longest);
+}
+
+/* Terms of no modulus cost memory and time. */
+static void drop_empty(struct rst_law *law)
+{
+    int64_t kept = 0;
+    for (int64_t k = 0; k < law->n_terms; k++)
+        if (law->g[k] > 0) {
+            law->tau[kept] = law->tau[k];
+            law->g[kept++] = law->g[k];
+        }
+    for (int64_t k = kept; k < law->n_terms; k++)
+        law->tau[k] = law->g[k] = 0;
+    law->n_terms = kept;
+}
+
+void rst_reduce_series(const struct rst_series *series, int terms, double shortest, double longest, struct rst_law *law,
+                       double *error_bound)
+{
+    struct rst_law trial = *law;
+    trial.n_terms = terms;
+    trial.eta = series->eta;
+    *error_bound = INFINITY;
+    for (int i = 0; i < reach_count; i++)
+        for (int j = 0; j < reach_count; j++) {
+            const double bound = fit(series, shortest, longest, shortest * reaches[i], longest / reaches[j], &trial);
+            if (!(bound < *error_bound)) continue;
+            *error_bound = bound;
+            *law = trial;
+        }
+    drop_empty(law);
 }

@@ -115,7 +115,7 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
                    const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                    restitute_error *error)
 {
-    double before[8 + rst_most_nodes * (3 + 3 * rst_most_terms)];
+    double before[8 + rst_most_nodes * (3 + 3 * rst_most_terms) + 2];
     restitute_contact_force found;
     int64_t why;
     if (!is_good(rates, motion)) return refuse(rates, motion, error);
@@ -189,6 +189,23 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "normal = (%g, %g, %g): must be a unit vector", normal[0],
                           normal[1], normal[2]);
     rst_law_force(normal, state, force);
+    return rst_done(error);
+}
+
+int restitute_contact_energies_of(const restitute_contact_law *law, double radius, const double *state,
+                                  restitute_contact_energies *energies, restitute_error *error)
+{
+    if (!law || !state || !energies)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !law ? "law" : !state ? "state" : "energies");
+    if (!law->kernel.accounts)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without energies");
+    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (!(radius >= least_radius && radius <= largest_radius))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
+                          largest_radius);
+    const double *account = state + law->size - 2;
+    const double stored = rst_law_stored(&law->kernel, radius, state);
+    *energies = (restitute_contact_energies){stored, account[1], account[0] - stored - account[1]};
     return rst_done(error);
 }
 
