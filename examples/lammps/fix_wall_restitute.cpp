@@ -48,7 +48,7 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
         error->all(FLERR, "fix wall/restitute: the box is periodic across the wall");
     started = update->ntimestep;
     restart_peratom = restart_global = create_attribute = 1;
-    vector_flag = 1;
+    vector_flag = extvector = 1;
     size_vector = 7;
     global_freq = 1;
     history_size = model->history_size();

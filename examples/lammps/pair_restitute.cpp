@@ -74,7 +74,9 @@ PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
     nondefault_history_transfer = 1; /* a state is oriented by tags: the swap of two atoms copies it */
     nextra = 4;
     pvector = new double[nextra];
-    history_id = "NEIGH_HISTORY_RESTITUTE" + std::to_string(instance_me);
+    history_id = "NEIGH_HISTORY_RESTITUTE";
+    while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
+        history_id += "_MORE"; /* pair_style hybrid with several of us; a restart file finds its fix by this name */
     modify->add_fix(history_id + "_DUMMY all DUMMY"); /* takes the place that the histories' fix needs among the fixes */
 }
 
