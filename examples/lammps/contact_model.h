@@ -28,18 +28,16 @@ struct Contact {
 /* Sets the contact and returns true; or false: apart, or bodies that nothing moves. */
 bool touching(const Body &first, const Body &second, Contact &contact);
 
-/* What a run met. */
+/* What a run met. Three ratios that have limits: contact radius over radius and speed over shear wave speed, both of the
+ * model, and time step over that of the law. The last two are those of first touches. */
+enum Ratio { RADIUS, SPEED, STEP, RATIOS };
+
 struct Record {
-    double steps = 0;       /* calls of the law */
-    double contacts = 0;    /* first touches */
-    double wide = 0;        /* contacts beyond the limit of a/R */
-    double fast = 0;        /* and of v/c_s */
-    double deepest = 0;     /* largest overlap over radius, (a/R)^2 */
-    double fastest = 0;     /* largest v/c_s at first touch */
-    double coarse = 0;      /* first touches too fast for the time step */
-    double shortest = 1e99; /* shortest time step that a first touch asked for */
+    double steps = 0, contacts = 0; /* calls of the law, first touches */
+    double beyond[RATIOS] = {};     /* contacts beyond a limit */
+    double largest[RATIOS] = {};
     void add(const Record &other);
-    std::string text() const;
+    std::string text(const double limits[RATIOS]) const;
 };
 
 /* Units of the host in SI: of stress in Pa, of density in kg/m^3. */
@@ -59,10 +57,12 @@ class ContactModel
 
     const std::vector<std::string> words;
     Record record;
+    double limits[RATIOS] = {0.1, 0.1, 1};
 
-    uint64_t hash() const;                                    /* of the law */
+    std::string about() const;                               /* a line on the law */
+    uint64_t hash() const;                                   /* of the law */
     int history_size() const { return (int)state_size + 1; } /* doubles of a contact; all zeros: a new one */
-    void set_step(double step);                               /* throws std::invalid_argument */
+    void set_step(double step);                              /* throws std::invalid_argument */
 
     /* The force on body 1 after a step. `density`: of the denser sphere. Returns what is wrong, or NULL. */
     const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3]);
@@ -71,10 +71,11 @@ class ContactModel
     const char *repeat(const Contact &contact, const double *history, double force[3]);
 
   private:
-    void read(const Units &units);
+    void read(const Units &units, restitute_contact_law_options &options, std::string &partner);
     void open(const std::string &file, const Units &units, restitute_material **opened);
-    void note_first_touch(const Contact &contact, double density);
-    void note_radius(const Contact &contact, double *is_wide);
+    void join(const std::string &partner, const Units &units);
+    void note_first_touch(const Contact &contact, double speed, double density);
+    void note(Ratio which, double ratio);
 
     restitute_material *material = nullptr;
     restitute_contact_law *law = nullptr;
@@ -83,7 +84,6 @@ class ContactModel
     restitute_error error = {};
     size_t state_size = 0;
     double file_density = 0; /* of the denser material; 0: not given */
-    double radius_limit = 0.1, speed_limit = 0.1;
 };
 
 } // namespace restitute_dem

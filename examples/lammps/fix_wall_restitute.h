@@ -20,9 +20,9 @@ class FixWallRestitute : public Fix
     int setmask() override;
     void init() override;
     void setup(int vflag) override;
+    void reset_dt() override;
     void post_force(int vflag) override;
     void post_run() override;
-    void reset_dt() override;
     double compute_vector(int n) override;
 
     void grow_arrays(int nmax) override;
@@ -41,23 +41,18 @@ class FixWallRestitute : public Fix
   private:
     enum Shape { X_PLANE, Y_PLANE, Z_PLANE, Z_CYLINDER };
 
-    int read_shape(int iarg, int narg, char **arg);
-    void read_motion(int iarg, int narg, char **arg);
-    void move();
+    void read_shear(char **word, int words);
     bool nearest(const double *x, double *point) const;
     void compute_contact(int i, const restitute_dem::Body &sphere, double density);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
     Shape shape;
-    double low, high;                     /* where the planes are; low: the radius of the cylinder */
-    int axis = -1;                        /* of the motion */
-    double speed = 0, amplitude = 0, period = 0;
-    double velocity[3] = {}, shift[3] = {}; /* of now */
+    double low, high;         /* where the planes are; low: the radius of the cylinder */
+    double velocity[3] = {};  /* of the wall, along itself */
     double **history = nullptr;
-    double force_on_wall[3] = {}, force_on_all[3] = {};
+    double force_on_wall[3] = {};
     int history_size, frozen = 0;
-    bigint started; /* step of the fix's first motion */
-    bool summed = false, warned = false;
+    bool warned = false;
 };
 
 } // namespace LAMMPS_NS

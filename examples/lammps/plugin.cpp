@@ -1,7 +1,5 @@
 /* restituteplugin.so: registers pair_style restitute and fix wall/restitute with LAMMPS.
  * SPDX-License-Identifier: GPL-2.0-or-later */
-#include <restitute/restitute.h>
-
 #include "fix_wall_restitute.h"
 #include "lammps_declarations.h"
 #include "pair_restitute.h"
@@ -25,24 +23,21 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *h
 {
     auto *lammps = static_cast<LAMMPS *>(host);
     auto add = reinterpret_cast<restitute_plugin_register>(registrar);
-    static std::string info;
     if (RESTITUTE_LAMMPS_VERSION && lammps->num_ver != RESTITUTE_LAMMPS_VERSION)
-        lammps->error->all(FLERR,
-                           "restitute: this plugin is made for LAMMPS {} and not for {}; compile it with the "
-                           "headers in the sources of that version",
+        lammps->error->all(FLERR, "restitute: made for LAMMPS {}, not {}: compile the plugin with the sources of that",
                            RESTITUTE_LAMMPS_VERSION, lammps->num_ver);
-    info = std::string("viscoelastic contacts, restitute ") + restitute_version();
     restitute_plugin plugin = {};
     plugin.version = lammps->version;
-    plugin.info = info.c_str();
     plugin.author = "the authors of restitute";
     plugin.handle = handle;
     plugin.style = "pair";
     plugin.name = "restitute";
+    plugin.info = "pair_style restitute";
     plugin.creator.pair = create_pair;
     add(&plugin, lammps);
     plugin.style = "fix";
     plugin.name = "wall/restitute";
+    plugin.info = "fix wall/restitute";
     plugin.creator.fix = create_fix;
     add(&plugin, lammps);
 }
