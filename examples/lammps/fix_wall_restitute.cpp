@@ -15,7 +15,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using restitute_dem::Body;
 using restitute_dem::Contact;
 using restitute_dem::Record;
 
@@ -100,7 +99,7 @@ bool FixWallRestitute::nearest(const double *x, double *point) const
         point[shape] = x[shape] - low < high - x[shape] ? low : high;
         return std::fabs(point[shape]) < nowhere;
     }
-    const double r = std::hypot(x[0], x[1]);
+    const double r = std::sqrt(x[0] * x[0] + x[1] * x[1]);
     for (int k = 0; k < 2; k++)
         point[k] *= low / r;
     return r > 0;
@@ -109,24 +108,29 @@ bool FixWallRestitute::nearest(const double *x, double *point) const
 void FixWallRestitute::post_force(int)
 {
     const Spheres spheres(atom, frozen);
+    double point[3];
     std::fill_n(force_on_wall, 3, 0.0);
-    for (int i = 0; i < atom->nlocal; i++)
-        if (atom->mask[i] & groupbit) compute_contact(i, spheres.body(i), history[i][0] == 0 ? spheres.density(i) : 0);
+    for (int i = 0; i < atom->nlocal; i++) {
+        if (!(atom->mask[i] & groupbit)) continue;
+        const double *x = atom->x[i];
+        const auto square = [&](int k) { return (point[k] - x[k]) * (point[k] - x[k]); };
+        if (nearest(x, point) && square(0) + square(1) + square(2) < atom->radius[i] * atom->radius[i])
+            compute_contact(i, spheres, point);
+        else if (history[i][0] != 0)
+            set_arrays(i);
+    }
     warn_of_step(lmp, model->record, warned);
 }
 
 /* Body 1 is the sphere. */
-void FixWallRestitute::compute_contact(int i, const Body &sphere, double density)
+void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const double *point)
 {
     static const double still[3] = {};
-    double point[3], f[3];
+    double f[3];
     Contact c;
-    if (!nearest(sphere.position, point) || !touching(sphere, {point, velocity, still, 0, 0}, c)) {
-        if (history[i][0] != 0) set_arrays(i);
-        return;
-    }
-    const char *problem =
-        update->setupflag ? model->repeat(c, history[i], f) : model->advance(c, density, true, history[i], f);
+    if (!touching(spheres.body(i), {point, velocity, still, 0, 0}, c)) return;
+    const char *problem = update->setupflag ? model->repeat(c, history[i], f)
+                                            : model->advance(c, spheres.density(i), true, history[i], f);
     if (problem)
         error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep, problem);
     const double *n = c.normal;

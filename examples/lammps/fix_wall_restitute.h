@@ -43,7 +43,7 @@ class FixWallRestitute : public Fix
 
     void read_shear(char **word, int words);
     bool nearest(const double *x, double *point) const;
-    void compute_contact(int i, const restitute_dem::Body &sphere, double density);
+    void compute_contact(int i, const class Spheres &spheres, const double *point);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
     Shape shape;

@@ -37,19 +37,18 @@ def material(name, **values):
 class Scene:
     """A box of 1 m in LAMMPS without atoms, its own input lines and its atoms in SI units."""
 
-    def __init__(self, half_width=0.5, before="", units="si", quiet=True):
-        self.lammps = lammps(cmdargs=["-log", "none", "-nocite"] + (["-screen", "none"] if quiet else []))
+    def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none"):
+        self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen])
         w = half_width
         self.run(f"""
             units {units}
             atom_style sphere
             atom_modify map array
             comm_modify vel yes
-            boundary f f f
-            newton off
-            {before}
+            boundary {boundary}
+            newton {newton}
             region box block {-w} {w} {-w} {w} {-w} {w}
-            create_box 1 box
+            create_box {kinds} box
             plugin load {PLUGIN}
             """)
 
@@ -61,7 +60,7 @@ class Scene:
     def add(self, x, v, omega=(0, 0, 0), radius=0.005, density=1000, kind=1):
         """A sphere; its tag is one more than there were."""
         self.run(f"create_atoms {kind} single {x[0]!r} {x[1]!r} {x[2]!r} units box")
-        tag = int(self.lammps.get_natoms())
+        tag = int(self.lammps.get_natoms())  # LAMMPS counts on
         self.run(f"""
             set atom {tag} diameter {2 * radius!r} density {density!r}
             set atom {tag} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r}
@@ -69,25 +68,16 @@ class Scene:
             """)
         return tag
 
-    def of(self, name, tag):
-        """x, v or omega of an atom."""
-        local = self.lammps.extract_atom("id")
-        index = next(i for i in range(self.lammps.extract_setting("nlocal")) if local[i] == tag)
-        values = self.lammps.extract_atom(name)[index]
-        return tuple(values[k] for k in range(3)) if name in ("x", "v", "omega", "f") else values
+    def all(self, name):
+        """x, v, omega, f (tuples) or radius, rmass (numbers) of all atoms, by tag."""
+        tags, values = self.lammps.extract_atom("id"), self.lammps.extract_atom(name)
+        atoms = range(self.lammps.extract_setting("nlocal"))
+        return {tags[i]: values[i] if name in ("radius", "rmass") else tuple(values[i][:3]) for i in atoms}
 
     def bits(self):
         """All that an atom is, exactly."""
-        tags = range(1, int(self.lammps.get_natoms()) + 1)
-        return {t: {name: self.of(name, t) for name in ("x", "v", "omega", "f")} for t in tags}
-
-    def kinetic_energy(self, tag):
-        v, omega, radius, mass = (self.of(n, tag) for n in ("v", "omega", "radius", "rmass"))
-        spin = 0.4 * radius**2 * sum(w * w for w in omega)
-        return 0.5 * mass * (sum(a * a for a in v) + spin)
-
-    def value(self, text):
-        return float(self.lammps.eval("$(" + text + ")")) if hasattr(self.lammps, "eval") else None
+        found = {name: self.all(name) for name in ("x", "v", "omega", "f")}
+        return {tag: {name: found[name][tag] for name in found} for tag in found["x"]}
 
     def close(self):
         self.lammps.close()

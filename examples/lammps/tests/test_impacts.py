@@ -55,10 +55,11 @@ def impact(case, time, steps, elements, phase):
         thermo_style custom step v_met
         run {int(1.5 * steps)}
         """)
-    v, spin = scene.of("v", first), scene.of("omega", first)[2] * RADIUS
+    velocities, spins = scene.all("v"), scene.all("omega")
+    v, spin = velocities[first], spins[first][2] * RADIUS
     if second:
-        v = tuple(a - b for a, b in zip(v, scene.of("v", second)))
-        spin += scene.of("omega", second)[2] * 2 * RADIUS
+        v = tuple(a - b for a, b in zip(v, velocities[second]))
+        spin += spins[second][2] * 2 * RADIUS
     contacts = scene.lammps.extract_variable("met")
     scene.close()
     check(contacts == 1, f"{case}: the law met {contacts} contacts, not 1")
