@@ -221,7 +221,6 @@ const char *ContactModel::advance(const Contact &contact, double density, bool o
 {
     const bool is_new = history[0] == 0;
     const double solid_sphere = 3.5; /* 1 + m R^2/J */
-    const double depth = contact.overlap / contact.radius; /* (a/R)^2 */
     restitute_contact_force found;
     motion.overlap = contact.overlap;
     motion.normal_velocity = dot(contact.velocity, contact.normal);
@@ -237,8 +236,9 @@ const char *ContactModel::advance(const Contact &contact, double density, bool o
     if (!on_record) return nullptr;
     record.steps++;
     if (is_new) note_first_touch(contact, motion.normal_velocity, density);
-    if (depth > record.largest[RADIUS] * record.largest[RADIUS]) record.largest[RADIUS] = std::sqrt(depth);
-    if (depth > limits[RADIUS] * limits[RADIUS] && history[state_size] == 0) {
+    const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = contact.overlap; /* = a^2/R */
+    if (depth > largest * largest * contact.radius) record.largest[RADIUS] = std::sqrt(depth / contact.radius);
+    if (depth > limit * limit * contact.radius && history[state_size] == 0) {
         history[state_size] = 1; /* counted */
         record.beyond[RADIUS]++;
     }

@@ -27,6 +27,7 @@ if [ -f "$place/skipped.txt" ]; then
     exit 77
 fi
 [ "$1" != build ] || exit 0
+PYTHONPATH=$here/..
 PLUGIN=$place/restituteplugin.so
-export PLUGIN
+export PLUGIN PYTHONPATH
 exec "$place/venv/bin/python" -B "$here/test_$1.py"

