@@ -89,7 +89,7 @@ contains
       end do
     end do
     contact%entered = missed < 0
-    if (contact%entered) call enter(n, pressed, overlap_before - law%y(1:n)*scale - before(1:n), contact%part)
+    if (contact%entered) call enter(law, n, overlap_before, scale, before, pressed, contact%part)
     do k = 1, n_terms
       call strain(law, rates, k, n, contact%entered, contact%part, move, w(:, k), contact%f)
     end do
@@ -107,14 +107,17 @@ contains
   end subroutine follow_profile
 
   !> The part of the step for which elements that have entered in it are in contact.
-  pure subroutine enter(n, pressed, gap, part)
+  pure subroutine enter(law, n, overlap_before, scale, before, pressed, part)
+    type(law_type), intent(in) :: law
     integer(ip), intent(in) :: n
-    real(dp), intent(in) :: pressed(n), gap(n)
+    real(dp), intent(in) :: overlap_before, scale, before(n), pressed(n)
     real(dp), intent(inout) :: part(n)
     real(dp), parameter :: least = 1.0e-9_dp
+    real(dp) :: gap
     integer(ip) :: j
     do j = 1, n
-      if (part(j) > 0 .and. gap(j) < 0) part(j) = max(least, pressed(j)/(pressed(j) - gap(j)))
+      gap = overlap_before - law%y(j)*scale - before(j)
+      if (part(j) > 0 .and. gap < 0) part(j) = max(least, pressed(j)/(pressed(j) - gap))
     end do
   end subroutine enter
 

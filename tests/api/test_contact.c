@@ -162,9 +162,10 @@ static void steps_too_long_are_refused(void **unused)
     }
     assert_int_equal(restitute_contact_time_step_limit(law, 0, 1, 1, &limit, &error), RESTITUTE_ERROR_DOMAIN);
     restitute_contact_law_destroy(law);
-    restitute_material *material = solid_of(1e300, 0, 0, NULL, NULL); /* beyond the arithmetic */
+    restitute_material *material = solid_of(1e30, 0, 0, NULL, NULL); /* the stiffest solid under the lightest sphere */
     law = law_of(material, 8, 0);
-    assert_int_equal(restitute_contact_time_step_limit(law, 1e-60, 1e60, 1e-60, &limit, &error), RESTITUTE_ERROR_DOMAIN);
+    assert_int_equal(restitute_contact_time_step_limit(law, 1e-60, 1e60, 1e-60, &limit, &error), 0);
+    CHECK(limit > 0 && isfinite(limit), "limit %g", limit);
     restitute_contact_law_destroy(law);
     restitute_material_destroy(material);
 }
