@@ -242,7 +242,7 @@ contains
     integer(ip) :: k
     contact%at_rim = law%eta*velocity
     do k = 1, law%n_terms
-      q = min(1.0_dp, max(0.0_dp, w(contact%last, k))/max(cell, tiny(cell)))
+      q = max(0.0_dp, min(w(contact%last, k), cell))/max(cell, tiny(cell))
       contact%rise(k) = (1 - q)/(1 + q*(1 + q*(2.83_dp - 1.83_dp*q)))
       contact%at_rim = contact%at_rim + law%g(k)*w(contact%last, k)*contact%rise(k)
     end do
