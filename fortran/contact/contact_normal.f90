@@ -183,8 +183,7 @@ contains
     real(dp), intent(in) :: velocity, width
     real(dp), intent(in) :: w(law%n, law%n_terms), surface(law%n)
     type(normal_type), intent(inout) :: contact
-    real(dp), parameter :: least = tiny(1.0_dp)  !! without equilibrium modulus: as far as the profile
-    real(dp) :: scale, edge, beyond, slope
+    real(dp) :: scale, edge, beyond, slope, fall
     integer(ip) :: last
     contact%force = 0
     contact%at_rim = 0
@@ -199,10 +198,12 @@ contains
       edge = motion%overlap
       call rise_at_rim(law, velocity, edge - beyond, w, contact)
     else
-      edge = beyond + contact%f(last)/merge(slope, max(law%g_inf, least), slope > 0)
-      if (edge > motion%overlap) then
-        edge = motion%overlap
-        if (last > 1) contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
+      edge = motion%overlap
+      fall = merge(slope, law%g_inf, slope > 0)
+      if (contact%f(last) < fall*(edge - beyond)) then
+        edge = beyond + contact%f(last)/fall
+      else if (last > 1) then
+        contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
       end if
     end if
     if (last < law%n .and. edge > law%y(last + 1)*scale) then
