@@ -186,8 +186,7 @@ contains
     real(dp), intent(in) :: velocity, width
     real(dp), intent(in) :: w(law%n, law%n_terms), surface(law%n)
     type(normal_type), intent(inout) :: contact
-    real(dp), parameter :: least = tiny(1.0_dp)  !! without equilibrium modulus: as far as the profile
-    real(dp) :: scale, edge, beyond, slope
+    real(dp) :: scale, edge, beyond, slope, fall
     integer(ip) :: last
     contact%force = 0
     contact%at_rim = 0
@@ -200,12 +199,14 @@ contains
     if (last > 1) slope = (contact%f(last - 1) - contact%f(last))/((law%y(last) - law%y(last - 1))*scale)
     if (motion%velocity > 0 .and. is_virgin(law, last + 1, w, surface)) then
       edge = motion%overlap
-      call rise_at_rim(law, motion%velocity, velocity, edge - beyond, w, contact)
+      call rise_at_rim(law, velocity, edge - beyond, w, contact)
     else
-      edge = beyond + contact%f(last)/merge(slope, max(law%g_inf, least), slope > 0)
-      if (edge > motion%overlap) then
-        edge = motion%overlap
-        if (last > 1) contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
+      edge = motion%overlap
+      fall = merge(slope, law%g_inf, slope > 0)
+      if (contact%f(last) < fall*(edge - beyond)) then
+        edge = beyond + contact%f(last)/fall
+      else if (last > 1) then
+        contact%at_rim = max(0.0_dp, contact%f(last) - slope*(edge - beyond))
       end if
     end if
     if (last < law%n .and. edge > law%y(last + 1)*scale) then
@@ -234,23 +235,19 @@ contains
   end function is_virgin
 
   !> A contact that grows: behind the rim elongations rise within tau times the velocity, which may be less than a cell:
-  !> w ~ 1 - exp(-z/(tau v)). The value at the rim is the one whose linear interpolation has the integral of that.
-  pure subroutine rise_at_rim(law, mean_velocity, velocity, cell, w, contact)
+  !> w ~ 1 - exp(-z), z from the rim in tau v. The value at the rim is the one whose linear interpolation has the integral of that
+  !> over the cell, 2/(1 - exp(-z)) - 2/z - 1 of w at the last element, within 0.007. Its z is known from w there, which is the part
+  !> q = (1 - exp(-z))/z of the width of the cell: so a contact that stops to grow does not forget how fast it did.
+  pure subroutine rise_at_rim(law, velocity, cell, w, contact)
     type(law_type), intent(in) :: law
-    real(dp), intent(in) :: mean_velocity, velocity, cell, w(law%n, law%n_terms)
+    real(dp), intent(in) :: velocity, cell, w(law%n, law%n_terms)
     type(normal_type), intent(inout) :: contact
-    real(dp) :: z
+    real(dp) :: q
     integer(ip) :: k
     contact%at_rim = law%eta*velocity
     do k = 1, law%n_terms
-      z = cell/(law%tau(k)*mean_velocity)
-      if (z < 0.02_dp) then
-        contact%rise(k) = z/6
-      else if (z > 40) then
-        contact%rise(k) = 1 - 2/z
-      else
-        contact%rise(k) = 2/(1 - exp(-z)) - 2/z - 1
-      end if
+      q = max(0.0_dp, min(w(contact%last, k), cell))/max(cell, tiny(cell))
+      contact%rise(k) = (1 - q)/(1 + q*(1 + q*(2.83_dp - 1.83_dp*q)))
       contact%at_rim = contact%at_rim + law%g(k)*w(contact%last, k)*contact%rise(k)
     end do
     contact%at_rim = max(0.0_dp, contact%at_rim)
