@@ -13,7 +13,7 @@ module rst_c_interfaces
   use rst_sync_dense, only: trace_type, thin_levels
   use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
-  use rst_sync_ledger, only: keep_ledger
+  use rst_sync_ledger, only: keep_ledger, loss_type
   use rst_ledger, only: ledger_type
   implicit none (type, external)
   private
@@ -207,8 +207,8 @@ contains
     call sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample)
   end subroutine rst_sample_impact
 
-  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, ledger) &
-    bind(c, name="rst_keep_ledger")
+  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, &
+                             ledger) bind(c, name="rst_keep_ledger")
     type(sync_scene_type), intent(in) :: scene
     integer(c_int64_t), intent(in), value :: kind
     type(c_funptr), intent(in), value :: elements
@@ -220,9 +220,11 @@ contains
     real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     real(c_double), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
+    type(term_type), intent(inout) :: now(scene%n_terms)
+    type(loss_type), intent(inout) :: loss(scene%n_terms)
     type(ledger_type), intent(out) :: ledger
     procedure(element_loop), pointer :: loop
     call c_f_procpointer(elements, loop)
-    call keep_ledger(scene, kind, loop, g, tau, level, trace, node, body, beta, faded, term, before, ledger)
+    call keep_ledger(scene, kind, loop, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
   end subroutine rst_keep_ledger
 end module rst_c_interfaces

@@ -10,7 +10,7 @@ module rst_memory
   public :: remembered, integrated, integrated_twice, shares, memory_shares
 
   !> exp(-z) and the phi functions.
-  type :: memory_type
+  type, bind(c) :: memory_type
     real(dp) :: decay, phi1, phi2, phi3
   end type memory_type
 

@@ -146,6 +146,7 @@ contains
       width = [node(l + 1)%width, node(l + 2)%width]
       call meet_edge(grid, path, u, t, d(1:2), v(1:2), a(1:2), width, failed)
       if (failed) return
+      if (l + 2 == n) t(2) = coarse(1)%step + coarse(2)%step ! Newton's step may leave more than the next step is long
       h = t(2) - t(1)
       do q = 1, 2
         level(l + q) = level_type(path%time + t(q), t(q) - t(q - 1), d(q), v(q), 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp)

@@ -29,7 +29,7 @@ module rst_sync_front
   private
   public :: follow_front
 
-  real(dp), parameter :: close_enough = 1.0e-13_dp !! of a force, where there are more
+  real(dp), parameter :: close_enough = 1.0e-13_dp !! of a force over that of the normal one, where there are more
   !> Part of the slack at the start of a step below which the end of stick, where H has a root, is near.
   real(dp), parameter :: end_is_near = 0.85_dp
 
@@ -383,7 +383,7 @@ contains
         call slacks(m, .false., at_edge, edge, trace, alpha, beta, now%slack, p, term, y)
       end do
       now%force = implied(m, open, p%side*fall, hinge(p%front, node, y) + unseen, end, term, p)
-      if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough) exit
+      if (rule%feedback < explicit_below .or. abs(now%force - guess) <= close_enough*p%normal) exit
       guess = now%force
     end do
   end subroutine answer

@@ -33,13 +33,17 @@ contains
 
   !> Largest indentation, roughly (a few per cent): the energy balance with the modulus at that age,
   !> 1 = D^(5/2) (G_inf + sum g_k/(1 + 0.8 D/tau_k) + (5/4) eta/D), which has the elastic and the viscous limit right.
+  !> It starts from the solid's own scale, so that scaled moduli give the same steps.
   pure function likely_depth(g_inf, eta, n_terms, g, tau) result(depth)
     real(dp), intent(in) :: g_inf, eta
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: depth, modulus, factor
     integer(ip) :: i, k
-    depth = 1
+    modulus = g_inf
+    if (.not. g_inf > 0) modulus = sum(g)
+    depth = (1.25_dp*max(eta, tiny(1.0_dp)))**(-2.0_dp/3.0_dp)
+    if (modulus > 0) depth = modulus**(-0.4_dp)
     do i = 1, 100
       modulus = g_inf + 1.25_dp*eta/depth
       do k = 1, n_terms
@@ -80,11 +84,12 @@ contains
     type(grid_type) :: grid
     real(dp), parameter :: even_above = 0.5_dp  !! contacts that stay larger than this part need no grading of the start
     real(dp), parameter :: creeping = 0.125_dp  !! D' of such creep
+    real(dp), parameter :: nothing = 1.0e-6_dp  !! over D' of the creep: turn would be 1e-20, and all but 0 for even less
     real(dp) :: depth, stiffness, viscosity, small_radius, creep
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
     grid = grid_type(sqrt(depth), 0.0_dp, 0.0_dp)
     call soften(g_inf, eta, n_terms, g, tau, depth, stiffness, viscosity)
-    viscosity = max(viscosity, tiny(1.0_dp)*1.0e200_dp)
+    if (viscosity <= nothing*depth*stiffness) return
     small_radius = depth*stiffness/viscosity**2
     creep = max(depth*stiffness/viscosity, 1.0e-9_dp)
     grid%turn = asinh(min(1.0_dp, creeping/creep)**2/creep)

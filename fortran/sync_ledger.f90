@@ -17,15 +17,16 @@ module rst_sync_ledger
   use rst_sync_shear, only: start_shear, advance_shear, place_nodes, measure_step
   implicit none (type, external)
   private
-  public :: keep_ledger, slips_to_the_end, has_no_friction
+  public :: keep_ledger, loss_type, slips_to_the_end, has_no_friction
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   integer(ip), parameter :: has_no_friction = 0, slips_to_the_end = 1  !! anything else: sticks at some time
 
   !> int_0^h y^2/(g tau) dt for y' = g v - y/tau, v linear. Slow terms by Gauss' rule of three points, at which
-  !> y = keep y_0 + from_start v_0 + from_end v_1; fast ones, y = C exp(-t/tau) + a line, in closed form.
-  type :: loss_type
-    logical :: fast
+  !> y = keep y_0 + from_start v_0 + from_end v_1; fast ones, y = C exp(-t/tau) + a line, in closed form. Twin of `struct sync_loss`
+  !> in C.
+  type, bind(c) :: loss_type
+    integer(ip) :: fast
     real(dp) :: h, g, tau
     real(dp), dimension(3) :: keep, from_start, from_end
     type(memory_type) :: once, twice  !! of h/tau and 2 h/tau
@@ -33,8 +34,8 @@ module rst_sync_ledger
 
 contains
 
-  !> All accounts. kind: a parameter above; body, beta, faded, term, before: room.
-  subroutine keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, ledger)
+  !> All accounts. kind: a parameter above; body, beta, faded, term, before, now, loss: room.
+  subroutine keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
     type(scene_type), intent(in) :: scene
     integer(ip), intent(in) :: kind
     procedure(element_loop) :: elements
@@ -46,6 +47,8 @@ contains
     real(dp), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
+    type(term_type), intent(inout) :: now(scene%n_terms)
+    type(loss_type), intent(inout) :: loss(scene%n_terms)
     type(ledger_type), intent(out) :: ledger
     type(shear_type) :: state
     real(dp) :: gross
@@ -67,7 +70,7 @@ contains
         ledger%left_x = gross*ledger%left_x
         ledger%friction_x = slide(scene, level, state%level, state%time - level(state%level)%time, state%velocity, state%force)
       end if
-      call post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, state, ledger)
+      call post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
     end if
   end subroutine keep_ledger
 
@@ -160,7 +163,7 @@ contains
   end function slide
 
   !> In x, from the instant at which the contact sticks for the first time.
-  subroutine post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, state, ledger)
+  subroutine post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
     type(scene_type), intent(in) :: scene
     procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -171,10 +174,10 @@ contains
     real(dp), intent(inout), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
     type(term_type), intent(inout) :: term(scene%n_terms)
     real(dp), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
+    type(term_type), intent(inout) :: now(scene%n_terms)
+    type(loss_type), intent(inout) :: loss(scene%n_terms)
     type(shear_type), intent(inout) :: state
     type(ledger_type), intent(inout) :: ledger
-    type(term_type) :: now(scene%n_terms)
-    type(loss_type) :: loss(scene%n_terms)
     type(step_type) :: step
     real(dp) :: velocity, shift
     integer(ip) :: k, edge
@@ -295,7 +298,7 @@ contains
     loss%h = h
     loss%g = g
     loss%tau = tau
-    loss%fast = h > fast_above*tau
+    loss%fast = merge(1_ip, 0_ip, h > fast_above*tau)
     loss%once = memory_of(h/tau)
     loss%twice = memory_of(2*h/tau)
     do p = 1, 3
@@ -311,7 +314,7 @@ contains
     real(dp), intent(in) :: y0, v0, v1
     real(dp), parameter :: share(3) = [5.0_dp/18, 8.0_dp/18, 5.0_dp/18]
     real(dp) :: y, c, line0, line1, lag
-    if (loss%fast) then
+    if (loss%fast /= 0) then
       lag = loss%tau/loss%h*(v1 - v0)
       line0 = loss%g*loss%tau*(v0 - lag)
       line1 = loss%g*loss%tau*(v1 - lag)

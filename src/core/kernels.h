@@ -86,6 +86,12 @@ struct sync_knot {
     double time, velocity, force, stick;
 };
 
+/* Twin of loss_type of fortran/sync_ledger.f90. */
+struct sync_loss {
+    int64_t fast;
+    double h, g, tau, keep[3], from_start[3], from_end[3], once[4], twice[4];
+};
+
 /* What fortran/sync_ledger.f90 is told of the tangential side. */
 enum sync_sliding { RST_HAS_NO_FRICTION = 0, RST_SLIPS_TO_THE_END = 1, RST_STICKS = 2 };
 
@@ -143,6 +149,6 @@ void rst_sample_impact(const struct sync_scene *scene, int64_t slides, const str
 void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, sync_loop *elements, const double *g,
                      const double *tau, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, double *body, double *beta, double *faded, struct sync_term *term,
-                     double *before, struct euler_ledger *ledger);
+                     double *before, struct sync_term *now, struct sync_loss *loss, struct euler_ledger *ledger);
 
 #endif

@@ -215,6 +215,17 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
     return status;
 }
 
+/* Methods aim at a part of the tolerance, merged terms add their bound: what counts is the estimate that is reported. */
+static int judge_tolerance(const struct rst_problem *problem, const restitute_result *r, int status,
+                           restitute_error *error)
+{
+    const int met = r->error_ez <= problem->tolerance && r->error_ex <= problem->tolerance;
+    if (met) return status == RESTITUTE_TOLERANCE_NOT_REACHED ? rst_done(error) : status;
+    if (status != RESTITUTE_OK) return status;
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
+                      problem->tolerance, r->error_ez, r->error_ex);
+}
+
 static int solve(restitute_solver *solver, struct input *input, restitute_result *result, restitute_ledger *ledger,
                  restitute_history *history, restitute_error *error)
 {
@@ -230,14 +241,16 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     }
     struct rst_units units = rst_units_of(&problem, input->scene, &input->numbers);
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
+    restitute_result unwanted, *r = result ? result : &unwanted;
+    rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, r);
     if (result) {
-        rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, result);
         result->method = solver->options.method->name;
         rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, result);
     }
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);
-    if (outcome.sunk && status == RESTITUTE_OK)
+    if (!outcome.sunk) return judge_tolerance(&problem, r, status, error);
+    if (status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
     return status;
 }

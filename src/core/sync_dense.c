@@ -160,10 +160,14 @@ int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *wor
     struct normal normal;
     double largest_force;
     const int64_t coarse = outcome->normal_levels, wanted = outcome->elements < most ? outcome->elements : most;
-    const struct resolution resolution = {wanted / coarse > 0 ? wanted / coarse : 1, wanted};
-    int status = rst_sync_normal_again(problem, workspace, coarse, &normal, error);
+    struct resolution resolution = {wanted / coarse > 0 ? wanted / coarse : 1, wanted};
+    int status = rst_sync_normal_of(problem, workspace, coarse, &normal, error);
     if (status) return status;
-    return rst_sync_levels(problem, workspace, &normal, &resolution,
-                           a_level * (size_t)(2 * resolution.ratio * coarse + 1) + more, store, &largest_force, room,
-                           error);
+    for (;; resolution.levels = resolution.ratio * coarse) {
+        const size_t all = a_level * (size_t)(2 * resolution.ratio * coarse + 1) + more;
+        status = rst_sync_levels(problem, workspace, &normal, &resolution, all, store, &largest_force, room,
+                                 resolution.ratio > 1 ? NULL : error);
+        if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || resolution.ratio == 1) return status;
+        resolution.ratio /= 2;
+    }
 }

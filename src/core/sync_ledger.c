@@ -45,14 +45,17 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
         sink(problem, outcome);
         return RESTITUTE_OK;
     }
-    const size_t terms = (size_t)s->n_terms + 2;
+    const size_t terms = (size_t)s->n_terms, columns = terms + 2; /* of `before` */
+    const size_t of_step = terms * (sizeof(struct sync_term) + sizeof(struct sync_loss)) / sizeof(double);
     const struct rst_outcome finer = rst_sync_with_elements(problem, outcome);
-    int status = rst_sync_repeat(problem, workspace, &finer, most_ledger_levels, terms, 2 * rst_sync_lanes * terms,
-                                 &store, &before, error);
+    int status = rst_sync_repeat(problem, workspace, &finer, most_ledger_levels, columns,
+                                 2 * rst_sync_lanes * columns + of_step, &store, &before, error);
     if (status) return status;
+    struct sync_term *now = (struct sync_term *)(before + columns * (size_t)store.capacity);
+    struct sync_loss *loss = (struct sync_loss *)(now + terms);
     const struct sync_scene scene = rst_sync_scene(problem, &store);
     rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), workspace->kernel->elements, s->g, s->tau,
-                    store.level, store.trace, store.node, store.body, store.beta, store.faded, store.term, before,
-                    &outcome->ledger);
+                    store.level, store.trace, store.node, store.body, store.beta, store.faded, store.term, before, now,
+                    loss, &outcome->ledger);
     return RESTITUTE_OK;
 }

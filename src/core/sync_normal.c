@@ -75,9 +75,9 @@ struct question {
 
 /* The head of the levels on a shelf. */
 struct memo {
-    double known; /* 0: nothing */
+    double known; /* whether it answers a question */
     struct question question;
-    struct normal normal;
+    struct normal normal; /* levels 0: none */
     struct kept kept;
 };
 
@@ -121,8 +121,7 @@ static int is_known(const struct rst_shelf *shelf, const struct question *questi
 
 static void remember(const struct rst_shelf *shelf, const struct question *question, const struct normal *normal)
 {
-    if (question->solid.n_terms > most_terms_known) return;
-    *memo_of(shelf) = (struct memo){1, *question, *normal, {0}};
+    *memo_of(shelf) = (struct memo){question->solid.n_terms <= most_terms_known, *question, *normal, {0}};
 }
 
 /* Both shelves are for one solid: then whoever times the method knows when it starts from nothing. */
@@ -203,8 +202,24 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
     struct rst_shelf *shelf = &workspace->spare;
     int status = choose_grid(problem, workspace, normal, error);
     if (!status) status = make_room(problem, shelf, levels, error);
-    if (!status && run(problem, shelf, levels, 0, 1, normal)) normal->levels = 0;
-    return status;
+    if (status) return status;
+    if (run(problem, shelf, levels, 0, 1, normal)) normal->levels = 0;
+    memo_of(shelf)->normal = *normal;
+    return RESTITUTE_OK;
+}
+
+int rst_sync_normal_of(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
+                       struct normal *normal, restitute_error *error)
+{
+    const struct rst_shelf *shelves[] = {rst_sync_shelf(problem, workspace), &workspace->spare};
+    for (int i = 0; i < 2; i++) {
+        *normal = memo_of(shelves[i])->normal;
+        if (normal->levels == levels) return RESTITUTE_OK;
+    }
+    const int status = rst_sync_normal_again(problem, workspace, levels, normal, error);
+    if (status || normal->levels > 0) return status;
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "iterations do not settle with %lld levels",
+                      (long long)levels);
 }
 
 /* The runs on end so far. */
@@ -266,8 +281,9 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
             return RESTITUTE_OK;
         }
     }
-    if (found > 0 && normal->levels != found)
-        run(problem, shelf, found, 0, 1, normal); /* the last one has spoilt the levels */
+    if (found > 0 && normal->levels != found && run(problem, shelf, found, 0, 1, normal))
+        found = 0; /* the last one has spoilt the levels, which are not found again */
     normal->levels = found;
+    if (memo_of(shelf)) memo_of(shelf)->normal = *normal;
     return RESTITUTE_OK;
 }

@@ -33,6 +33,11 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
 int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
                           struct normal *normal, restitute_error *error);
 
+/* The solution with so many levels that the outcome just found rests on: it is on one of both shelves, unless a finer
+ * one that did not settle took its place. */
+int rst_sync_normal_of(const struct rst_problem *problem, struct rst_workspace *workspace, int64_t levels,
+                       struct normal *normal, restitute_error *error);
+
 /* Room that rst_sync_normal takes on its shelf. */
 size_t rst_sync_normal_room(int64_t levels, int64_t n_terms);
 
@@ -112,8 +117,8 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
 /* The outcome for those who step elements: they need twice the levels for the same error, unless levels are told. */
 struct rst_outcome rst_sync_with_elements(const struct rst_problem *problem, const struct rst_outcome *outcome);
 
-/* The levels of that outcome again, or no more than `most` if that settles; `room`: for `a_level` doubles a level of
- * both phases and `more` besides. */
+/* The levels of that outcome again, no more than `most`, and fewer where they are not found between those of the normal
+ * problem; `room`: for `a_level` doubles a level of both phases and `more` besides. */
 int rst_sync_repeat(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, int64_t most, size_t a_level, size_t more, struct store *store,
                     double **room, restitute_error *error);

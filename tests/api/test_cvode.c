@@ -59,6 +59,25 @@ static void failures_touch_nothing(void **state)
     restitute_solver_destroy(solver);
 }
 
+/* Elements are doubled while the estimate is above nine tenths of the tolerance, but what is told is whether it is above
+ * the tolerance. */
+static void status_follows_the_reported_estimate(void **state)
+{
+    int reached = 0, missed = 0;
+    (void)state;
+    for (double tolerance = 3e-5; tolerance < 3e-4; tolerance *= 1.03) {
+        restitute_options options = cvode_to(tolerance);
+        options.elements = 32;
+        const struct solution s = solve_impact(options, impact_of(7.0 / 6, 0.7, 0.1, 1));
+        const int met = s.result.error_ez <= tolerance && s.result.error_ex <= tolerance;
+        CHECK(s.status == (met ? RESTITUTE_OK : RESTITUTE_TOLERANCE_NOT_REACHED), "status %d: %g and %g of %g",
+              s.status, s.result.error_ez, s.result.error_ex, tolerance);
+        reached += met;
+        missed += !met;
+    }
+    CHECK(reached > 9 && missed > 9, "%d, %d", reached, missed);
+}
+
 /* What max_updates allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
  * reference; elements are as many as fit, and no more than were asked for. */
 static void max_updates_ends_with_the_best_result(void **state)
@@ -236,6 +255,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failures_touch_nothing),
+        cmocka_unit_test(status_follows_the_reported_estimate),
         cmocka_unit_test(max_updates_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),

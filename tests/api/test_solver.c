@@ -140,6 +140,53 @@ static void coarse_override_tells_that_the_tolerance_is_missed(void **state)
     CHECK(s.result.error_ez > 1e-3 || s.result.error_ex > 1e-3, "%g %g", s.result.error_ez, s.result.error_ex);
 }
 
+/* Whatever the method aims at inside, the estimate decides. An elastic solid with given elements has
+ * the same estimate at any tolerance. */
+static void status_follows_the_reported_estimate(void **state)
+{
+    const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};
+    (void)state;
+    for (int i = 0; i < 2; i++)
+        for (int64_t elements = 16; elements <= 64; elements *= 2) {
+            const restitute_impact impact = impact_of(7.0 / 6, 0.7, 0, INFINITY);
+            restitute_options options = as_told(elements, 0);
+            options.method = methods[i];
+            const restitute_result r = solve_impact(options, impact).result;
+            const double estimate = fmax(r.error_ez, r.error_ex);
+            for (double part = 0.725; part < 1.5; part += 0.05) {
+                options.tolerance = part * estimate;
+                const struct solution s = solve_impact(options, impact);
+                CHECK_NEAR(fmax(s.result.error_ez, s.result.error_ex), estimate, 1e-3 * estimate, "as before");
+                CHECK(s.status == (part > 1 ? RESTITUTE_OK : RESTITUTE_TOLERANCE_NOT_REACHED),
+                      "%s, %d elements: status %d where the estimate is %g of %g", r.method, (int)elements, s.status,
+                      estimate, options.tolerance);
+            }
+        }
+}
+
+/* Merged terms are part of the estimate too. */
+static void status_follows_the_estimate_with_merged_terms(void **state)
+{
+    const double tau[] = {1e-3, 1e-2, 0.1, 1, 10, 100}, g[] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+    restitute_material *solid = solid_of(1, 0, 6, tau, g);
+    int reached = 0, missed = 0;
+    (void)state;
+    for (int64_t elements = 8; elements <= 64; elements *= 2)
+        for (double tolerance = 1e-5; tolerance < 0.1; tolerance *= 1.1) {
+            restitute_options options = as_told(elements, 0);
+            options.method = restitute_method_sync();
+            options.tolerance = tolerance;
+            const struct solution s = solve_impact(options, impact_on(solid, 7.0 / 6, 0.7));
+            const int met = s.result.error_ez <= tolerance && s.result.error_ex <= tolerance;
+            CHECK(s.status == (met ? RESTITUTE_OK : RESTITUTE_TOLERANCE_NOT_REACHED), "status %d: %g and %g of %g",
+                  s.status, s.result.error_ez, s.result.error_ex, tolerance);
+            reached += met;
+            missed += !met;
+        }
+    CHECK(reached > 20 && missed > 20, "%d, %d", reached, missed);
+    restitute_material_destroy(solid);
+}
+
 static void tighter_tolerances_are_met(void **state)
 {
     (void)state;
@@ -334,6 +381,8 @@ int main(void)
         cmocka_unit_test(rough_overrides_are_not_trusted),
         cmocka_unit_test(too_little_work_allowed_is_told),
         cmocka_unit_test(coarse_override_tells_that_the_tolerance_is_missed),
+        cmocka_unit_test(status_follows_the_reported_estimate),
+        cmocka_unit_test(status_follows_the_estimate_with_merged_terms),
         cmocka_unit_test(tighter_tolerances_are_met),
         cmocka_unit_test(extreme_scenes_work),
         cmocka_unit_test(a_thousand_terms_work),
