@@ -158,7 +158,7 @@ static void builds_of_cells(void **state)
     family.delta1[0] = 0.9, family.delta1[1] = 1;
     family.gamma[0] = 0.9, family.gamma[1] = 1;
     options.tolerance = 0.1;
-    fail_builds(3);
+    fail_builds(1);
 }
 
 /* ------------------------------------------------------------------------------------------------- all other calls */
@@ -197,7 +197,7 @@ static void data_and_contacts(void **state)
     restitute_table_to_data(table, &data, NULL);
     fail_each_allocation(&whole);
     fail_each_allocation(&contact);
-    cells_make(1.5, 7, &cells);
+    cells_make(1, 7, &cells);
     data = cells.data;
     fail_each_allocation(&whole);
     cells_free(&cells);

@@ -1,65 +1,19 @@
 /* Once a solver has solved an impact of a kind, `sync` takes no more memory: calls of the allocator are counted.
- *
- * The program defines malloc and its kin itself, on top of those of the C library; the sanitizers do the same, so with
- * them, and with another C library than that of GNU, there is nothing to count and the test is skipped.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <stdlib.h>
+#define _GNU_SOURCE
 
+#include "../support/failing_allocator.h"
 #include "../support/random.h"
 #include "../support/sync.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
-#define COUNTS 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define COUNTS 0
-#endif
-#endif
-#ifndef COUNTS
-#define COUNTS 1
-#endif
-
-static long calls;
-
-#if COUNTS
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *block, size_t size);
-void *__libc_memalign(size_t alignment, size_t size);
-
-void *malloc(size_t size)
-{
-    calls++;
-    return __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    calls++;
-    return __libc_calloc(count, size);
-}
-
-void *realloc(void *block, size_t size)
-{
-    calls++;
-    return __libc_realloc(block, size);
-}
-
-void *aligned_alloc(size_t alignment, size_t size)
-{
-    calls++;
-    return __libc_memalign(alignment, size);
-}
-#endif
 
 static void the_counter_counts(void **state)
 {
     (void)state;
-    if (!COUNTS) skip();
-    const long before = calls;
+    if (!CAN_FAIL) skip();
+    const long before = allocator.count;
     void *volatile block = malloc(100); /* volatile: or the compiler leaves both out */
     free(block);
-    CHECK(calls == before + 1, "%ld calls counted", calls - before);
+    CHECK(allocator.count == before + 1, "%ld calls counted", allocator.count - before);
 }
 
 /* From the second call on; the first one at each tolerance makes room, for the largest number of levels too. With ledger and
@@ -74,7 +28,7 @@ static void use_twice(double tolerance, const restitute_material *solid, restitu
     restitute_result_init(&result);
     for (int round = 0; round < 2; round++) {
         uint64_t random = 11;
-        const long before = calls;
+        const long before = allocator.count;
         for (int i = 0; i < 30; i++) {
             const double gamma = random_log(&random, 1e-1, 10), delta1 = random_log(&random, 1e-2, 10);
             const double psi = random_in(&random, 0.05, 3), chi = random_in(&random, 0.4, 2);
@@ -82,7 +36,8 @@ static void use_twice(double tolerance, const restitute_material *solid, restitu
             impact.solid = solid;
             CHECK(restitute_solve(solver, &impact, &result, ledger, history, NULL) == RESTITUTE_OK, "impact %d", i);
         }
-        CHECK(round == 0 || calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
+        CHECK(round == 0 || allocator.count == before, "tolerance %g: %ld calls of the allocator", tolerance,
+              allocator.count - before);
     }
     restitute_solver_destroy(solver);
 }
@@ -94,7 +49,7 @@ static void solver_in_use_takes_no_memory(void **state)
     restitute_ledger ledger;
     restitute_history history;
     (void)state;
-    if (!COUNTS) skip();
+    if (!CAN_FAIL) skip();
     restitute_ledger_init(&ledger);
     restitute_history_init(&history);
     history.capacity = 20;
@@ -113,21 +68,23 @@ static void solver_in_use_takes_no_memory(void **state)
 static void first_call_takes_no_memory(void **state)
 {
     (void)state;
-    if (!COUNTS) skip();
+    if (!CAN_FAIL) skip();
     for (double tolerance = 1e-4; tolerance > 5e-9; tolerance /= 10) {
         const restitute_options options = sync_to(tolerance);
         const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
         restitute_solver *solver;
         CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
-        const long before = calls;
+        const long before = allocator.count;
         CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, NULL) == RESTITUTE_OK, "first call");
-        CHECK(calls == before, "tolerance %g: %ld calls of the allocator", tolerance, calls - before);
+        CHECK(allocator.count == before, "tolerance %g: %ld calls of the allocator", tolerance,
+              allocator.count - before);
         restitute_solver_destroy(solver);
     }
 }
 
 int main(void)
 {
+    allocator.armed = 1; /* none fails */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_counter_counts),
         cmocka_unit_test(solver_in_use_takes_no_memory),
