@@ -55,7 +55,8 @@ void Record::add(const Record &other)
 
 std::string Record::text(const double limits[RATIOS]) const
 {
-    static const char *names[] = {"contact radius over radius", "speed over shear wave speed", "time step over the law's"};
+    static const char *names[] = {"contact radius over radius", "speed over shear wave speed",
+                                  "time step over the law's"};
     char line[200];
     std::snprintf(line, sizeof line, "restitute: %.0f contacts, %.0f steps of contacts\n", contacts, steps);
     std::string all = line;
@@ -203,11 +204,16 @@ uint64_t ContactModel::hash() const
     return restitute_contact_law_hash(law);
 }
 
+int ContactModel::history_size() const
+{
+    return (int)state_size + 1;
+}
+
 /* ---------------------------------------------------------------------------------------------------- time steps */
 
-void ContactModel::set_step(double step)
+const char *ContactModel::set_step(double step)
 {
-    demand(restitute_contact_rates_set(law, step, &rates, &error), error);
+    return restitute_contact_rates_set(law, step, &rates, &error) < 0 ? error.message : nullptr;
 }
 
 static void to_force(const restitute_contact_force &f, const double *normal, double force[3])

@@ -1,5 +1,5 @@
-/* A contact law and what a DEM code needs around it: words of an input script, the motion of two spheres that touch, and
- * a record of what was met. Knows no DEM code.
+/* A contact law and what a DEM code needs around it: words of an input script, the motion of two spheres that
+ * touch, and a record of what was met. Knows no DEM code.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef RESTITUTE_CONTACT_MODEL_H
 #define RESTITUTE_CONTACT_MODEL_H
@@ -28,8 +28,8 @@ struct Contact {
 /* Sets the contact and returns true; or false: apart, or bodies that nothing moves. */
 bool touching(const Body &first, const Body &second, Contact &contact);
 
-/* What a run met. Three ratios that have limits: contact radius over radius and speed over shear wave speed, both of the
- * model, and time step over that of the law. The last two are those of first touches. */
+/* What a run met. Three ratios have limits: contact radius over radius and speed over shear wave speed, limits of
+ * the model, and time step over that of the law. The last two are those of first touches. */
 enum Ratio { RADIUS, SPEED, STEP, RATIOS };
 
 struct Record {
@@ -59,12 +59,14 @@ class ContactModel
     Record record;
     double limits[RATIOS] = {0.1, 0.1, 1};
 
-    std::string about() const;                               /* a line on the law */
-    uint64_t hash() const;                                   /* of the law */
-    int history_size() const { return (int)state_size + 1; } /* doubles of a contact; all zeros: a new one */
-    void set_step(double step);                              /* throws std::invalid_argument */
+    std::string about() const; /* a line on the law */
+    uint64_t hash() const;     /* of the law */
+    int history_size() const;  /* doubles of a contact; all zeros: a new one */
 
-    /* The force on body 1 after a step. `density`: of the denser sphere. Returns what is wrong, or NULL. */
+    /* What follows returns what is wrong, or NULL. */
+    const char *set_step(double step);
+
+    /* The force on body 1 after a step. `density`: of the denser sphere. */
     const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3]);
 
     /* The force of the last step again. */

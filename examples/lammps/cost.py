@@ -35,9 +35,10 @@ STYLES = {
 
 def time_of(style, words):
     """Seconds of the run and of its pair style, contacts, doubles a contact."""
-    text = subprocess.run([os.path.join(os.path.dirname(sys.executable), "lmp"), "-in", f"{HERE}/in.cost", "-log", "none",
-                           "-nocite", "-var", "plugin", PLUGIN, "-var", "style", style, "-var", "words", words,
-                           "-var", "steps", str(STEPS)], check=True, capture_output=True, text=True).stdout
+    lmp = os.path.join(os.path.dirname(sys.executable), "lmp")
+    text = subprocess.run([lmp, "-in", f"{HERE}/in.cost", "-log", "none", "-nocite", "-var", "plugin", PLUGIN,
+                           "-var", "style", style, "-var", "words", words, "-var", "steps", str(STEPS)],
+                          check=True, capture_output=True, text=True).stdout
     last = text.rsplit("Loop time of ", 1)
     contacts = float(last[0].strip().splitlines()[-1].split()[-1]) / 2  # counted from both sides
     share = float(re.search(r"([\d.]+)% CPU use", last[1]).group(1)) / 100  # others may use the machine, too

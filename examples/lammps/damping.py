@@ -19,9 +19,9 @@ OBLIQUE = [(speed, angle) for speed in (0.001, 0.1) for angle in (2, *range(5, 9
 
 
 def library(cases):
-    return library_pairs([dict(material=BEAD, partner="same", radius1_m=RADIUS, radius2_m=RADIUS, density1_kg_m3=DENSITY,
-                               density2_kg_m3=DENSITY, speed_m_s=speed, angle_deg=angle, friction=FRICTION)
-                          for speed, angle in cases])
+    bead = dict(material=BEAD, partner="same", radius1_m=RADIUS, radius2_m=RADIUS, density1_kg_m3=DENSITY,
+                density2_kg_m3=DENSITY, friction=FRICTION)
+    return library_pairs([bead | dict(speed_m_s=speed, angle_deg=angle) for speed, angle in cases])
 
 
 def impact(speed, angle, time, style):
@@ -33,12 +33,13 @@ def impact(speed, angle, time, style):
     scene.run(f"{style}\ntimestep {time / 200!r}\nfix move all nve/sphere\nrun 600")
     v, spin = scene.all("v"), scene.all("omega")
     scene.close()
-    return (v[2][0] - v[1][0]) / normal, (v[2][1] - v[1][1] - RADIUS * (spin[1][2] + spin[2][2])) / along if angle else 0
+    sliding = v[2][1] - v[1][1] - RADIUS * (spin[1][2] + spin[2][2])
+    return (v[2][0] - v[1][0]) / normal, sliding / along if angle else 0
 
 
 def damped():
-    """pair_style granular, fitted to a head-on impact at 1 m/s. The law's own coefficient of restitution is not what comes
-    out where it is small, so it is searched for."""
+    """pair_style granular, fitted to a head-on impact at 1 m/s. Where it is small, the coefficient of restitution
+    that LAMMPS is given is not what comes out, so it is searched for."""
     answer, = library([(1, 0)])
     with open(BEAD) as file:
         bead = json.load(file)
@@ -47,10 +48,8 @@ def damped():
     low, high = 0, 1
     while high - low > 1e-4:
         tried = (low + high) / 2
-        style = f"""
-            pair_style granular
-            pair_coeff * * hertz/material {modulus!r} {tried!r} {NU} tangential mindlin NULL 1.0 {FRICTION} damping tsuji
-            """
+        normal, tangential = f"hertz/material {modulus!r} {tried!r} {NU}", f"mindlin NULL 1.0 {FRICTION}"
+        style = f"pair_style granular\npair_coeff * * {normal} tangential {tangential} damping tsuji"
         low, high = (tried, high) if impact(1, 0, answer["contact_time"], style)[0] < answer["ez"] else (low, tried)
     return style
 

@@ -32,7 +32,9 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
     const int numbers = shape == Z_CYLINDER ? 1 : 2;
     if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} lacks its place", *place);
-    const auto at = [&](int k) { return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere; };
+    const auto at = [&](int k) {
+        return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere;
+    };
     low = at(1) == nowhere ? -nowhere : at(1);
     high = at(numbers);
     read_shear(place + numbers + 1, (int)(end - place) - numbers - 1);
@@ -86,7 +88,7 @@ void FixWallRestitute::setup(int vflag)
 
 void FixWallRestitute::reset_dt()
 {
-    model->set_step(update->dt);
+    if (const char *problem = model->set_step(update->dt)) error->all(FLERR, "fix {} wall/restitute: {}", id, problem);
 }
 
 /* --------------------------------------------------------------------------------------------------- a time step */
@@ -132,7 +134,8 @@ void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const doub
     const char *problem = update->setupflag ? model->repeat(c, history[i], f)
                                             : model->advance(c, spheres.density(i), true, history[i], f);
     if (problem)
-        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep, problem);
+        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
+                   problem);
     const double *n = c.normal;
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
@@ -227,10 +230,7 @@ void FixWallRestitute::restart(char *buffer)
 {
     uint64_t hash;
     memcpy(&hash, buffer, sizeof hash);
-    if (hash != model->hash())
-        error->all(FLERR,
-                   "fix {} wall/restitute: the restart file was written with law {:016x}, not with this one of '{}', {:016x}",
-                   id, hash, model->words[0], model->hash());
+    check_law(lmp, std::string("fix ") + id + " wall/restitute", hash, *model);
 }
 
 double FixWallRestitute::memory_usage()

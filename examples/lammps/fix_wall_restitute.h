@@ -47,8 +47,8 @@ class FixWallRestitute : public Fix
 
     std::unique_ptr<restitute_dem::ContactModel> model;
     Shape shape;
-    double low, high;         /* where the planes are; low: the radius of the cylinder */
-    double velocity[3] = {};  /* of the wall, along itself */
+    double low, high;        /* where the planes are; low: the radius of the cylinder */
+    double velocity[3] = {}; /* of the wall, along itself */
     double **history = nullptr;
     double force_on_wall[3] = {};
     int history_size, frozen = 0;

@@ -43,6 +43,13 @@ int LAMMPS_NS::check_host(LAMMPS *lmp, const char *who)
     return frozen;
 }
 
+void LAMMPS_NS::check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const ContactModel &model)
+{
+    if (written != model.hash())
+        lmp->error->all(FLERR, "{}: the restart file was written with law {:016x}, not with this one of '{}', {:016x}",
+                        who, written, model.words[0], model.hash());
+}
+
 void LAMMPS_NS::warn_of_step(LAMMPS *lmp, const Record &record, bool &warned)
 {
     if (warned || record.beyond[restitute_dem::STEP] == 0) return;

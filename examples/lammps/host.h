@@ -26,7 +26,10 @@ class Spheres
     {
         return {x[i], v[i], omega[i], radius[i], mask[i] & frozen ? 0.0 : 1 / mass[i]};
     }
-    double density(int i) const { return mass[i] / (4.18879020478639098 * radius[i] * radius[i] * radius[i]); }
+    double density(int i) const
+    {
+        return mass[i] / (4.18879020478639098 * radius[i] * radius[i] * radius[i]);
+    }
 
   private:
     double **x, **v, **omega, *radius, *mass;
@@ -36,8 +39,12 @@ class Spheres
 /* A model of the words of a command, which names itself as `who`. */
 std::unique_ptr<restitute_dem::ContactModel> make_model(LAMMPS *lmp, const char *who, char **first, char **last);
 
-/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the group of fix freeze. */
+/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the group of fix freeze,
+ * or 0. */
 int check_host(LAMMPS *lmp, const char *who);
+
+/* Ends the run where a restart file was written with another law. */
+void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const restitute_dem::ContactModel &model);
 
 /* Warns once of contacts that begin too fast for the time step. */
 void warn_of_step(LAMMPS *lmp, const restitute_dem::Record &record, bool &warned);

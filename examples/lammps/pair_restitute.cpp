@@ -32,8 +32,8 @@ PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
     pvector = new double[nextra];
     history_id = "NEIGH_HISTORY_RESTITUTE"; /* by this name a restart file finds its fix */
     while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
-        history_id += "_MORE"; /* of pair_style hybrid */
-    modify->add_fix(history_id + "_DUMMY all DUMMY"); /* keeps a place among the fixes, before those that migrate atoms */
+        history_id += "_MORE";                        /* of pair_style hybrid */
+    modify->add_fix(history_id + "_DUMMY all DUMMY"); /* keeps its place, before fixes that migrate atoms */
 }
 
 PairRestitute::~PairRestitute()
@@ -99,17 +99,15 @@ void PairRestitute::init_style()
 void PairRestitute::reset_dt()
 {
     for (const Model &its : models)
-        its->set_step(update->dt);
+        if (const char *problem = its->set_step(update->dt)) error->all(FLERR, "pair_style restitute: {}", problem);
 }
 
 void PairRestitute::check_restart()
 {
     for (size_t k = 0; k < restarted.size(); k++)
-        if (table[k] && restarted[k] && restarted[k] != table[k]->hash())
-            error->all(FLERR,
-                       "pair_style restitute: types {} {}: the restart file was written with law {:016x}, not with this "
-                       "one of '{}', {:016x}",
-                       k / width, k % width, restarted[k], table[k]->words[0], table[k]->hash());
+        if (table[k] && restarted[k])
+            check_law(lmp, fmt::format("pair_style restitute: types {} {}", k / width, k % width), restarted[k],
+                      *table[k]);
     restarted.clear();
 }
 
@@ -120,7 +118,8 @@ void PairRestitute::keep_history()
     for (const Model &its : models)
         size = std::max(size, its->history_size());
     if (size > history_size && histories)
-        error->all(FLERR, "pair_coeff of restitute: contacts need {} numbers now, {} in the runs before", size, history_size);
+        error->all(FLERR, "pair_coeff of restitute: contacts need {} numbers now, {} in the runs before", size,
+                   history_size);
     if (histories) return;
     const std::string fix = history_id + " all NEIGH_HISTORY " + std::to_string(size);
     histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
@@ -178,7 +177,8 @@ void PairRestitute::compute(int eflag, int vflag)
         }
     }
     const Record own = record(); /* for `compute ID all pair restitute` */
-    const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS], own.beyond[restitute_dem::SPEED]};
+    const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS],
+                             own.beyond[restitute_dem::SPEED]};
     std::copy_n(values, nextra, pvector);
     warn_of_step(lmp, own, warned);
 }
@@ -201,7 +201,8 @@ void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double
         problem = its.advance(contact, density, !twice || first == i, history, f);
     }
     if (problem)
-        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep, problem);
+        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep,
+                   problem);
     apply(contact, f, first, second);
 }
 
@@ -286,7 +287,8 @@ void PairRestitute::read_restart(FILE *file)
         for (std::string &word : words)
             pointers.push_back(&word[0]);
         Model &its = made[line];
-        if (!its) its = make_model(lmp, "restart of pair_style restitute", pointers.data(), pointers.data() + words.size());
+        if (!its)
+            its = make_model(lmp, "restart of pair_style restitute", pointers.data(), pointers.data() + words.size());
         table[k] = its;
         setflag[k / width][k % width] = 1;
     }

@@ -31,7 +31,10 @@ class PairRestitute : public Pair
   private:
     using Model = std::shared_ptr<restitute_dem::ContactModel>; /* shared by the type pairs that one command sets */
 
-    Model &model(int i, int j) { return table[(i < j ? i : j) * width + (i < j ? j : i)]; }
+    Model &model(int i, int j)
+    {
+        return table[(i < j ? i : j) * width + (i < j ? j : i)];
+    }
     void allocate();
     void check_restart();
     void keep_history();

@@ -30,14 +30,10 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *h
     plugin.version = lammps->version;
     plugin.author = "the authors of restitute";
     plugin.handle = handle;
-    plugin.style = "pair";
-    plugin.name = "restitute";
-    plugin.info = "pair_style restitute";
+    plugin.style = "pair", plugin.name = "restitute", plugin.info = "pair_style restitute";
     plugin.creator.pair = create_pair;
     add(&plugin, lammps);
-    plugin.style = "fix";
-    plugin.name = "wall/restitute";
-    plugin.info = "fix wall/restitute";
+    plugin.style = "fix", plugin.name = "wall/restitute", plugin.info = "fix wall/restitute";
     plugin.creator.fix = create_fix;
     add(&plugin, lammps);
 }

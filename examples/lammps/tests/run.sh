@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Runs a test of the adapter for LAMMPS:  run.sh build|NAME of a test_NAME.py
-# From the environment: CMAKE BUILD_DIR RESTITUTE SANITIZED. All is kept in BUILD_DIR/lammps, the virtual environment too.
+# From the environment: CMAKE BUILD_DIR RESTITUTE SANITIZED. All is kept in BUILD_DIR/lammps, with the virtual
+# environment.
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)

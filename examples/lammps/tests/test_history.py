@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The memory of contacts: a restart in their middle, a swap of atoms, new neighbor lists and a new run change no bit."""
+"""The memory of contacts: a restart in their middle, a swap of atoms, new neighbor lists, a new run change no bit."""
 from scenes import Scene, check, material
 
-WORDS = material("rubber", model="standard_solid", modulus1_pa=1e9, modulus2_pa=2e9, viscosity_pa_s=3e4) + " friction 0.3"
+RUBBER = material("rubber", model="standard_solid", modulus1_pa=1e9, modulus2_pa=2e9, viscosity_pa_s=3e4)
+WORDS = RUBBER + " friction 0.3"
 LAW = f"""
     pair_style restitute
     pair_coeff * * {WORDS}

@@ -72,8 +72,9 @@ def compare(answers, steps, elements):
     for n, (case, answer) in enumerate(zip(CASES, answers)):
         ez, ex = impact(case, answer["contact_time"], steps, elements, (0.1 + 0.37 * n) % 1)
         errors.append(max(abs(ez - answer["ez"]), abs(ex - answer["ex"]) if case[2] else 0))
-        print(f"{os.path.basename(case[0]):21} {case[1]:5} m/s {case[2]:2} deg {case[3]:5} {'wall' if case[4] else 'pair'}"
-              f"  ez {ez:.4f} {answer['ez']:.4f}  ex {ex:.4f} {answer['ex']:.4f}  error {errors[-1]:.4f}")
+        print(f"{os.path.basename(case[0]):21} {case[1]:5} m/s {case[2]:2} deg {case[3]:5} "
+              f"{'wall' if case[4] else 'pair'}  ez {ez:.4f} {answer['ez']:.4f}  ex {ex:.4f} {answer['ex']:.4f}  "
+              f"error {errors[-1]:.4f}")
     whole = mean(error for error, case in zip(errors, CASES) if case[0] not in WORDS)
     print(f"{steps} steps in a contact, {elements} elements: largest error {max(errors):.4f}, mean {whole:.5f}")
     return max(errors), whole

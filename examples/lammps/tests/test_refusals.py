@@ -37,13 +37,15 @@ refused("7 elements", ["elements = 7"], f"pair_style restitute\npair_coeff * * {
 refused("30 terms without a window", ["30 terms"],
         f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3")
 refused("a pair of types without law", ["types 1 2", "partner"],
-        f"pair_style restitute\npair_coeff 1 1 {rubber} friction 0.3\npair_coeff 2 2 {glass} friction 0.3\n" + RUN, kinds=2)
+        LAW.replace("* *", "1 1") + f"pair_coeff 2 2 {glass} friction 0.3\n" + RUN, kinds=2)
 refused("rigid bodies", ["rigid bodies"], LAW + "fix move all rigid single\nrun 1")
 refused("a minimizer", ["minimizer"], LAW + "minimize 0 1e-9 10 10")
 refused("no velocities of ghosts", ["comm_modify vel yes"], "comm_modify vel no\n" + LAW + RUN)
 refused("a time step of less than ten in a contact", ["atoms 1 and 2", "step 1", "less than ten steps"],
         LAW + RUN.replace("1e-6", "2e-4"))
-refused("a periodic wall", ["periodic"], f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL", boundary="f f p")
+refused("no time step", ["step"], LAW + RUN.replace("1e-6", "0"))
+refused("a periodic wall", ["periodic"], f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL",
+        boundary="f f p")
 refused("a wall without place", ["xplane"], f"fix w all wall/restitute {rubber} friction 0.3")
 refused("a wall that shears into the spheres", ["shear"],
         f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL shear z 1")

@@ -5,7 +5,8 @@ import sys
 
 from scenes import Scene, check, material
 
-WORDS = material("soft", model="standard_solid", modulus1_pa=2e7, modulus2_pa=1e8, viscosity_pa_s=5e3) + " friction 0.5"
+SOLID = material("soft", model="standard_solid", modulus1_pa=2e7, modulus2_pa=1e8, viscosity_pa_s=5e3)
+WORDS = SOLID + " friction 0.5"
 STEPS = int(sys.argv[1]) if len(sys.argv) > 1 else 100000
 GRAVITY = 9.81
 
@@ -32,7 +33,9 @@ scene.run(f"""
 def energies():
     """Of motion, and of motion and height, J."""
     x, v, omega, radius, mass = (scene.all(name) for name in ("x", "v", "omega", "radius", "rmass"))
-    motion = sum(0.5 * mass[t] * (sum(a * a for a in v[t]) + 0.4 * radius[t] ** 2 * sum(a * a for a in omega[t])) for t in x)
+    def square(a):
+        return sum(c * c for c in a)
+    motion = sum(0.5 * mass[t] * (square(v[t]) + 0.4 * radius[t] ** 2 * square(omega[t])) for t in x)
     return motion, motion + sum(GRAVITY * mass[t] * x[t][2] for t in x)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same impact told in other ways: units, Newton's third law, moving walls, wide cylinders; and a sphere held fast."""
+"""The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a sphere held fast."""
 import math
 
 from scenes import Scene, check, library_pairs, material
@@ -41,7 +41,8 @@ def near(name, found, wanted, tolerance):
 
 si = end(pair())
 cgs = end(pair(100, units="cgs"))
-near("centimetres and grams", [v / 100 for v in cgs[:3]] + list(cgs[3:]), si, 1e-9)  # rounding of units, grown in 400 steps
+# Rounding of units, grown in 400 steps.
+near("centimetres and grams", [v / 100 for v in cgs[:3]] + list(cgs[3:]), si, 1e-9)
 near("each contact on one process", end(pair(newton="on")), si, 0)
 
 still = end(wall("xplane 0 NULL"))
@@ -57,8 +58,8 @@ scene.add((0, 0, 0), (SPEED, ALONG, 0), radius=RADIUS, density=2000)
 scene.add((3 * RADIUS, 0, 0), (0, 0, 0), radius=2 * RADIUS, density=1500)
 scene.run(f"pair_style restitute\npair_coeff * * {WORDS}\ngroup still id 2\nfix hold still freeze")
 v = end(scene)
-answer, = library_pairs([dict(material=RUBBER, partner="same", radius1_m=RADIUS, density1_kg_m3=2000, radius2_m=2 * RADIUS,
-                              mass2_kg="inf", speed_m_s=math.hypot(SPEED, ALONG), friction=0.3,
+answer, = library_pairs([dict(material=RUBBER, partner="same", radius1_m=RADIUS, density1_kg_m3=2000,
+                              radius2_m=2 * RADIUS, mass2_kg="inf", speed_m_s=math.hypot(SPEED, ALONG), friction=0.3,
                               angle_deg=math.degrees(math.atan2(ALONG, SPEED)))])
 ez, ex = -v[0] / SPEED, -(v[1] + RADIUS * v[5]) / ALONG
 print(f"a frozen sphere: ez {ez:.4f} {answer['ez']:.4f}, ex {ex:.4f} {answer['ex']:.4f}")
