@@ -39,8 +39,8 @@ typedef struct restitute_contact_law restitute_contact_law;
 /** What a law is made of besides the material. */
 typedef struct restitute_contact_law_options {
     size_t struct_size;  /**< set by @ref restitute_contact_law_options_init */
-    int deformable;      /**< a @ref restitute_deformable; default BOTH_BODIES_DEFORM (of the same material). Of unlike
-                              materials see @ref restitute_material_pair, with ONE_BODY_DEFORMS */
+    int deformable;      /**< a @ref restitute_deformable; default BOTH_BODIES_DEFORM (of the same material). Two unlike
+                              materials are one pair material (@ref restitute_material_pair) with ONE_BODY_DEFORMS */
     int elements;        /**< 8 (default), 16, 24 or 32: the error falls with the square, cost and memory grow */
     int terms;           /**< most Prony terms kept, 1 to 8; default 4. More in the material are reduced, which needs: */
     double shortest;     /**< s, > 0: times from here, the time step of the host, ... */
@@ -125,7 +125,8 @@ typedef struct restitute_contact_force {
  *
  *  @param state  of the caller, restitute_contact_law_state_size(law) doubles; all zeros is a new contact
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of another law; a
- *          new contact of less than ten steps; a normal that has turned by 60 degrees, see @ref restitute_contact_turn.
+ *          new contact of less than ten steps; a normal that has turned by 60 degrees
+ *          towards the stored axis, see @ref restitute_contact_turn.
  *          State and force are untouched then */
 RESTITUTE_API int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
                                          const restitute_contact_motion *motion, double *state,
