@@ -56,6 +56,8 @@ restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
                  JANSSON_FOUND "Jansson (Debian: libjansson-dev, found by pkg-config)" #
                  Libcsv_FOUND "libcsv (Debian: libcsv-dev)")
 
+restitute_decide(RESTITUTE_CONTACT "the component contact" RESTITUTE_WITH_CONTACT)
+
 restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
 
 # The serial HDF5 goes before whatever stands under the plain name, which may want MPI. The command takes it too where it is there.

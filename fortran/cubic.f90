@@ -1,6 +1,7 @@
 !> A function between two instants at which it and its slope are known (Hermite's cubic).
 module rst_cubic
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   implicit none (type, external)
   private
   public :: cubic_type, cubic_between, cubic_value, cubic_slope, cubic_bend, cubic_integral, cubic_root
@@ -62,7 +63,7 @@ contains
     integer(ip) :: i
     low = 0
     high = c%h
-    t = c%h*max(0.0_dp, min(1.0_dp, (c%y0 - y)/max(c%y0 - c%y1, tiny(1.0_dp))))
+    t = c%h*max(0.0_dp, bounded(c%y0 - y, max(c%y0 - c%y1, 0.0_dp), -1.0_dp, 1.0_dp))
     do i = 1, 60
       excess = cubic_value(c, t) - y
       if (excess > 0) low = t

@@ -91,7 +91,7 @@ contains
     call weights(scene, knot, near, entered, j, weight)
     do k = 1, scene%n_terms
       past = dot_product(weight, memory(scene%n_terms + k, j:j + 3))
-      contact%force = contact%force + exp(-(t - entered)/tau(k))*past
+      contact%force = contact%force + exp(-max(t - entered, 0.0_dp)/tau(k))*past
     end do
   end subroutine unloading
 
@@ -112,7 +112,7 @@ contains
     if (scene%n_terms == 0) return
     call weights(scene, knot, near, entered, j, weight)
     do k = 1, scene%n_terms
-      faded = exp(-(t - entered)/tau(k))
+      faded = exp(-max(t - entered, 0.0_dp)/tau(k))  ! this run may have turned before the one that left the knots
       residual = residual + y(memory_at(k)) - faded*dot_product(weight, memory(k, j:j + 3))
       stiffness = stiffness + g(k)*faded
     end do

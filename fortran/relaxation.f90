@@ -17,10 +17,11 @@ contains
     integer(ip), intent(in) :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: modulus
+    real(dp), parameter :: nothing_left = 1000  !! exp(-1000) = 0
     integer(ip) :: k
     modulus = g_inf
     do k = 1, n_terms
-      modulus = modulus + g(k)*exp(-t/tau(k))
+      modulus = modulus + g(k)*exp(-min(t, nothing_left*tau(k))/tau(k))  ! any t: t/tau alone could overflow
     end do
   end function relaxation_modulus
 

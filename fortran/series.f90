@@ -90,35 +90,47 @@ contains
     end do
   end subroutine merge_times
 
-  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k) at x = p (1 + offset), p = 1/tau_p, and its derivative with respect to
-  !> s = -x. Written with the offset from a rate p, it keeps all digits where x is next to p, or p next to another rate.
-  pure subroutine evaluate(chain, m, tau, tau_p, offset, value, slope)
+  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k) at x = p (1 + offset), p = 1/tau_p. Written with the offset from a rate p,
+  !> it keeps all digits where x is next to p, or p next to another rate.
+  pure function value_at(chain, m, tau, tau_p, offset) result(value)
     type(chain_type), intent(in) :: chain
     real(dp), intent(in) :: m(chain%n), tau(chain%n), tau_p, offset
-    real(dp), intent(out) :: value, slope
+    real(dp) :: value
     integer(ip) :: k
-    real(dp) :: ratio, away
     value = chain%m_inf - chain%eta*((1 + offset)/tau_p)
-    slope = chain%eta
     do k = 1, chain%n
-      ratio = tau(k)/tau_p
-      away = (tau(k) - tau_p)/tau_p + offset*ratio  ! x tau_k - 1
-      value = value + m(k)*(ratio*(1 + offset)/away)
-      slope = slope + m(k)*(tau(k)/away)/away
+      value = value + m(k)*((tau(k)/tau_p)*(1 + offset)/beyond(tau(k), tau_p, offset))
     end do
-  end subroutine evaluate
+  end function value_at
+
+  !> Its derivative with respect to s = -x, times near**2: with near = |offset| it does not overflow next to p.
+  pure function slope_at(chain, m, tau, tau_p, offset, near) result(slope)
+    type(chain_type), intent(in) :: chain
+    real(dp), intent(in) :: m(chain%n), tau(chain%n), tau_p, offset, near
+    real(dp) :: slope, part
+    integer(ip) :: k
+    slope = near**2*chain%eta
+    do k = 1, chain%n
+      part = near/beyond(tau(k), tau_p, offset)
+      slope = slope + m(k)*(tau(k)*part)*part
+    end do
+  end function slope_at
+
+  !> x tau - 1
+  pure function beyond(tau, tau_p, offset)
+    real(dp), intent(in) :: tau, tau_p, offset
+    real(dp) :: beyond
+    beyond = (tau - tau_p)/tau_p + offset*(tau/tau_p)
+  end function beyond
 
   pure function sum_at(a, m_a, tau_a, b, m_b, tau_b, tau_p, offset) result(total)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), tau_p, offset
     real(dp) :: total
-    real(dp) :: value_a, value_b, slope
-    call evaluate(a, m_a, tau_a, tau_p, offset, value_a, slope)
-    call evaluate(b, m_b, tau_b, tau_p, offset, value_b, slope)
-    total = value_a + value_b
+    total = value_at(a, m_a, tau_a, tau_p, offset) + value_at(b, m_b, tau_b, tau_p, offset)
   end function sum_at
 
-  !> Some x above the highest zero: F -> -eta x there.
+  !> Twice some x above the highest zero, where F -> -eta x: not next to the zero, as a rate of the chains may be.
   pure function upper_end(a, m_a, tau_a, b, m_b, tau_b, slow) result(x)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow
@@ -128,6 +140,7 @@ contains
     do while (sum_at(a, m_a, tau_a, b, m_b, tau_b, 1/x, 0.0_dp) > 0)
       x = 2*x
     end do
+    x = 2*x
   end function upper_end
 
   !> The zero of F between the rates 1/slow and 1/fast, as a term of the pair; slow = 0: there is no slower rate. F falls: its
@@ -139,27 +152,28 @@ contains
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow, fast
     type(chain_type), intent(inout) :: pair
     real(dp), intent(inout) :: m(a%n + b%n + 1), tau(a%n + b%n + 1)
-    real(dp) :: tau_p, side, offset, gap, value_a, value_b, slope_a, slope_b, x
+    real(dp) :: tau_p, offset, near, gap, value_a, value_b, slope, x
 
     gap = 1  ! distance of the rates over the faster one
     if (slow > 0) gap = (slow - fast)/slow
     if (sum_at(a, m_a, tau_a, b, m_b, tau_b, fast, -0.5_dp*gap) > 0) then
       tau_p = fast
-      side = -1
-      offset = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, gap)
+      near = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, -1.0_dp, gap)
+      offset = -near
     else if (slow > 0) then
       tau_p = slow
-      side = 1
-      offset = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, (slow - fast)/fast)
+      near = search(a, m_a, tau_a, b, m_b, tau_b, tau_p, 1.0_dp, (slow - fast)/fast)
+      offset = near
     else
       tau_p = search_slow(a, m_a, tau_a, b, m_b, tau_b, fast)
-      side = 1
+      near = 1
       offset = 0
     end if
-    x = (1 + side*offset)/tau_p
-    call evaluate(a, m_a, tau_a, tau_p, side*offset, value_a, slope_a)
-    call evaluate(b, m_b, tau_b, tau_p, side*offset, value_b, slope_b)
-    call add_term((value_a/x)*(-value_b/(slope_a + slope_b)), x, a%n + b%n + 1, pair, m, tau)
+    x = (1 + offset)/tau_p
+    value_a = near*value_at(a, m_a, tau_a, tau_p, offset)
+    value_b = near*value_at(b, m_b, tau_b, tau_p, offset)
+    slope = slope_at(a, m_a, tau_a, tau_p, offset, near) + slope_at(b, m_b, tau_b, tau_p, offset, near)
+    call add_term((value_a/x)*(-value_b/slope), x, a%n + b%n + 1, pair, m, tau)
   end subroutine add_zero
 
   !> Offset of the zero from the rate 1/tau_p, up to `reach` above it (side 1) or below it (side -1).
@@ -167,7 +181,7 @@ contains
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), tau_p, side, reach
     real(dp) :: offset
-    real(dp), parameter :: closest = 1.0e-140_dp  !! its square does not leave the range of a double
+    real(dp), parameter :: closest = 1.0e-140_dp  !! of 1e-30 Pa beside 1e60 Pa s over 1e-30 s it is 1e-120
     real(dp) :: near, far
     integer(ip) :: i
     near = closest

@@ -6,6 +6,7 @@
 #ifndef RST_WIDTH
 #define RST_WIDTH ""
 #endif
+#include "bounded.f90"
 #include "memory.f90"
 #include "cubic.f90"
 #include "sync_grid.f90"

@@ -1,10 +1,11 @@
 !> Two levels of the compression of the normal problem (THEORY 4.4, module rst_sync_levels).
 module rst_sync_compression
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_memory, only: parabola_type, spacing_type, spacing_of, parabola_through, integrated, integrated_twice, shares
   use rst_sync_grid, only: grid_type, level_type, node_type, at_level, mass_factor
   use rst_sync_guess, only: is_likely, steps_ahead, ahead
-  use rst_sync_sweeps, only: settle, answer, most_sweeps, enough_if_lost, rounding
+  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding
   use rst_sync_loading, only: load_terms, follow_terms, longest_panel, first_levels
   implicit none (type, external)
   private
@@ -66,7 +67,7 @@ contains
       call meet_edge(grid, u, drag, push, spacing, held, stiffness, echo, x, d(1:2), v(1:2), a(1:2), a3(1:2), rest(1:2), moved, &
                      lift, gain, change)
       call settle(sweep, change, closeness, previous, rate, done)
-      if (done .or. (sweep >= enough_if_lost .and. change > 1)) exit
+      if (done .or. is_lost(sweep, change)) exit
     end do
     failed = .not. done
     call follow_terms(n_terms, resolved, g, tau, x, v, a(1:2), moved, lift, gain, loading(:, l:l + 2), memory(:, l:l + 2), &
@@ -179,8 +180,7 @@ contains
       gain(q) = once(q, 1)*step(1) + once(q, 2)*step(2)
       acceleration = rest(q) + step(q) - drag*a(q)*v(q)
       miss = 2*a(q)*(a(q)*cosine - sine*(v(q) + gain(q))) + cosine*lift(q)
-      dx = -miss/(v(q)*cosine - 2*a(q)*sine*acceleration)
-      dx = max(-0.5_dp*x(q), min(x(q), dx))
+      dx = bounded(-miss, v(q)*cosine - 2*a(q)*sine*acceleration, -0.5_dp*x(q), x(q))
       unmet(q) = merge(abs(dx), 0.0_dp, abs(miss) > 2*rounding*a(q)*sine)
       v(q) = v(q) + gain(q)
       d(q) = max(d(q) + lift(q) + dx*(v(q) + 0.5_dp*dx*acceleration), tiny(1.0_dp))

@@ -5,6 +5,7 @@
 !> the normal force, which all follow without iterations over the motion.
 module rst_sync_dense
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_memory, only: memory_type, memory_of, memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, &
                         parabola_through, integrated, integrated_twice
   use rst_sync_grid, only: grid_type, level_type, node_type, spread_nodes, mass_factor
@@ -376,8 +377,7 @@ contains
       !$omp simd private(miss)
       do q = 1, 2
         miss = a(q)*cosine(q) - sine(q)*v(q)
-        dx(q) = -2*a(q)*miss/(v(q)*cosine(q) - 2*a(q)*sine(q)*acceleration(q))
-        dx(q) = max(-0.5_dp*h(q), min(h(q), dx(q)))
+        dx(q) = bounded(-2*a(q)*miss, v(q)*cosine(q) - 2*a(q)*sine(q)*acceleration(q), -0.5_dp*h(q), h(q))
         dx(q) = merge(0.0_dp, dx(q), abs(miss) <= rounding*sine(q))
       end do
       failed = .not. (abs(dx(1)) <= sharpness*h(1) .and. abs(dx(2)) <= sharpness*h(2))

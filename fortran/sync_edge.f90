@@ -5,6 +5,7 @@
 !> kink where stick begins; hinge() knows its error. What the rule lacks of int f dX is level_type%missing.
 module rst_sync_edge
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_sync_grid, only: level_type, node_type
   use rst_sync_dense, only: trace_type
   use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, columns, column_x2, column_weight, &
@@ -80,7 +81,7 @@ contains
       end do
       ratio = sign(1.0_dp, ratio)
     else ! the edge has just been touched and answers with the same modulus both ways
-      ratio = max(-1.0_dp, min(1.0_dp, velocity/max(normal%velocity, tiny(1.0_dp))))
+      ratio = bounded(velocity, max(normal%velocity, 0.0_dp), -1.0_dp, 1.0_dp)
     end if
     if (abs(ratio) >= 1 .and. state%front == step%last .and. (restitution .or. scene%no_slip == 0) .and. .not. trial) then
       q = 0
@@ -237,6 +238,6 @@ contains
     do k = 0, 1
       call node_forces(scene, trace, term, step, body, beta, faded, state, state%front - k, slack(k), q)
     end do
-    stick = stick + min(1.0_dp, slack(0)/max(slack(1) - slack(0), tiny(1.0_dp)))*(node(state%front + 1)%radius - stick)
+    stick = stick + bounded(slack(0), max(slack(1) - slack(0), 0.0_dp), -1.0_dp, 1.0_dp)*(node(state%front + 1)%radius - stick)
   end function stick_radius
 end module rst_sync_edge

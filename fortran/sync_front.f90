@@ -137,9 +137,9 @@ contains
         beta(k, i) = trace(k, i)%memory
       end do
     end do
+    i = merge(p%front, p%front + 1, p%level < scene%n)
     do k = 1, m
-      term(k)%age = exp(-(p%time - level(p%front + 1)%time)/tau(k))
-      if (p%level < scene%n) term(k)%age = exp(-(p%time - level(p%front)%time)/tau(k))
+      term(k)%age = exp(-(p%time - level(i)%time)/tau(k))
     end do
     p%fresh = scene%g_inf*p%shift + scene%eta*p%velocity + sum(term%stress)
     if (p%level < scene%n) then

@@ -26,11 +26,11 @@ contains
     real(dp) :: missing, v(-2:1), slope, bend, twist, along, x, left, turn
     v = by_index(f, node, y)
     call expand(f, v, slope, bend, twist)
-    along = 1/(v(0) - v(1))
-    x = min(1.0_dp, v(0)*along)
-    left = (bend + twist*(1 + x))*(x*(x - 1))
-    turn = along*(bend*(2*x - 1) + twist*(3*x*x - 1))
     if (f > 1 .and. v(1) <= 0 .and. abs(bend) + abs(twist) < nearly_a_line*(v(0) - v(1))) then
+      along = 1/(v(0) - v(1))
+      x = min(1.0_dp, v(0)*along)
+      left = (bend + twist*(1 + x))*(x*(x - 1))
+      turn = along*(bend*(2*x - 1) + twist*(3*x*x - 1))
       missing = beyond(v, slope, bend, twist, x) + (0.5_dp*along)*(left*left)*(1 + turn*(1 + turn))
     else
       x = root_of(v, slope, bend, twist)
@@ -43,10 +43,11 @@ contains
     real(dp), intent(in) :: v(-2:1), slope, bend, twist
     real(dp) :: x, root
     root = sqrt(max(0.0_dp, slope**2 - 4*bend*v(0))) ! less the slope there
+    x = 1
+    if (.not. (root > 0 .and. abs(root - slope) > 0)) return
     x = 2*v(0)/(root - slope)
     x = x + twist*x*(x*x - 1)/root
-    if (.not. (x <= 1 .and. root > 0)) x = 1
-    x = max(0.0_dp, x)
+    x = max(0.0_dp, min(1.0_dp, x))
   end function root_of
 
   !> What the rule lacks if c is the part x of the way from f to f+1: Euler-Maclaurin's terms at f and the integral from there on.

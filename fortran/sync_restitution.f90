@@ -1,11 +1,12 @@
 !> Two levels of the restitution of the normal problem (THEORY 4.5, module rst_sync_levels).
 module rst_sync_restitution
   use rst_precision, only: dp, ip
+  use rst_bounded, only: bounded
   use rst_memory, only: memory_pair_type, remember_pair, parabola_type, spacing_type, spacing_of, parabola_through, remembered, &
                         integrated, integrated_twice, shares, memory_shares
   use rst_sync_grid, only: level_type, node_type, at_level, mass_factor
   use rst_sync_guess, only: is_likely, steps_ahead, ahead, first_return
-  use rst_sync_sweeps, only: settle, answer, most_sweeps, enough_if_lost, rounding
+  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding
   use rst_sync_loading, only: remember_speeds
   implicit none (type, external)
   private
@@ -69,7 +70,7 @@ contains
                      loading(:, 2*n - l - 2:2*n - l - 1), memory(:, l:l + 2), loading(:, l + 1:l + 2), x, d, v, push(1:2), &
                      change)
       call settle(sweep, change, closeness, previous, rate, done)
-      if (done .or. (sweep >= enough_if_lost .and. change > 1)) exit
+      if (done .or. is_lost(sweep, change)) exit
     end do
     failed = .not. done
     call remember_terms(n_terms, g, tau, x, v, memory(:, l:l + 2), loading(:, l + 2))
@@ -105,7 +106,7 @@ contains
     moved = answer(slope(1) + drift(1)*answer_1(1), drift(2)*answer_2(1), drift(1)*answer_1(2), slope(2) + drift(2)*answer_2(2), &
                    -(excess + answer_1*step(1) + answer_2*step(2)))
     if (max(slope(1), slope(2)) >= 0 .or. .not. all(abs(moved) <= 0.2_dp*x)) then ! far off one by one is surer
-      moved = merge(x, max(-0.5_dp*x, min(x, -excess/slope)), slope >= 0)
+      moved = merge(x, bounded(-excess, slope, -0.5_dp*x, x), slope >= 0)
       drift = -pushes%slope - pushes%bend*(2*x + moved)
     end if
     step = step + moved*drift

@@ -3,9 +3,9 @@ module rst_sync_sweeps
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: settle, answer, most_sweeps, enough_if_lost, rounding
+  public :: settle, is_lost, answer, most_sweeps, rounding
 
-  integer(ip), parameter :: most_sweeps = 100, enough_if_lost = 20  !! with changes as large as all there is
+  integer(ip), parameter :: most_sweeps = 100
   real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
 
 contains
@@ -28,11 +28,24 @@ contains
     previous = change
   end subroutine settle
 
-  !> Solution of two linear equations, the first with a and b, the second with c and d on the left.
+  !> Whether changes are as large as all there is for long, or so large that the next sweeps would overflow.
+  pure function is_lost(sweep, change) result(yes)
+    integer(ip), intent(in) :: sweep
+    real(dp), intent(in) :: change
+    logical :: yes
+    integer(ip), parameter :: enough = 20
+    real(dp), parameter :: beyond_return = 1.0e10_dp
+    yes = (sweep >= enough .and. change > 1) .or. change > beyond_return
+  end function is_lost
+
+  !> Solution of two linear equations, the first with a and b, the second with c and d on the left; huge if there is none.
   pure function answer(a, b, c, d, right) result(x)
     real(dp), intent(in) :: a, b, c, d, right(2)
     real(dp) :: x(2), inverse
-    inverse = 1/(a*d - b*c)
+    x = huge(1.0_dp)
+    inverse = a*d - b*c
+    if (.not. abs(inverse) > 0) return
+    inverse = 1/inverse
     x(1) = (d*right(1) - b*right(2))*inverse
     x(2) = (a*right(2) - c*right(1))*inverse
   end function answer

@@ -56,8 +56,9 @@ RESTITUTE_API void restitute_material_info_init(restitute_material_info *info);
  *                        relative to the folder of the JSON file;
  *                        optional equilibrium_modulus_pa >= 0 and parallel_viscosity_pa_s >= 0, both 0 if absent
  *
- *  All moduli are shear moduli, G = E/(2(1 + nu)). Unknown and repeated keys are refused.
- *  Both are regular files of at most 64 MiB: a FIFO, a device and what is larger are refused by name.
+ *  All moduli are shear moduli, G = E/(2(1 + nu)); ranges are those of @ref restitute_material_prony. Unknown and repeated
+ *  keys are refused.
+ *  Both files are regular ones of at most 64 MiB: a FIFO, a device and what is larger are refused by name.
  *
  *  @param path      the file
  *  @param material  the new material, for @ref restitute_material_destroy

@@ -25,6 +25,8 @@
  *    all its outputs untouched. Nothing is printed, nothing aborts, there is no global state.
  *  - The last argument is an optional @ref restitute_error that names the offending value and its allowed range.
  *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which also sets all defaults.
+ *  - Numbers have the ranges that stand beside them, wider than any system of units needs; what is outside is refused.
+ *    Within them nothing overflows: no call raises FE_INVALID, FE_DIVBYZERO or FE_OVERFLOW, which hosts may trap.
  *  - An output pointer that is NULL is not wanted, and is not computed.
  *  - Materials are immutable: any number of threads may share one. A solver belongs to one thread at a time.
  *  - SI units (m, kg, s, Pa, N, rad) with @ref restitute_scene; dimensionless with @ref restitute_impact.
@@ -56,7 +58,8 @@ extern "C" {
 /** Optional last argument: what went wrong, in one line, e.g. "friction = -0.1: must be >= 0 (inf: no slip)". */
 typedef struct restitute_error {
     int status;        /**< the status returned, a @ref restitute_status */
-    char message[256]; /**< names the value, the place and the allowed range; empty when done */
+    char message[256]; /**< names the value, the place and the allowed range. Of a call that is done it has remarks: what
+                            misses the tolerance, model limits that are passed, a faster method; empty if there are none */
 } restitute_error;
 
 /** Text of a status. Never NULL; unknown values give "unknown status". */
@@ -76,11 +79,11 @@ typedef struct restitute_material restitute_material;
 
 /** General solid: a Prony series, with a dashpot in parallel if wanted (THEORY 1). All the others are cases of it.
  *
- *  @param equilibrium_modulus  G_inf, Pa, finite, >= 0
- *  @param parallel_viscosity   eta_inf, Pa s, finite, >= 0
+ *  @param equilibrium_modulus  G_inf, Pa, in [1e-30, 1e30] or 0
+ *  @param parallel_viscosity   eta_inf, Pa s, in [1e-60, 1e60] or 0
  *  @param n_terms              number of terms, any; 0 is allowed
- *  @param relaxation_time      tau_k, s, finite, > 0, no two alike, any order; n_terms values, copied
- *  @param modulus              G_k, Pa, finite, > 0; n_terms values, copied
+ *  @param relaxation_time      tau_k, s, in [1e-30, 1e30], no two alike, any order; n_terms values, copied
+ *  @param modulus              G_k, Pa, in [1e-30, 1e30]; n_terms values, copied
  *  @param poisson_ratio        nu, in [0, 0.5]
  *  @param material             the new material
  *  @param error                optional
@@ -92,21 +95,21 @@ RESTITUTE_API int restitute_material_prony(double equilibrium_modulus, double pa
                                            const double *relaxation_time, const double *modulus, double poisson_ratio,
                                            restitute_material **material, restitute_error *error);
 
-/** Elastic solid of shear modulus G > 0 (Pa). */
+/** Elastic solid of shear modulus G (Pa). Moduli, viscosities and times of all solids have the ranges named above. */
 RESTITUTE_API int restitute_material_elastic(double shear_modulus, double poisson_ratio, restitute_material **material,
                                              restitute_error *error);
 
 /** Standard solid (1): spring G1 parallel to a spring G2 and a dashpot eta in series; tau = eta/G2.
- *  @param modulus1   G1, Pa, > 0          @param modulus2  G2, Pa, > 0          @param viscosity  eta, Pa s, > 0 */
+ *  @param modulus1   G1, Pa          @param modulus2  G2, Pa          @param viscosity  eta, Pa s */
 RESTITUTE_API int restitute_material_standard_solid(double modulus1, double modulus2, double viscosity,
                                                     double poisson_ratio, restitute_material **material,
                                                     restitute_error *error);
 
-/** Kelvin-Voigt solid (2): spring G1 > 0 (Pa) parallel to a dashpot eta > 0 (Pa s). */
+/** Kelvin-Voigt solid (2): spring G1 (Pa) parallel to a dashpot eta (Pa s). */
 RESTITUTE_API int restitute_material_kelvin_voigt(double modulus1, double viscosity, double poisson_ratio,
                                                   restitute_material **material, restitute_error *error);
 
-/** Maxwell body: spring G > 0 (Pa) in series with a dashpot eta > 0 (Pa s); tau = eta/G. It may never rebound. */
+/** Maxwell body: spring G (Pa) in series with a dashpot eta (Pa s); tau = eta/G. It may never rebound. */
 RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, double poisson_ratio,
                                              restitute_material **material, restitute_error *error);
 
@@ -126,6 +129,7 @@ RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, d
  *
  *  @param material1,material2  any two materials; may be the same
  *  @param pair                 the new solid, to be destroyed like any material
+ *  @return ERROR_DOMAIN also if the pair leaves the ranges of a material, which takes moduli some 60 decades apart
  *
  *      restitute_material_pair(steel, glass, &pair, &error);
  *      scene.material = pair; scene.deformable = RESTITUTE_ONE_BODY_DEFORMS; */
@@ -170,10 +174,12 @@ typedef struct restitute_impact {
     size_t struct_size;              /**< set by @ref restitute_impact_init */
     double chi;                      /**< in [1/3, 1000]; default 7/6 */
     double psi;                      /**< in [0, 1e12], below 1e-12 taken as 0; default 0 */
-    double delta1;                   /**< in [0, 1e12]; default 0; not used with `solid` */
-    double gamma;                    /**< in [0, infinity]; default infinity; not used with `solid` */
+    double delta1;                   /**< in [0, 1e12], below 1e-50 taken as 0; default 0; not used with `solid` */
+    double gamma;                    /**< in [0, infinity], below 1e-50 taken as 0, above 1e50 as infinity; default
+                                        infinity; not used with `solid` */
     const restitute_material *solid; /**< optional, any solid instead of (delta1, gamma): its moduli stand for
-                                        G/G_r, its times for t/T, with a_el formed with G_r; its nu is not used */
+                                        G/G_r, its times for t/T, with a_el formed with G_r; its nu is not used. Its
+                                        parallel viscosity is not above what delta1 allows, here and in a scene */
 } restitute_impact;
 
 /** Prepare with the defaults named above: an elastic no-slip impact. */
@@ -190,22 +196,23 @@ typedef enum restitute_deformable {
  *  Signs: the sphere moves with tangential_speed along x; a spin is positive if it adds to the sliding of the
  *  contact point, tangential_speed + radius1*spin1 + radius2*spin2: spin1 > 0 moves the surface of sphere 1 at the contact
  *  along +x, spin2 > 0 that of sphere 2 along -x. Spheres that turn the same way about the same axis have equal signs.
- *  Backspin is negative. All speeds are relative (1 minus 2). */
+ *  Backspin is negative. All speeds are relative (1 minus 2). Radii, masses and speeds are in [1e-50, 1e50]. */
 typedef struct restitute_scene {
     size_t struct_size;                 /**< set by @ref restitute_scene_init */
     const restitute_material *material; /**< required; default NULL */
     int deformable;                     /**< a @ref restitute_deformable; default ONE_BODY_DEFORMS */
-    double radius1, mass1;              /**< m, kg; > 0, finite; required, default 0 */
-    double radius2, mass2;              /**< m, kg; > 0, infinity allowed; default infinity: a wall */
-    double inertia1, inertia2;          /**< kg m^2, > 0; default 0 stands for a solid sphere, (2/5) m R^2; not
-                                           used for a body of infinite mass, which is held fast */
+    double radius1, mass1;              /**< m, kg; required, default 0 */
+    double radius2, mass2;              /**< m, kg; infinity allowed; default infinity: a wall */
+    double inertia1, inertia2;          /**< kg m^2, in [1e-150, 1e150]; default 0 stands for a solid sphere,
+                                           (2/5) m R^2; not used for a body of infinite mass, which is held fast */
     int rotation_blocked;               /**< nonzero: the spheres cannot rotate; default 0 */
-    double friction;                    /**< mu, >= 0, infinity allowed (no slip); default 0 */
-    double normal_speed;                /**< m/s, approaching, > 0; required, default 0 */
-    double tangential_speed;            /**< m/s, of the centres; default 0 */
-    double spin1, spin2;                /**< rad/s, see above; default 0. spin2 must be 0 for a wall */
-    double density;                     /**< kg/m^3 of what deforms, for its wave speed; default 0: that of the denser
-                                           sphere */
+    double friction;                    /**< mu, 0 or >= 1e-30, infinity allowed (no slip); default 0 */
+    double normal_speed;                /**< m/s, approaching; required, default 0 */
+    double tangential_speed;            /**< m/s, of the centres, of any sign or 0; default 0. With the spins it is up to
+                                           1e50, too */
+    double spin1, spin2;                /**< rad/s, see above, up to 1e100; default 0. spin2 must be 0 for a wall */
+    double density;                     /**< kg/m^3 of what deforms, for its wave speed, in [1e-100, 1e100]; default 0:
+                                           that of the denser sphere */
 } restitute_scene;
 
 /** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
@@ -258,8 +265,8 @@ typedef struct restitute_options {
     double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default 1e-3 */
     int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0 (default): chosen. `sync` takes
                                        up to 32768, rounded up to a multiple of 4, and not less than 8; `cvode` up to 16384 */
-    double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), > 0; 0 (default):
-                                       chosen. A step that cannot be stable is refused with the largest that is */
+    double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), in [1e-100, 1e100];
+                                       0 (default): chosen. A step that cannot be stable is refused with the largest that is */
     int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,
                                        > 0; default 1e10, some ten seconds. A call that reaches it before the
                                        tolerance returns its best with TOLERANCE_NOT_REACHED */
@@ -415,16 +422,16 @@ RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_
 
 /* ------------------------------------------------------------------------------------------- two bodies in space */
 
-/** A sphere, or a plane that nothing moves, in any frame of reference. SI units. */
+/** A sphere, or a plane that nothing moves, in any frame of reference. SI units; ranges are those of a scene. */
 typedef struct restitute_body {
     size_t struct_size; /**< set by @ref restitute_body_init */
-    double position[3]; /**< m, of the centre; of any point of a plane */
+    double position[3]; /**< m, of the centre; of any point of a plane; each up to 1e100 */
     double velocity[3]; /**< m/s, of the centre; of the plane, which keeps it */
     double spin[3];     /**< rad/s, right-handed about the axes; not used for a plane */
-    double radius;      /**< m, > 0; infinity: a plane; required, default 0 */
-    double mass;        /**< kg, > 0, infinity: a sphere held fast; not used for a plane; required, default 0 */
-    double inertia;     /**< kg m^2, > 0; default 0 stands for a solid sphere */
-    double normal[3];   /**< of a plane: points out of it, any length > 0; not used for a sphere */
+    double radius;      /**< m; infinity: a plane; required, default 0 */
+    double mass;        /**< kg; infinity: a sphere held fast; not used for a plane; required, default 0 */
+    double inertia;     /**< kg m^2; default 0 stands for a solid sphere */
+    double normal[3];   /**< of a plane: points out of it, of length 1e-100 to 1e100; not used for a sphere */
 } restitute_body;
 
 /** Prepare a body at rest at the origin. */
@@ -435,7 +442,7 @@ typedef struct restitute_contact {
     size_t struct_size;                 /**< set by @ref restitute_contact_init */
     const restitute_material *material; /**< required; of a pair of unlike materials see @ref restitute_material_pair */
     int deformable;                     /**< a @ref restitute_deformable; default BOTH_BODIES_DEFORM */
-    double friction;                    /**< mu, >= 0, infinity allowed; default 0 */
+    double friction;                    /**< mu, as in @ref restitute_scene; default 0 */
     double touch_gap; /**< how far apart, over the sum of the radii (the one radius with a plane), bodies
                                            still touch; >= 0, default 1e-6. Overlaps up to a tenth are touch, too */
     double density;   /**< as in @ref restitute_scene */
@@ -468,7 +475,7 @@ RESTITUTE_API int restitute_collide(restitute_solver *solver, const restitute_co
 RESTITUTE_API int restitute_pair(double chi, double psi, double delta1, double gamma, double *ez, double *ex,
                                  restitute_error *error);
 
-/** One call: the pair of a scene with default options. */
+/** One call: the pair of a scene with default options. Model limits that it passes stand in the message of `error`. */
 RESTITUTE_API int restitute_scene_pair(const restitute_scene *scene, double *ez, double *ex, restitute_error *error);
 
 /** psi_c = 2 chi (1 + ez) - ez (1 if 2 chi <= 1): from it on the contact slips to the end (31), exactly (THEORY 4.2), and

@@ -59,8 +59,8 @@ typedef struct restitute_table restitute_table;
 typedef struct restitute_table_family {
     size_t struct_size;           /**< set by @ref restitute_table_family_init */
     const restitute_scene *scene; /**< the contact; NULL (default): the ranges below. Not used after the build */
-    double speed[2];              /**< m/s, lowest and highest normal speed; 0 < lowest <= highest, highest/lowest up
-                                     to 1e15; default 1e-4, 100 */
+    double speed[2];              /**< m/s, lowest and highest normal speed; 1e-50 <= lowest <= highest <= 1e12,
+                                     highest/lowest up to 1e15; default 1e-4, 100 */
     double chi[2];                /**< in [1/3, 1000]; default 7/6, 7/6 */
     double delta1[2];             /**< > 0 or both 0, up to 1e6, highest/lowest up to 1e12; default 1e-3, 100 */
     double gamma[2];              /**< > 0, up to 1e6, highest/lowest up to 1e12; or both 0 (Kelvin-Voigt) or both
@@ -115,8 +115,9 @@ typedef struct restitute_table_slope {
 
 /** The pair of an impact, from the table of one contact.
  *
- *  @param normal_speed      m/s, approaching, in [0, infinity); what is below 1e-280 counts as 0
- *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), finite; its sign does not matter
+ *  @param normal_speed      m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
+ *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), in [-1e100, 1e100]; its sign does not
+ *                           matter
  *  @return OK; ERROR_DOMAIN for a speed out of its range or a table without a contact; ERROR_NULL
  *
  *      restitute_table_value pair;
@@ -157,7 +158,7 @@ RESTITUTE_API int restitute_table_contact_of(const restitute_table *table, const
 /** The pair of an impact of another contact, and its derivatives.
  *
  *  @param contact  NULL: the table's own
- *  @param slope    optional, NULL: not wanted
+ *  @param slope    optional, NULL: not wanted; at speeds below 1e-100 m/s that at 0
  *  @return as @ref restitute_table_pair */
 RESTITUTE_API int restitute_table_pair_of(const restitute_table *table, const restitute_table_contact *contact,
                                           double normal_speed, double tangential_speed, restitute_table_value *pair,

@@ -9,9 +9,19 @@
  *
  *  A file is an ordinary HDF5 file, which h5py, h5dump or MATLAB read, behind a user block of 512 bytes: one line of text that says what it is,
  *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
- *  HDF5: a damaged or cut file is refused, or it gives the same table. A file gets its name when it is complete.
+ *  HDF5: a damaged or cut file is refused, or it gives the same table.
  *  The checksum stops accidents, not strangers, who can compute it: HDF5 then reads what they made. Do not open files of strangers.
  *  What is read is a regular file of at most 4 GiB, and room is made for no more values than it has bytes.
+ *
+ *  How files are written:
+ *  - A file is made in memory and written beside its place as PATH.restitute-N.tmp. It gets its name when it is
+ *    complete. On any failure the old file stays and nothing else is left. HDF5 itself never sees the disk.
+ *  - Symbolic links are followed and stay.
+ *  - A file that is replaced keeps its mode, and its owner where that is allowed. A new one has 0666 less the umask.
+ *    A read-only file is refused.
+ *  - A device, a pipe, or an open file that /dev/stdout names is written through and never replaced.
+ *    Folders, sockets and block devices are refused.
+ *  - The temporary file is locked (flock). What a killed process left is removed by the next call with that path.
  *
  *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
  *
@@ -36,7 +46,8 @@
 extern "C" {
 #endif
 
-/** Write a table. An existing file of that name is replaced when the new one is complete, and not before.
+/** Write a table, as said above. A program with a limit on the size of files (RLIMIT_FSIZE) gets an error if it ignores
+ *  SIGXFSZ; else that signal ends it.
  *
  *  @return OK, ERROR_FILE, ERROR_NULL, ERROR_MEMORY */
 RESTITUTE_API int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error);

@@ -19,10 +19,10 @@ enum { most_tries = 60, most_iterations = 60 };
 
 static double guess_depth(const struct rst_solid *solid)
 {
-    double depth = pow(rst_bem_solid_modulus(solid, 0), -0.4);
-    const double most = 100 * depth; /* a solid that flows would have no end */
-    for (int i = 0; i < most_iterations && depth < most; i++)
-        depth = fmin(most, pow(rst_bem_solid_modulus(solid, depth), -0.4));
+    const double first = rst_bem_solid_modulus(solid, 0);
+    double depth = pow(first, -0.4);
+    for (int i = 0; i < most_iterations; i++) /* up to 100 times as deep: a solid that flows would have no end */
+        depth = pow(fmax(rst_bem_solid_modulus(solid, depth), 1e-5 * first), -0.4);
     return depth;
 }
 

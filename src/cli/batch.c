@@ -13,6 +13,7 @@
 #include "figure.h"
 #include "output.h"
 #include "partial.h"
+#include "places.h"
 #include "provenance.h"
 
 /* Set by a signal, looked at between chunks of rows. */
@@ -36,7 +37,8 @@ static void catch_signal(int number)
 
 struct batch {
     const struct settings *settings;
-    const char *path; /* of the result; NULL: standard output */
+    const char *path; /* of the result; NULL: a stream */
+    int stream;       /* where rows go at once if it is a stream; -1: JSON waits for all of them */
     struct cases cases;
     struct materials materials;
     restitute_solver *solver;
@@ -55,14 +57,13 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* A few times a second: rows to the file, progress to a terminal. */
-static void tick(struct batch *batch, FILE *stream, bool last)
+/* A few times a second: progress to a terminal. */
+static void tick(struct batch *batch, bool last)
 {
     const double interval = 0.25, now = seconds_now();
     if (!last && now - batch->last_tick < interval) return;
     const bool first = batch->last_tick == 0;
     batch->last_tick = now;
-    if (stream) fflush(stream);
     if (isatty(STDERR_FILENO) && !(first && last)) {
         fprintf(stderr, "\rrestitute: %zu of %zu rows%s", batch->done, batch->cases.rows, last ? "\n" : "");
         fflush(stderr);
@@ -90,9 +91,24 @@ static bool check_options(const struct settings *settings, struct reason *why)
     if (settings->format == FORMAT_TEXT)
         return refuse(why, "--format = \"text\": must be csv or json with --input and --grid");
     if (text[TEXT_FIGURE] && !text[TEXT_GRID]) return refuse(why, "--figure = %.200s: needs --grid", text[TEXT_FIGURE]);
-    if (settings->resume && output_is_standard(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
+    if (settings->resume && output_is_stream(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
     if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], why)) return false;
-    return settings_check_places(settings, why) && output_check(text[TEXT_OUTPUT], "--output", why);
+    return output_check(text[TEXT_OUTPUT], "--output", why);
+}
+
+/* Where rows go that need not wait for the others. */
+static bool open_rows(struct batch *batch, struct reason *why)
+{
+    const struct settings *settings = batch->settings;
+    struct output header;
+    if (batch->path)
+        return partial_begin(batch->path, &batch->cases, settings, batch->settings_object, &batch->partial, batch->rows,
+                             &batch->done, why);
+    if (settings->format == FORMAT_JSON) return true;
+    batch->stream = output_open_stream(settings->text[TEXT_OUTPUT], why);
+    if (batch->stream < 0 || !output_open(NULL, &header, why)) return false;
+    row_write_header(header.stream, &batch->cases);
+    return output_send(&header, batch->stream, settings->text[TEXT_OUTPUT], why);
 }
 
 /* Everything that can be refused is, before anything is written. */
@@ -106,8 +122,7 @@ static bool prepare(struct batch *batch, struct reason *why)
     if (restitute_solver_create(&settings->solver, &batch->solver, &error) < 0) return refuse(why, "%s", error.message);
     batch->rows = allocate(batch->cases.rows, sizeof *batch->rows);
     batch->settings_object = provenance_settings(settings, &batch->cases, &batch->materials);
-    return !batch->path || partial_begin(batch->path, &batch->cases, settings, batch->settings_object, &batch->partial,
-                                         batch->rows, &batch->done, why);
+    return places_check_settings(settings, &batch->materials, why) && open_rows(batch, why);
 }
 
 /* A chunk has a row for every thread, and as many more as take about a tenth of a second: whoever looks on or
@@ -128,32 +143,45 @@ static size_t threads_of(const struct settings *settings)
     return processors > 0 ? (size_t)processors : 1;
 }
 
+/* Solved rows to where they belong. */
+static bool write_rows(struct batch *batch, size_t count, struct reason *why)
+{
+    struct output lines;
+    if (!batch->path && batch->stream < 0) return true;
+    if (!output_open(NULL, &lines, why)) return false;
+    for (size_t i = batch->done; i < batch->done + count; i++)
+        row_write(lines.stream, &batch->cases, i, &batch->rows[i]);
+    return batch->path ? unfinished_append(&batch->partial.rows, &lines, why)
+                       : output_send(&lines, batch->stream, batch->settings->text[TEXT_OUTPUT], why);
+}
+
 /* The next rows, from the cases to the file. */
-static void solve_chunk(struct batch *batch, FILE *stream)
+static bool solve_chunk(struct batch *batch, struct reason *why)
 {
     const size_t left = batch->cases.rows - batch->done, count = batch->chunk < left ? batch->chunk : left;
     const double begin = seconds_now();
     rows_solve(&batch->cases, batch->settings, &batch->materials, batch->solver, batch->done, count, batch->rows);
-    for (size_t i = batch->done; i < batch->done + count; i++) {
+    for (size_t i = batch->done; i < batch->done + count; i++)
         count_failure(batch, i);
-        if (stream) row_write(stream, &batch->cases, i, &batch->rows[i]);
-    }
+    if (!write_rows(batch, count, why)) return false;
     batch->done += count;
     adapt_chunk(batch, seconds_now() - begin);
+    return true;
 }
 
-static void solve_rows(struct batch *batch)
+/* All rows, or as many as there is time and room for. */
+static bool solve_rows(struct batch *batch, struct reason *why)
 {
-    FILE *stream = batch->path ? batch->partial.stream : batch->settings->format == FORMAT_JSON ? NULL : stdout;
+    bool good = true;
     for (size_t i = 0; i < batch->done; i++)
         count_failure(batch, i);
-    if (!batch->path && stream) row_write_header(stream, &batch->cases);
     batch->chunk = batch->least_chunk = threads_of(batch->settings);
-    while (batch->done < batch->cases.rows && !interrupted) {
-        solve_chunk(batch, stream);
-        tick(batch, stream, false);
+    while (batch->done < batch->cases.rows && !interrupted && good) {
+        good = solve_chunk(batch, why);
+        tick(batch, false);
     }
-    tick(batch, stream, true);
+    tick(batch, true);
+    return good;
 }
 
 /* What belongs beside or into the result. */
@@ -175,22 +203,31 @@ static bool write_json(struct batch *batch, struct reason *why)
     json_t *rows = json_array();
     for (size_t i = 0; i < batch->cases.rows; i++)
         json_array_append_new(rows, row_json(&batch->cases, i, &batch->rows[i]));
-    return provenance_write(batch->path, json_pack("{s:o, s:o}", "meta", make_record(batch), "results", rows), why);
+    return provenance_write(batch->settings->text[TEXT_OUTPUT],
+                            json_pack("{s:o, s:o}", "meta", make_record(batch), "results", rows), why);
 }
 
+/* Rows that are there already get their name when the record is sure to get its own. */
 static bool write_result(struct batch *batch, struct reason *why)
 {
+    struct output record;
     if (batch->settings->format == FORMAT_JSON) {
         if (!write_json(batch, why)) return false;
         if (batch->path) partial_remove(&batch->partial);
         return true;
     }
-    if (!batch->path) {
-        struct output standard = {stdout, NULL, NULL};
-        return output_finish(&standard, why);
-    }
-    return provenance_write_beside(batch->path, make_record(batch), why) &&
-           partial_commit(&batch->partial, batch->path, why);
+    if (!batch->path) return true;
+    if (!provenance_open_beside(batch->path, make_record(batch), &record, why) || !outputs_write(&record, 1, why))
+        return false;
+    if (partial_commit(&batch->partial, batch->path, batch->cases.rows, why)) return outputs_commit(&record, 1, why);
+    outputs_abandon(&record, 1);
+    return false;
+}
+
+/* What is written stays, be it a part of the first rows. */
+static int stop(const struct batch *batch, const struct reason *why)
+{
+    return complain("%s%s", why->text, batch->path ? "; continue with --resume when that is mended" : "");
 }
 
 static int finish(struct batch *batch)
@@ -198,12 +235,11 @@ static int finish(struct batch *batch)
     const struct settings *settings = batch->settings;
     struct reason why;
     if (interrupted) {
-        fflush(stdout);
         complain("interrupted after %zu of %zu rows%s", batch->done, batch->cases.rows,
                  batch->path ? "; continue with --resume" : "");
         return EXIT_INTERRUPTED;
     }
-    if (!write_result(batch, &why)) return complain("%s", why.text);
+    if (!write_result(batch, &why)) return stop(batch, &why);
     if (settings->text[TEXT_FIGURE] &&
         !figure_of_grid(settings->text[TEXT_FIGURE], settings, &batch->cases, &batch->materials, batch->rows, &why))
         return complain("%s", why.text);
@@ -214,19 +250,19 @@ static int finish(struct batch *batch)
 
 int batch_run(const struct settings *settings)
 {
-    struct batch batch = {.settings = settings};
+    struct batch batch = {.settings = settings, .stream = -1};
     struct reason why;
     int status;
-    batch.path = output_is_standard(settings->text[TEXT_OUTPUT]) ? NULL : settings->text[TEXT_OUTPUT];
-    if (prepare(&batch, &why)) {
+    batch.path = output_is_stream(settings->text[TEXT_OUTPUT]) ? NULL : settings->text[TEXT_OUTPUT];
+    if (!prepare(&batch, &why)) {
+        status = complain("%s", why.text);
+    } else {
         catch_signal(SIGINT);
         catch_signal(SIGTERM);
-        solve_rows(&batch);
-        status = finish(&batch);
-    } else {
-        status = complain("%s", why.text);
+        status = solve_rows(&batch, &why) ? finish(&batch) : stop(&batch, &why);
     }
-    if (batch.partial.stream) partial_leave(&batch.partial);
+    if (batch.stream > STDERR_FILENO) close(batch.stream);
+    partial_leave(&batch.partial);
     if (batch.rows) rows_release(batch.rows, batch.cases.rows);
     json_decref(batch.settings_object);
     restitute_solver_destroy(batch.solver);

@@ -99,18 +99,16 @@ static bool fill_file(hid_t file, const restitute_bem_recorder *recorder)
     return good;
 }
 
-/* Under a temporary name first, like all files of the command. */
 static bool write_hdf5(const char *path, const restitute_bem_recorder *recorder, struct reason *why)
 {
-    char *temporary = path_with_suffix(path, ".tmp");
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = file >= 0 && fill_file(file, recorder);
-    if (file >= 0) good = H5Fclose(file) >= 0 && good;
-    good = good && rename(temporary, path) == 0;
-    if (!good) remove(temporary);
-    free(temporary);
-    return good ? true : refuse(why, "--fields = %.200s: cannot be written", path);
+    struct output output;
+    if (!output_open(path, &output, why)) return false;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* messages are ours */
+    const hid_t file = rst_image_create(0);
+    const bool good = file >= 0 && fill_file(file, recorder);
+    if (hdf5_finish(file, good, output.stream)) return output_finish(&output, why);
+    outputs_abandon(&output, 1);
+    return refuse(why, "--fields = %.200s: cannot be made as HDF5", path);
 }
 #endif
 

@@ -12,6 +12,7 @@
 #include "figure.h"
 #include "figures.h"
 #include "gnuplot.h"
+#include "places.h"
 #include "provenance.h"
 #include "tables.h"
 
@@ -98,15 +99,15 @@ static json_t *record_of(const struct bench_settings *settings)
 bool bench_write_table(const struct bench_settings *settings, const char *name,
                        void (*write)(const void *context, FILE *stream), const void *context, struct reason *why)
 {
-    struct output output;
+    struct output output[2];
     char suffix[40];
     if (!settings->output) return true;
     snprintf(suffix, sizeof suffix, "-%s.csv", name);
     char *path = path_with_suffix(settings->output, suffix);
-    bool done = provenance_write_beside(path, record_of(settings), why) && output_open(path, &output, why);
+    bool done = output_open(path, &output[0], why);
     if (done) {
-        write(context, output.stream);
-        done = output_finish(&output, why);
+        write(context, output[0].stream);
+        done = provenance_open_beside(path, record_of(settings), &output[1], why) && outputs_finish(output, 2, why);
     }
     free(path);
     return done;
@@ -236,23 +237,42 @@ static int omissions_run(const struct bench_settings *settings)
     return EXIT_DONE;
 }
 
+/* The files that begin with --output. */
+static bool check_outputs(const struct bench_settings *settings, struct places *places, struct reason *why)
+{
+    static const char *const suffixes[][4] = {[MODE_PRECISION] = {"-runs.csv", "-summary.csv", "-speed.csv"},
+                                              [MODE_OMISSIONS] = {"-omissions.csv"},
+                                              [MODE_STABILITY] = {"-stability.csv"},
+                                              [MODE_BEM] = {"-bem.csv"}};
+    if (!*settings->output || strcmp(settings->output, "-") == 0)
+        return refuse(why, "--output = \"%.20s\": must be the beginning of file names", settings->output);
+    bool good = true;
+    for (const char *const *suffix = suffixes[settings->mode]; *suffix && good; suffix++) {
+        char *path = path_with_suffix(settings->output, *suffix);
+        places_write(places, "--output", path);
+        places_write_beside(places, "--output", path, ".meta.json");
+        if (settings->mode == MODE_STABILITY || settings->mode == MODE_BEM)
+            places_write_beside(places, "--output", path, ".partial");
+        good = output_check(path, "--output", why);
+        free(path);
+    }
+    return good;
+}
+
 /* Refuse what cannot be written before minutes of work. */
 static bool check_places(const struct bench_settings *settings, struct reason *why)
 {
-    if (settings->output) {
-        static const char *const suffixes[] = {[MODE_PRECISION] = "-runs.csv",
-                                               [MODE_OMISSIONS] = "-omissions.csv",
-                                               [MODE_STABILITY] = "-stability.csv",
-                                               [MODE_BEM] = "-bem.csv"};
-        char *path = path_with_suffix(settings->output, suffixes[settings->mode]);
-        const bool good =
-            *settings->output && strcmp(settings->output, "-") != 0
-                ? output_check(path, "--output", why)
-                : refuse(why, "--output = \"%.20s\": must be the beginning of file names", settings->output);
-        free(path);
-        if (!good) return false;
-    }
-    return !settings->figure || figure_check(settings->figure, why);
+    struct places places = {0};
+    struct reason clash;
+    char *list = settings->campaign.join ? copy_of(settings->campaign.join) : NULL, *rest = NULL;
+    for (char *path = list ? strtok_r(list, ",", &rest) : NULL; path; path = strtok_r(NULL, ",", &rest))
+        places_read(&places, "--join", path);
+    free(list);
+    bool good = !settings->output || check_outputs(settings, &places, why);
+    if (settings->figure) places_write(&places, "--figure", settings->figure);
+    const bool apart = places_check(&places, &clash);
+    if (good && !apart) good = refuse(why, "%s", clash.text);
+    return good && (!settings->figure || figure_check(settings->figure, why));
 }
 
 int bench_main(int count, char **arguments)

@@ -6,15 +6,13 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <restitute/bem.h>
 
 #include "bem_campaign.h"
 #include "bench.h"
 #include "gnuplot.h"
-#include "output.h"
+#include "unfinished.h"
 
 /* What the differences should stay below. */
 static const double limit = 0.002;
@@ -24,8 +22,7 @@ struct campaign {
     struct bench_bem_row *rows; /* by index */
     bool *done;
     restitute_solver *sync, *bem;
-    char *partial_path;
-    FILE *partial;
+    struct unfinished partial;
 };
 
 static const struct bench_campaign *plan_of(const struct campaign *c)
@@ -60,13 +57,12 @@ static void write_rows(const void *context, FILE *stream)
 }
 
 /* Rows of a file with the same settings. A last line without its end was not written whole and is done again. */
-static bool read_rows(struct campaign *c, const char *path, const char *option, bool must_exist, struct reason *why)
+static bool read_rows(struct campaign *c, const char *path, const char *option, struct reason *why)
 {
     char expected[128], line[1024];
     struct bench_bem_row row;
     FILE *stream = fopen(path, "r");
-    if (!stream)
-        return errno == ENOENT && !must_exist ? true : refuse(why, "%s: %.200s: %s", option, path, strerror(errno));
+    if (!stream) return refuse(why, "%s: %.200s: %s", option, path, strerror(errno));
     settings_line(c, expected, sizeof expected);
     bool good = fgets(line, sizeof line, stream) && strcmp(line, expected) == 0;
     if (!good) refuse(why, "%s: %.200s is of a run with other settings", option, path);
@@ -88,55 +84,48 @@ static bool join(struct campaign *c, struct reason *why)
     if (!plan_of(c)->join) return true;
     char *list = copy_of(plan_of(c)->join), *rest = NULL;
     for (char *path = strtok_r(list, ",", &rest); good && path; path = strtok_r(NULL, ",", &rest))
-        good = read_rows(c, path, "--join", true, why);
+        good = read_rows(c, path, "--join", why);
     free(list);
     return good;
 }
 
-/* The rows that are there already, into a new file that takes the place of the old one when it is whole. */
-static bool renew_partial(const struct campaign *c, struct reason *why)
+/* Line of the settings if the file is empty, and all rows that were joined and are not in it. */
+static bool complete_partial(struct campaign *c, const bool *joined, struct reason *why)
 {
-    struct output output;
-    if (!output_open(c->partial_path, &output, why)) return false;
-    char line[128];
-    settings_line(c, line, sizeof line);
-    fputs(line, output.stream);
-    for (long i = 0; i < plan_of(c)->sets; i++)
-        if (c->done[i]) bench_write_bem_row(&c->rows[i], output.stream);
-    return output_finish(&output, why);
-}
-
-static bool not_written(const struct campaign *c, struct reason *why)
-{
-    return refuse(why, "%.200s: cannot be written: %s", c->partial_path, strerror(errno));
+    struct output lines;
+    char text[128];
+    if (!output_open(NULL, &lines, why)) return false;
+    settings_line(c, text, sizeof text);
+    if (c->partial.empty) fputs(text, lines.stream);
+    for (long i = 0; i < plan_of(c)->sets; i++) {
+        if (joined[i] && !c->done[i]) bench_write_bem_row(&c->rows[i], lines.stream);
+        c->done[i] |= joined[i];
+    }
+    return unfinished_append(&c->partial, &lines, why);
 }
 
 static bool open_partial(struct campaign *c, struct reason *why)
 {
-    struct stat status;
     if (!c->settings->output) return true;
-    c->partial_path = path_with_suffix(c->settings->output, "-bem.csv.partial");
-    if (!c->settings->resume && stat(c->partial_path, &status) == 0)
-        return refuse(why, "%.200s is left from an interrupted run: continue it with --resume, or remove it",
-                      c->partial_path);
-    if (!read_rows(c, c->partial_path, "--resume", false, why)) return false;
-    if (!renew_partial(c, why)) return false;
-    c->partial = fopen(c->partial_path, "a");
-    return c->partial || not_written(c, why);
+    char *path = path_with_suffix(c->settings->output, "-bem.csv");
+    bool good = unfinished_open(path, c->settings->resume, &c->partial, why);
+    free(path);
+    if (!good) return false;
+    bool *joined = c->done;
+    c->done = allocate((size_t)plan_of(c)->sets, sizeof *c->done);
+    if (!c->partial.empty) good = read_rows(c, c->partial.path, "--resume", why) && unfinished_cut(&c->partial, why);
+    good = good && complete_partial(c, joined, why);
+    free(joined);
+    return good;
 }
 
-/* Nonzero: the row is not on its way to the disk. */
-static int append(const struct campaign *c, long index)
+static bool append(struct campaign *c, long index, struct reason *why)
 {
-    bench_write_bem_row(&c->rows[index], c->partial);
-    return fflush(c->partial) != 0 || ferror(c->partial);
-}
-
-static bool close_partial(struct campaign *c, struct reason *why)
-{
-    FILE *stream = c->partial;
-    c->partial = NULL;
-    return !stream || fclose(stream) == 0 || not_written(c, why);
+    struct output line;
+    if (!c->partial.path) return true;
+    if (!output_open(NULL, &line, why)) return false;
+    bench_write_bem_row(&c->rows[index], line.stream);
+    return unfinished_append(&c->partial, &line, why);
 }
 
 static bool make_solvers(struct campaign *c, struct reason *why)
@@ -167,7 +156,7 @@ static bool run_all(struct campaign *c, struct reason *why)
         if (bench_bem_run(c->sync, c->bem, i, &draw, &c->rows[i]))
             return refuse(why, "set %ld: its solid cannot be made", i);
         c->done[i] = true;
-        if (c->partial && append(c, i)) return not_written(c, why);
+        if (!append(c, i, why)) return false;
     }
     bench_progress(NULL);
     return true;
@@ -182,12 +171,12 @@ static bool draw(const struct campaign *c, const struct bench_bem_row *rows, siz
     return gnuplot_close(&gnuplot, why);
 }
 
-static bool report(const struct campaign *c, struct reason *why)
+static bool report(struct campaign *c, struct reason *why)
 {
     struct bench_bem_row *rows = allocate((size_t)plan_of(c)->sets, sizeof *rows);
     const size_t count = collect(c, rows);
     const bool good = bench_write_table(c->settings, "bem", write_rows, c, why) && draw(c, rows, count, why);
-    if (good && c->partial_path) unlink(c->partial_path);
+    if (good) unfinished_remove(&c->partial);
     if (good) bench_print_bem(rows, count, limit, stdout);
     free(rows);
     return good;
@@ -200,11 +189,10 @@ int bench_bem_campaign(const struct bench_settings *settings)
     c.rows = allocate((size_t)settings->campaign.sets, sizeof *c.rows);
     c.done = allocate((size_t)settings->campaign.sets, sizeof *c.done);
     const bool good = make_solvers(&c, &why) && join(&c, &why) && open_partial(&c, &why) && run_all(&c, &why) &&
-                      close_partial(&c, &why) && (bench_interrupted() || report(&c, &why));
+                      (bench_interrupted() || report(&c, &why));
     restitute_solver_destroy(c.sync);
     restitute_solver_destroy(c.bem);
-    if (c.partial) fclose(c.partial);
-    free(c.partial_path);
+    unfinished_leave(&c.partial);
     free(c.rows);
     free(c.done);
     if (!good) return complain("%s", why.text);

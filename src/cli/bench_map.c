@@ -6,14 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "bench.h"
 #include "figures.h"
 #include "gnuplot.h"
-#include "output.h"
 #include "tables.h"
+#include "unfinished.h"
 
 enum { places = MAP_DECADES * MAP_DECADES, most_cells = places * MAP_LEVELS * BENCH_METHODS };
 
@@ -22,8 +20,7 @@ struct map {
     struct bench_cell *cells; /* in the order in which they are made */
     size_t count, done;       /* done: of an interrupted run */
     int levels;
-    char *partial_path;
-    FILE *partial;
+    struct unfinished partial;
 };
 
 static void write_map(const void *context, FILE *stream)
@@ -55,16 +52,16 @@ static void settings_line(const struct map *map, char *line, size_t size)
 static bool read_partial(struct map *map, struct reason *why)
 {
     char expected[256], line[512];
-    FILE *stream = fopen(map->partial_path, "r");
-    if (!stream) return errno == ENOENT ? true : refuse(why, "%.200s: %s", map->partial_path, strerror(errno));
+    FILE *stream = fopen(map->partial.path, "r");
+    if (!stream) return refuse(why, "%.200s: %s", map->partial.path, strerror(errno));
     settings_line(map, expected, sizeof expected);
     bool good = fgets(line, sizeof line, stream) && strcmp(line, expected) == 0;
-    if (!good) refuse(why, "--resume: %.200s is of a run with other settings", map->partial_path);
+    if (!good) refuse(why, "--resume: %.200s is of a run with other settings", map->partial.path);
     while (good && fgets(line, sizeof line, stream) && strchr(line, '\n')) {
         if (map->done < most_cells && bench_read_cell(line, &map->cells[map->done]))
             map->done++;
         else
-            good = refuse(why, "--resume: %.200s line %zu: is no cell of a map", map->partial_path, map->done + 2);
+            good = refuse(why, "--resume: %.200s line %zu: is no cell of a map", map->partial.path, map->done + 2);
     }
     fclose(stream);
     return good;
@@ -72,21 +69,27 @@ static bool read_partial(struct map *map, struct reason *why)
 
 static bool open_partial(struct map *map, struct reason *why)
 {
-    struct stat status;
-    char line[256];
+    struct output line;
+    char text[256];
     if (!map->settings->output) return true;
-    map->partial_path = path_with_suffix(map->settings->output, "-stability.csv.partial");
-    if (!map->settings->resume && stat(map->partial_path, &status) == 0)
-        return refuse(why, "%.200s is left from an interrupted run: continue it with --resume, or remove it",
-                      map->partial_path);
-    if (!read_partial(map, why)) return false;
-    map->partial = fopen(map->partial_path, "w");
-    if (!map->partial) return refuse(why, "%.200s: cannot be written: %s", map->partial_path, strerror(errno));
-    settings_line(map, line, sizeof line);
-    fputs(line, map->partial);
-    for (size_t i = 0; i < map->done; i++)
-        bench_write_cell(&map->cells[i], map->partial);
-    return true;
+    char *path = path_with_suffix(map->settings->output, "-stability.csv");
+    bool good = unfinished_open(path, map->settings->resume, &map->partial, why);
+    free(path);
+    if (good && !map->partial.empty) good = read_partial(map, why) && unfinished_cut(&map->partial, why);
+    if (!good || !map->partial.empty) return good;
+    settings_line(map, text, sizeof text);
+    if (!output_open(NULL, &line, why)) return false;
+    fputs(text, line.stream);
+    return unfinished_append(&map->partial, &line, why);
+}
+
+static bool append(struct map *map, const struct bench_cell *cell, struct reason *why)
+{
+    struct output line;
+    if (!map->partial.path) return true;
+    if (!output_open(NULL, &line, why)) return false;
+    bench_write_cell(cell, line.stream);
+    return unfinished_append(&map->partial, &line, why);
 }
 
 /* The levels of one method at one place; cells that are done are passed over. */
@@ -98,14 +101,11 @@ static bool fill_column(struct map *map, const struct bench_scene *scene, int me
             const bool same = cell->method == method && cell->steps == bench_map_steps(level) &&
                               fabs(cell->delta1 / scene->delta1 - 1) < 1e-5 &&
                               fabs(cell->gamma / scene->gamma - 1) < 1e-5;
-            if (!same) return refuse(why, "%.200s line %zu: is not of this map", map->partial_path, map->count + 2);
+            if (!same) return refuse(why, "%.200s line %zu: is not of this map", map->partial.path, map->count + 2);
         } else {
             if (bench_map_cell(scene, method, level, map->settings->plan.budget, level ? cell - 1 : NULL, cell))
                 return refuse(why, "out of memory");
-            if (map->partial) {
-                bench_write_cell(cell, map->partial);
-                fflush(map->partial);
-            }
+            if (!append(map, cell, why)) return false;
         }
         map->count++;
     }
@@ -152,7 +152,7 @@ static bool draw(const struct map *map, struct reason *why)
 static bool report(struct map *map, struct reason *why)
 {
     if (!bench_write_table(map->settings, "stability", write_map, map, why) || !draw(map, why)) return false;
-    if (map->partial_path) unlink(map->partial_path);
+    unfinished_remove(&map->partial);
     bench_print_map(map->cells, map->count, stdout);
     return true;
 }
@@ -163,8 +163,7 @@ int bench_map_run(const struct bench_settings *settings)
     struct reason why;
     map.cells = allocate(most_cells, sizeof *map.cells);
     const bool good = open_partial(&map, &why) && fill_map(&map, &why) && (bench_interrupted() || report(&map, &why));
-    if (map.partial) fclose(map.partial);
-    free(map.partial_path);
+    unfinished_leave(&map.partial);
     free(map.cells);
     if (!good) return complain("%s", why.text);
     if (!bench_interrupted()) return EXIT_DONE;

@@ -11,7 +11,6 @@
 
 #include "events_hdf5.h"
 #include "file_form.h"
-#include "output.h"
 
 static const struct {
     const char *physical, *physical_unit, *dimensionless, *dimensionless_unit;
@@ -113,23 +112,23 @@ int events_solve(restitute_solver *solver, const struct problem *problem, restit
 }
 #endif
 
-static bool write_csv(const char *path, const struct event_table *table, bool physical, struct reason *why)
+static void write_csv(FILE *stream, const struct event_table *table, bool physical)
 {
-    struct output output;
-    if (!output_open(path, &output, why)) return false;
     for (int column = 0; column < EVENT_COLUMNS; column++)
-        fprintf(output.stream, "%s%c", event_column_name(column, physical), column + 1 < EVENT_COLUMNS ? ',' : '\n');
+        fprintf(stream, "%s%c", event_column_name(column, physical), column + 1 < EVENT_COLUMNS ? ',' : '\n');
     for (size_t i = 0; i < table->count; i++)
         for (int column = 0; column < EVENT_COLUMNS; column++)
-            fprintf(output.stream, "%s%c",
-                    column == EVENT_KIND ? table->kind[i] : number_text(table->number[column][i]).text,
+            fprintf(stream, "%s%c", column == EVENT_KIND ? table->kind[i] : number_text(table->number[column][i]).text,
                     column + 1 < EVENT_COLUMNS ? ',' : '\n');
-    return output_finish(&output, why);
 }
 
-bool events_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+bool events_open(const char *path, const struct event_table *table, bool physical, struct output *output,
+                 struct reason *why)
 {
-    return is_hdf5(path) ? events_hdf5_write(path, table, physical, why) : write_csv(path, table, physical, why);
+    if (!output_open(path, output, why)) return false;
+    if (is_hdf5(path)) return events_hdf5_write(path, table, physical, output->stream, why);
+    write_csv(output->stream, table, physical);
+    return true;
 }
 
 void events_release(struct event_table *table)

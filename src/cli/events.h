@@ -4,6 +4,7 @@
 #define CLI_EVENTS_H
 
 #include "options.h"
+#include "output.h"
 #include "problem.h"
 
 /* Columns of the log. The kind is a word, the others numbers. */
@@ -36,8 +37,10 @@ bool events_check(struct settings *settings, struct reason *why);
 int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                  restitute_history *history, struct event_table *table, restitute_error *error);
 
-/* Write the table to `path`: HDF5 if it ends in .h5 or .hdf5, else CSV; - is standard output. */
-bool events_write(const char *path, const struct event_table *table, bool physical, struct reason *why);
+/* The table as an output for `path`, not yet finished: HDF5 if it ends in .h5 or .hdf5, else CSV;
+ * "-" is standard output. */
+bool events_open(const char *path, const struct event_table *table, bool physical, struct output *output,
+                 struct reason *why);
 
 void events_release(struct event_table *table);
 

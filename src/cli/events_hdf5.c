@@ -3,12 +3,7 @@
 #include "events_hdf5.h"
 
 #ifdef RESTITUTE_WITH_HDF5
-#include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
-
 #include "hdf5_text.h"
-#include "output.h"
 
 bool events_hdf5_built(void)
 {
@@ -43,20 +38,13 @@ static bool write_group(hid_t file, const struct event_table *table, bool physic
     return good;
 }
 
-bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, FILE *stream,
+                       struct reason *why)
 {
-    char *temporary = path_with_suffix(path, ".tmp");
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* messages are ours */
-    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = file >= 0 && write_group(file, table, physical);
-    if (file >= 0) good = H5Fclose(file) >= 0 && good;
-    good = good && rename(temporary, path) == 0;
-    if (!good) {
-        unlink(temporary);
-        refuse(why, "%.200s cannot be written as HDF5", path);
-    }
-    free(temporary);
-    return good;
+    const hid_t file = rst_image_create(0);
+    const bool good = file >= 0 && write_group(file, table, physical);
+    return hdf5_finish(file, good, stream) ? true : refuse(why, "%.200s cannot be made as HDF5", path);
 }
 #else
 bool events_hdf5_built(void)
@@ -65,9 +53,10 @@ bool events_hdf5_built(void)
 }
 
 /* Never reached: events_check() refuses first. */
-bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, struct reason *why)
+bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, FILE *stream,
+                       struct reason *why)
 {
-    (void)table, (void)physical;
+    (void)table, (void)physical, (void)stream;
     return refuse(why, "%.200s: HDF5 is not in this build", path);
 }
 #endif

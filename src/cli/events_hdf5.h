@@ -8,7 +8,9 @@
 /* Whether this build writes HDF5. */
 bool events_hdf5_built(void);
 
-/* One group /events with a dataset a column, its unit as attribute. The file appears whole or not at all. */
-bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, struct reason *why);
+/* One group /events with a dataset a column, its unit as attribute. The file goes to `stream`, its
+ * name to messages. */
+bool events_hdf5_write(const char *path, const struct event_table *table, bool physical, FILE *stream,
+                       struct reason *why);
 
 #endif

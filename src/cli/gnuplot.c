@@ -6,7 +6,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <spawn.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -21,20 +20,12 @@ static int start(const char *argument, int input, int output, int complaints, pi
 {
     char *const arguments[] = {(char *)"gnuplot", (char *)argument, NULL};
     posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t defaults;
     posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    const int failed = posix_spawnp(process, "gnuplot", &actions, &attributes, arguments, environ);
+    const int failed = posix_spawnp(process, "gnuplot", &actions, NULL, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
     return failed;
 }
 
@@ -78,46 +69,56 @@ static void set_terminal(const char *path, int width, int height, FILE *commands
 
 bool gnuplot_open(const char *path, int width, int height, struct gnuplot *gnuplot, struct reason *why)
 {
-    int ends[2];
-    memset(gnuplot, 0, sizeof *gnuplot);
     if (!output_open(path, &gnuplot->picture, why)) return false;
-    gnuplot->complaints = tmpfile();
-    if (!gnuplot->complaints || pipe(ends) != 0) {
-        refuse(why, "%.200s: no pipe to gnuplot: %s", path, strerror(errno));
-        if (gnuplot->complaints) fclose(gnuplot->complaints);
-        output_abandon(&gnuplot->picture);
-        return false;
-    }
-    signal(SIGPIPE, SIG_IGN); /* a gnuplot that dies is reported by its exit status */
-    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
-    const int failed =
-        start("-d", ends[0], fileno(gnuplot->picture.stream), fileno(gnuplot->complaints), &gnuplot->process);
-    close(ends[0]);
-    gnuplot->commands = failed ? NULL : fdopen(ends[1], "w");
+    gnuplot->commands = tmpfile();
     if (!gnuplot->commands) {
-        close(ends[1]);
-        fclose(gnuplot->complaints);
-        output_abandon(&gnuplot->picture);
-        return refuse(why, "%.200s: gnuplot cannot be started: %s", path, strerror(failed));
+        outputs_abandon(&gnuplot->picture, 1);
+        return refuse(why, "%.200s: no temporary file for gnuplot: %s", path, strerror(errno));
     }
     set_terminal(path, width, height, gnuplot->commands);
     return true;
 }
 
+/* All that comes out of a descriptor. */
+static void receive(int descriptor, FILE *stream)
+{
+    char bytes[4096];
+    ssize_t count;
+    while ((count = read(descriptor, bytes, sizeof bytes)) > 0 || (count < 0 && errno == EINTR))
+        if (count > 0) fwrite(bytes, 1, (size_t)count, stream);
+}
+
+/* Let gnuplot draw what the commands say. Returns 0, an errno, or -1 if it failed by itself. */
+static int draw(const struct gnuplot *gnuplot, FILE *complaints)
+{
+    int ends[2];
+    pid_t process;
+    if (!complaints || fflush(gnuplot->commands) != 0) return errno;
+    if (ferror(gnuplot->commands)) return EIO; /* part of the commands is lost */
+    if (lseek(fileno(gnuplot->commands), 0, SEEK_SET) < 0 || pipe(ends) != 0) return errno;
+    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    const int failed = start("-d", fileno(gnuplot->commands), ends[1], fileno(complaints), &process);
+    close(ends[1]);
+    if (!failed) receive(ends[0], gnuplot->picture.stream);
+    close(ends[0]);
+    return failed ? failed : ended_well(process) ? 0 : -1;
+}
+
 bool gnuplot_close(struct gnuplot *gnuplot, struct reason *why)
 {
     char line[200] = "no message";
-    const bool fed = fclose(gnuplot->commands) == 0;
-    const bool well = ended_well(gnuplot->process);
-    const bool drawn = well && fed && lseek(fileno(gnuplot->picture.stream), 0, SEEK_END) > 0;
-    rewind(gnuplot->complaints);
-    while (!drawn && fgets(line, sizeof line, gnuplot->complaints) && strspn(line, " \t\r\n^") == strlen(line))
+    FILE *complaints = tmpfile();
+    int failed = draw(gnuplot, complaints);
+    if (!failed && ftell(gnuplot->picture.stream) <= 0) failed = -1;
+    fclose(gnuplot->commands);
+    if (complaints) rewind(complaints);
+    while (failed == -1 && fgets(line, sizeof line, complaints) && strspn(line, " \t\r\n^") == strlen(line))
         continue;
-    fclose(gnuplot->complaints);
-    if (drawn) return output_finish(&gnuplot->picture, why);
+    if (complaints) fclose(complaints);
+    if (!failed) return output_finish(&gnuplot->picture, why);
     line[strcspn(line, "\r\n")] = '\0';
-    refuse(why, "%.150s: gnuplot failed: %s", gnuplot->picture.place, line);
-    output_abandon(&gnuplot->picture);
+    refuse(why, "%.150s: gnuplot failed: %s", gnuplot->picture.path, failed == -1 ? line : strerror(failed));
+    outputs_abandon(&gnuplot->picture, 1);
     return false;
 }
 

@@ -1,7 +1,8 @@
-/* Text attributes of fixed length.
+/* Text attributes of fixed length; files from memory.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "hdf5_text.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 bool hdf5_write_text(hid_t place, const char *name, const char *text)
@@ -13,5 +14,14 @@ bool hdf5_write_text(hid_t place, const char *name, const char *text)
     if (attribute >= 0) H5Aclose(attribute);
     H5Tclose(type);
     H5Sclose(space);
+    return good;
+}
+
+bool hdf5_finish(hid_t file, bool good, FILE *stream)
+{
+    size_t size = 0;
+    void *bytes = file >= 0 ? rst_image_close(file, &size) : NULL;
+    good = bytes && good && fwrite(bytes, 1, size, stream) == size;
+    free(bytes);
     return good;
 }

@@ -1,12 +1,17 @@
-/* Text in HDF5 files, in builds with HDF5.
+/* HDF5 files of the command, in builds with HDF5: text, and their end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_HDF5_TEXT_H
 #define CLI_HDF5_TEXT_H
 
-#include <hdf5.h>
 #include <stdbool.h>
+#include <stdio.h>
+
+#include "../output/hdf5_image.h"
 
 /* Give a file, a group or a dataset a text attribute. */
 bool hdf5_write_text(hid_t place, const char *name, const char *text);
+
+/* Close a file in memory; if `good`, send it to `stream`. False if anything fails. */
+bool hdf5_finish(hid_t file, bool good, FILE *stream);
 
 #endif

@@ -7,7 +7,7 @@
 #include "bem_fields.h"
 #include "events.h"
 #include "figure.h"
-#include "output.h"
+#include "places.h"
 #include "provenance.h"
 
 enum { HISTORY_COLUMNS = 8 };
@@ -84,7 +84,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
 {
     const char *figure = settings->text[TEXT_FIGURE], *output = settings->text[TEXT_OUTPUT];
     if (figure && !figure_check(figure, why)) return false;
-    return settings_check_places(settings, why) && output_check(output, "--output", why);
+    return output_check(output, "--output", why);
 }
 
 static bool solve(const struct settings *settings, const struct problem *problem, restitute_history *history,
@@ -108,7 +108,7 @@ static bool solve(const struct settings *settings, const struct problem *problem
     if (done) done = bem_fields_write(settings, fields, why);
     bem_fields_release(fields);
     if (!done) return false;
-    if (*status != RESTITUTE_OK) complain("remark: %s", restitute_status_text(*status));
+    if (error.message[0]) complain("remark: %s", error.message);
     return true;
 }
 
@@ -118,18 +118,18 @@ static bool write_result(const struct settings *settings, const struct problem *
 {
     const char *events_path = settings->text[TEXT_EVENTS];
     const char *path = settings->text[TEXT_OUTPUT], *figure = settings->text[TEXT_FIGURE];
-    struct output output;
-    if (!provenance_write_beside(path, make_record(settings, materials, history_units(problem->physical), status),
-                                 why) ||
-        !output_open(path, &output, why))
-        return false;
-    write_rows(output.stream, history, problem->physical);
-    if (!output_finish(&output, why)) return false;
-    if (events_path &&
-        (!provenance_write_beside(events_path, make_record(settings, materials, event_units(problem->physical), status),
-                                  why) ||
-         !events_write(events_path, events, problem->physical, why)))
-        return false;
+    struct output outputs[4] = {{0}};
+    if (!output_open(path, &outputs[0], why)) return false;
+    write_rows(outputs[0].stream, history, problem->physical);
+    bool good = provenance_open_beside(path, make_record(settings, materials, history_units(problem->physical), status),
+                                       &outputs[1], why);
+    if (events_path)
+        good = good && events_open(events_path, events, problem->physical, &outputs[2], why) &&
+               provenance_open_beside(events_path,
+                                      make_record(settings, materials, event_units(problem->physical), status),
+                                      &outputs[3], why);
+    if (!good) outputs_abandon(outputs, 4);
+    if (!good || !outputs_finish(outputs, 4, why)) return false;
     return !figure || figure_of_history(figure, settings, problem, history, why);
 }
 
@@ -146,6 +146,7 @@ int history_run(const struct settings *given)
     allocate_history(settings->samples, &history);
     const bool done = check_options(settings, &why) && events_check(&chosen, &why) &&
                       problem_build(&settings->values, NAME_OPTIONS, &materials, &problem, &why) &&
+                      places_check_settings(settings, &materials, &why) &&
                       solve(settings, &problem, &history, &events, &status, &why) &&
                       write_result(settings, &problem, &materials, &history, &events, status, &why);
     events_release(&events);

@@ -1,5 +1,9 @@
 /* restitute: the command. It reads the command line, calls the library and writes what comes back.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
+#include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,6 +50,7 @@ static int run_subcommand(int count, char **arguments)
 int main(int count, char **arguments)
 {
     const char *word = count > 1 ? arguments[1] : "";
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error as on a full disk */
     int status = EXIT_DONE;
     if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0)
         status = run_subcommand(count, arguments);
@@ -62,6 +67,8 @@ int main(int count, char **arguments)
             *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help",
                              word)
                   : complain("a command is missing: pair, history, bench or table; see restitute --help");
-    if (fflush(stdout) != 0 && status == EXIT_DONE) status = complain("standard output cannot be written");
+    errno = 0;
+    if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
+        status = complain("standard output cannot be written: %s", strerror(errno ? errno : EIO));
     return status;
 }

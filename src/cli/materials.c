@@ -4,9 +4,29 @@
 
 #include "materials.h"
 
+#include <jansson.h>
 #include <search.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+/* The other file that was read for this one: the library tells a fingerprint, but no name. */
+static char *series_of(const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return NULL; /* a pipe can be read once */
+    json_t *root = json_load_file(path, 0, NULL);
+    const char *name = json_string_value(json_object_get(root, "prony_csv")), *slash = strrchr(path, '/');
+    char *series = NULL;
+    if (name) {
+        const size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0;
+        series = allocate(folder + strlen(name) + 1, 1);
+        memcpy(series, path, folder);
+        strcpy(series + folder, name);
+    }
+    json_decref(root);
+    return series;
+}
 
 static int by_path(const void *left, const void *right)
 {
@@ -42,6 +62,7 @@ static struct material_entry *read_entry(const char *path)
         entry->material = NULL;
         refuse(&entry->why, "%s", error.message);
     }
+    entry->series = series_of(path);
     return entry;
 }
 
@@ -98,6 +119,7 @@ void materials_release(struct materials *materials)
         tdelete(entry, &materials->by_path, by_path);
         restitute_material_destroy(entry->material);
         free(entry->path);
+        free(entry->series);
         free(entry);
     }
 }

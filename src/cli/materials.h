@@ -10,6 +10,7 @@
 struct material_entry {
     struct material_entry *next;
     char *path;
+    char *series;                 /* path of the CSV that it names as prony_csv; NULL: none */
     restitute_material *material; /* NULL: could not be read, and `why` tells the reason */
     restitute_material_info info;
     struct reason why;

@@ -13,6 +13,10 @@ struct reason {
     char text[400];
 };
 
+/* Make a text harmless to a terminal: control characters, and what is no UTF-8, become \xNN. Cut to
+ * `size` bytes. */
+void escape(char *text, size_t size);
+
 /* Write the reason down; always returns false, so that a check can end with `return refuse(...)`. */
 bool refuse(struct reason *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -16,8 +16,6 @@
 #include <restitute/bem.h>
 #endif
 
-#include "output.h"
-
 /* What popt returns for an option: a field, a text, or one of these. */
 enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
 
@@ -350,27 +348,4 @@ void options_release(struct settings *settings)
         free(settings->text[i]);
     for (int i = 0; i < FIELD_COUNT; i++)
         free(settings->field[i]);
-}
-
-bool settings_check_places(const struct settings *settings, struct reason *why)
-{
-    static const enum text_option outputs[] = {TEXT_OUTPUT, TEXT_EVENTS, TEXT_FIGURE, TEXT_FIELDS};
-    const char *inputs[] = {settings->text[TEXT_INPUT], settings->values.material, settings->values.partner};
-    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
-        const char *path = settings->text[outputs[i]], *name = text_names[outputs[i]];
-        char option[40];
-        snprintf(option, sizeof option, "--%s", name);
-        if (!path && i > 0) continue; /* without --output there is standard output */
-        for (size_t k = 0; k < sizeof inputs / sizeof inputs[0]; k++)
-            if (!output_spares(path, option, inputs[k], why)) return false;
-        for (size_t k = 0; k < i; k++) {
-            const char *other = settings->text[outputs[k]];
-            if ((!other && k > 0) || !output_same(path, other)) continue;
-            if (output_is_standard(path))
-                return refuse(why, "--%s and --%s are both standard output: at most one can be", name,
-                              text_names[outputs[k]]);
-            return refuse(why, "--%s and --%s are the same file, %.200s", name, text_names[outputs[k]], path);
-        }
-    }
-    return true;
 }

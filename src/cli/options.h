@@ -55,10 +55,6 @@ enum reading { READING_GO_ON, READING_STOP, READING_FAILED };
  * printed. */
 enum reading options_read(int count, char **arguments, struct settings *settings);
 
-/* Refuse outputs that would replace the case file or a material file, or one another; at most one is standard output.
- * */
-bool settings_check_places(const struct settings *settings, struct reason *why);
-
 void options_release(struct settings *settings);
 
 #endif

@@ -1,20 +1,26 @@
-/* Atomic files and standard output.
+/* Outputs of the command.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
 #include "output.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <libgen.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 bool output_is_standard(const char *path)
 {
     return !path || strcmp(path, "-") == 0;
+}
+
+bool output_is_stream(const char *path)
+{
+    struct rst_place place;
+    if (output_is_standard(path)) return true;
+    if (rst_place_find(path, &place) != 0) return false;
+    rst_place_release(&place);
+    return place.through;
 }
 
 char *path_with_suffix(const char *path, const char *suffix)
@@ -25,113 +31,127 @@ char *path_with_suffix(const char *path, const char *suffix)
     return joined;
 }
 
+char *path_beside(const char *path, const char *suffix)
+{
+    struct rst_place place;
+    if (rst_place_find(path, &place) != 0) return path_with_suffix(path, suffix);
+    char *beside = path_with_suffix(place.target, suffix);
+    rst_place_release(&place);
+    return beside;
+}
+
+static bool not_written(const char *path, int problem, struct reason *why)
+{
+    return output_is_standard(path) ? refuse(why, "standard output cannot be written: %s", strerror(problem))
+                                    : refuse(why, "%.200s: cannot be written: %s", path, strerror(problem));
+}
+
 bool output_check(const char *path, const char *option, struct reason *why)
 {
+    struct rst_place place;
     if (output_is_standard(path)) return true;
-    struct stat status;
     if (!*path) return refuse(why, "%s is empty: must be a file name", option);
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return refuse(why, "%s = %.200s: is not a regular file; - is standard output", option, path);
-    char *copy = copy_of(path);
-    const int closed = access(dirname(copy), W_OK | X_OK);
-    free(copy);
-    if (closed != 0) return refuse(why, "%s = %.200s: cannot be written: %s", option, path, strerror(errno));
-    return true;
-}
-
-bool output_spares(const char *path, const char *option, const char *input, struct reason *why)
-{
-    struct stat written, read;
-    if (output_is_standard(path) || !input || stat(path, &written) != 0 || stat(input, &read) != 0) return true;
-    if (written.st_dev != read.st_dev || written.st_ino != read.st_ino) return true;
-    return refuse(why, "%s = %.200s: is an input of this run and would be overwritten", option, path);
-}
-
-/* The folder of a path; false if there is none. */
-static bool folder_of(const char *path, struct stat *status)
-{
-    char *copy = copy_of(path);
-    const bool found = stat(dirname(copy), status) == 0;
-    free(copy);
-    return found;
-}
-
-bool output_same(const char *path, const char *other)
-{
-    struct stat one, two;
-    if (output_is_standard(path) || output_is_standard(other))
-        return output_is_standard(path) && output_is_standard(other);
-    const char *slash = strrchr(path, '/'), *other_slash = strrchr(other, '/');
-    if (strcmp(slash ? slash + 1 : path, other_slash ? other_slash + 1 : other) != 0) return false;
-    return folder_of(path, &one) && folder_of(other, &two) && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
+    int problem = rst_place_find(path, &place);
+    if (problem == EISDIR || problem == ENOTSUP)
+        return refuse(why, "%s = %.200s: is not a regular file, nor a device or pipe; - is standard output", option,
+                      path);
+    if (!problem) {
+        problem = rst_place_check(&place);
+        rst_place_release(&place);
+    }
+    return problem ? refuse(why, "%s = %.200s: cannot be written: %s", option, path, strerror(problem)) : true;
 }
 
 bool output_open(const char *path, struct output *output, struct reason *why)
 {
     memset(output, 0, sizeof *output);
-    if (output_is_standard(path)) {
-        output->stream = stdout;
-        return true;
-    }
-    output->temporary = path_with_suffix(path, ".XXXXXX");
-    const int file = mkstemp(output->temporary);
-    output->stream = file >= 0 ? fdopen(file, "w") : NULL;
-    if (!output->stream) {
-        free(output->temporary);
-        memset(output, 0, sizeof *output);
-        return refuse(why, "%.200s: cannot be written: %s", path, strerror(errno));
-    }
-    const mode_t mask = umask(0);
-    umask(mask);
-    fchmod(file, 0666 & ~mask); /* mkstemp makes it private, but this is the user's result */
-    output->place = copy_of(path);
+    output->stream = open_memstream(&output->bytes, &output->size);
+    if (!output->stream) return refuse(why, "out of memory");
+    if (!output_is_standard(path)) output->path = copy_of(path);
     return true;
 }
 
-/* The new name itself must reach the disk too; a file system that cannot do this is no reason to fail. */
-static void flush_folder(const char *place)
+int output_open_stream(const char *path, struct reason *why)
 {
-    char *copy = copy_of(place);
-    const int folder = open(dirname(copy), O_RDONLY);
-    if (folder >= 0) {
-        fsync(folder);
-        close(folder);
+    struct rst_place place;
+    if (output_is_standard(path)) return STDOUT_FILENO;
+    int problem = rst_place_find(path, &place), file = -1;
+    if (!problem) {
+        file = rst_open_through(&place);
+        problem = errno;
+        rst_place_release(&place);
     }
-    free(copy);
+    if (file < 0) not_written(path, problem, why);
+    return file;
 }
 
-bool output_rename(FILE *stream, const char *temporary, const char *place, struct reason *why)
+bool output_send(struct output *output, int descriptor, const char *name, struct reason *why)
 {
-    const bool written = !ferror(stream) && fflush(stream) == 0 && fsync(fileno(stream)) == 0;
-    int problem = written ? 0 : errno;
-    if (fclose(stream) != 0 && !problem) problem = errno;
-    if (!problem && rename(temporary, place) != 0) problem = errno;
-    if (problem) return refuse(why, "%.200s: cannot be written: %s", place, strerror(problem));
-    flush_folder(place);
+    int problem = fflush(output->stream) == 0 ? 0 : ENOMEM; /* that is all that memory can lack */
+    if (!problem) problem = rst_write_all(descriptor, output->bytes, output->size);
+    outputs_abandon(output, 1);
+    return problem ? not_written(name, problem, why) : true;
+}
+
+/* Standard output may hold what was printed before. */
+static int write_standard(const struct output *output)
+{
+    return fflush(stdout) == 0 ? rst_write_all(STDOUT_FILENO, output->bytes, output->size) : errno;
+}
+
+bool outputs_write(struct output *outputs, size_t count, struct reason *why)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct output *o = &outputs[i];
+        if (!o->stream) continue;
+        int problem = fclose(o->stream) == 0 ? 0 : ENOMEM;
+        o->stream = NULL;
+        if (!problem && o->path) {
+            problem = rst_new_file_write(o->path, o->bytes, o->size, &o->file);
+            o->written = !problem;
+        } else if (!problem) {
+            problem = write_standard(o);
+        }
+        if (!problem) continue;
+        not_written(o->path, problem, why);
+        outputs_abandon(outputs, count);
+        return false;
+    }
     return true;
+}
+
+bool outputs_commit(struct output *outputs, size_t count, struct reason *why)
+{
+    for (size_t i = 0; i < count; i++) {
+        const int problem = outputs[i].written ? rst_new_file_commit(&outputs[i].file) : 0;
+        outputs[i].written = false;
+        if (!problem) continue;
+        not_written(outputs[i].path, problem, why);
+        outputs_abandon(outputs, count);
+        return false;
+    }
+    outputs_abandon(outputs, count);
+    return true;
+}
+
+bool outputs_finish(struct output *outputs, size_t count, struct reason *why)
+{
+    return outputs_write(outputs, count, why) && outputs_commit(outputs, count, why);
 }
 
 bool output_finish(struct output *output, struct reason *why)
 {
-    bool done;
-    if (!output->place) {
-        done = !ferror(output->stream) && fflush(output->stream) == 0;
-        return done ? true : refuse(why, "standard output cannot be written: %s", strerror(errno));
-    }
-    done = output_rename(output->stream, output->temporary, output->place, why);
-    output->stream = NULL;
-    if (!done) unlink(output->temporary);
-    free(output->temporary);
-    free(output->place);
-    return done;
+    return outputs_finish(output, 1, why);
 }
 
-void output_abandon(struct output *output)
+void outputs_abandon(struct output *outputs, size_t count)
 {
-    if (!output->place) return;
-    if (output->stream) fclose(output->stream);
-    unlink(output->temporary);
-    free(output->temporary);
-    free(output->place);
-    memset(output, 0, sizeof *output);
+    for (size_t i = 0; i < count; i++) {
+        struct output *o = &outputs[i];
+        if (o->stream) fclose(o->stream);
+        if (o->written) rst_new_file_drop(&o->file);
+        free(o->bytes);
+        free(o->path);
+        memset(o, 0, sizeof *o);
+    }
 }

@@ -1,43 +1,57 @@
-/* Files that appear whole or not at all: written beside their place, flushed to the disk, then renamed.
+/* Outputs of the command: files that appear whole or not at all, and streams. Where and how files
+ * are written is decided in src/output.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H
 
 #include <stdio.h>
 
+#include "../output/new_file.h"
 #include "message.h"
 
 struct output {
-    FILE *stream;
-    char *place;     /* final name; NULL: standard output */
-    char *temporary; /* name while it is written */
+    FILE *stream; /* into memory: what is written is one piece, and one call can fail */
+    char *bytes;
+    size_t size;
+    char *path;   /* NULL: standard output */
+    bool written; /* under the temporary name `file` */
+    struct rst_new_file file;
 };
 
 /* True for NULL and "-". */
 bool output_is_standard(const char *path);
 
-/* Refuse a place that could not be written: a folder, a device, a folder that is missing or closed to us. */
+/* True for standard output and whatever else is written through: no file stands beside it, and none
+ * can be continued. */
+bool output_is_stream(const char *path);
+
+/* Refuse a place that could not be written: a folder, a missing folder, what is closed to us. */
 bool output_check(const char *path, const char *option, struct reason *why);
 
-/* Refuse to replace `input`, by whatever name; NULL: no such input. */
-bool output_spares(const char *path, const char *option, const char *input, struct reason *why);
-
-/* Whether two places are one: the same name in the same folder, however it is written, or standard output twice. */
-bool output_same(const char *path, const char *other);
-
-/* Open for writing under a temporary name, or standard output. */
+/* Begin an output; write to its stream. */
 bool output_open(const char *path, struct output *output, struct reason *why);
 
-/* All is written: flush, and give the file its name. On failure nothing is left under the final name. */
+/* Open an output that is a stream, for what comes piece by piece. Returns the descriptor, or -1. */
+int output_open_stream(const char *path, struct reason *why);
+
+/* Send what was written to an open file, whose name is for messages, and release the output. */
+bool output_send(struct output *output, int descriptor, const char *name, struct reason *why);
+
+/* All is written: all outputs get their names, or none. Those without a stream are passed over. */
+bool outputs_finish(struct output *outputs, size_t count, struct reason *why);
 bool output_finish(struct output *output, struct reason *why);
 
-/* Give up: remove what was written. */
-void output_abandon(struct output *output);
+/* The two halves of that: what may fail for want of room, and giving the names. */
+bool outputs_write(struct output *outputs, size_t count, struct reason *why);
+bool outputs_commit(struct output *outputs, size_t count, struct reason *why);
 
-/* Flush an open file to the disk and rename it. Closes the stream in any case. */
-bool output_rename(FILE *stream, const char *temporary, const char *place, struct reason *why);
+/* Give up: remove what was written. */
+void outputs_abandon(struct output *outputs, size_t count);
 
 /* `path` with `suffix` behind it, on the heap. */
 char *path_with_suffix(const char *path, const char *suffix);
+
+/* Likewise, beside the file that the path leads to. */
+char *path_beside(const char *path, const char *suffix);
 
 #endif

@@ -1,43 +1,25 @@
 /* Interrupted runs: begin, resume, commit.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _XOPEN_SOURCE 700
+#define _POSIX_C_SOURCE 200809L
 
 #include "partial.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "output.h"
 #include "provenance.h"
 
-static void release(struct partial *partial)
-{
-    free(partial->rows_path);
-    free(partial->settings_path);
-    memset(partial, 0, sizeof *partial);
-}
-
-/* O_EXCL: two runs into one place, or a forgotten --resume, must not destroy what is there. */
+/* Settings and header of a file in which nothing is done. */
 static bool begin_new(struct partial *partial, const struct cases *cases, const json_t *settings_object,
                       struct reason *why)
 {
-    const int file = open(partial->rows_path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    if (file < 0 && errno == EEXIST)
-        return refuse(why, "%.200s is left from an interrupted run: continue it with --resume, or remove it",
-                      partial->rows_path);
-    partial->stream = file < 0 ? NULL : fdopen(file, "w");
-    if (!partial->stream) return refuse(why, "%.200s: cannot be written: %s", partial->rows_path, strerror(errno));
-    if (!provenance_write(partial->settings_path, json_deep_copy(settings_object), why)) {
-        fclose(partial->stream);
-        unlink(partial->rows_path);
+    struct output header;
+    if (!provenance_write(partial->settings_path, json_deep_copy(settings_object), why) ||
+        !output_open(NULL, &header, why))
         return false;
-    }
-    row_write_header(partial->stream, cases);
-    return true;
+    row_write_header(header.stream, cases);
+    return unfinished_append(&partial->rows, &header, why);
 }
 
 /* The settings of the interrupted run are those of this one. */
@@ -66,20 +48,6 @@ static bool same_settings(const struct partial *partial, const json_t *settings_
     return same;
 }
 
-/* Cut off a last line that was not written to its end. Returns the length left, -1 if that fails. */
-static long cut_last_line(const char *path)
-{
-    FILE *stream = fopen(path, "rb");
-    long length = 0, position = 0;
-    if (!stream) return -1;
-    for (int c = getc(stream); c != EOF; c = getc(stream)) {
-        position++;
-        if (c == '\n') length = position;
-    }
-    fclose(stream);
-    return truncate(path, length) == 0 ? length : -1;
-}
-
 /* The rows done are the first rows of these cases. */
 static bool read_done(const char *path, const struct cases *cases, const struct settings *settings, struct row *rows,
                       size_t *done, struct reason *why)
@@ -100,51 +68,41 @@ static bool read_done(const char *path, const struct cases *cases, const struct 
                          *done + 2);
 }
 
-static bool resume(struct partial *partial, const struct cases *cases, const struct settings *settings,
-                   const json_t *settings_object, struct row *rows, size_t *done, struct reason *why)
-{
-    if (!same_settings(partial, settings_object, why)) return false;
-    const long length = cut_last_line(partial->rows_path);
-    if (length < 0) return refuse(why, "%.200s: cannot be continued: %s", partial->rows_path, strerror(errno));
-    if (length > 0 && !read_done(partial->rows_path, cases, settings, rows, done, why)) return false;
-    partial->stream = fopen(partial->rows_path, "a");
-    if (!partial->stream) return refuse(why, "%.200s: cannot be continued: %s", partial->rows_path, strerror(errno));
-    if (length == 0) row_write_header(partial->stream, cases);
-    return true;
-}
-
 bool partial_begin(const char *path, const struct cases *cases, const struct settings *settings,
                    const json_t *settings_object, struct partial *partial, struct row *rows, size_t *done,
                    struct reason *why)
 {
-    struct stat status;
-    partial->rows_path = path_with_suffix(path, ".partial");
-    partial->settings_path = path_with_suffix(path, ".partial.json");
-    const bool go_on = settings->resume && stat(partial->rows_path, &status) == 0;
-    const bool good = go_on ? resume(partial, cases, settings, settings_object, rows, done, why)
-                            : begin_new(partial, cases, settings_object, why);
-    if (!good) release(partial);
+    if (!unfinished_open(path, settings->resume, &partial->rows, why)) return false;
+    partial->settings_path = path_beside(path, ".partial.json");
+    const bool fresh = partial->rows.empty;
+    const bool good = fresh
+                          ? begin_new(partial, cases, settings_object, why)
+                          : same_settings(partial, settings_object, why) && unfinished_cut(&partial->rows, why) &&
+                                (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
+                                                     : read_done(partial->rows.path, cases, settings, rows, done, why));
+    if (!good && fresh) partial_remove(partial);
+    if (!good) partial_leave(partial);
     return good;
 }
 
-bool partial_commit(struct partial *partial, const char *path, struct reason *why)
+bool partial_commit(struct partial *partial, const char *path, size_t rows, struct reason *why)
 {
-    const bool done = output_rename(partial->stream, partial->rows_path, path, why);
-    if (done) unlink(partial->settings_path);
-    release(partial);
-    return done;
+    if (!unfinished_commit(&partial->rows, path, rows + 1, why)) return false;
+    unlink(partial->settings_path);
+    partial_leave(partial);
+    return true;
 }
 
 void partial_remove(struct partial *partial)
 {
-    fclose(partial->stream);
-    unlink(partial->rows_path);
-    unlink(partial->settings_path);
-    release(partial);
+    if (partial->settings_path) unlink(partial->settings_path);
+    unfinished_remove(&partial->rows);
+    partial_leave(partial);
 }
 
 void partial_leave(struct partial *partial)
 {
-    fclose(partial->stream);
-    release(partial);
+    unfinished_leave(&partial->rows);
+    free(partial->settings_path);
+    partial->settings_path = NULL;
 }

@@ -1,14 +1,15 @@
-/* The file of an unfinished run, OUT.partial: rows as far as they are done, so that an interrupted run can go on.
- * Beside it OUT.partial.json holds the settings, to be compared before going on.
+/* Rows of an unfinished run in OUT.partial, and beside it OUT.partial.json with its settings, to be
+ * compared before going on.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_PARTIAL_H
 #define CLI_PARTIAL_H
 
 #include "rows.h"
+#include "unfinished.h"
 
 struct partial {
-    FILE *stream;
-    char *rows_path, *settings_path;
+    struct unfinished rows;
+    char *settings_path;
 };
 
 /* Open OUT.partial and put the header down, or with --resume read the rows that are done: `done` counts them. */
@@ -16,8 +17,8 @@ bool partial_begin(const char *path, const struct cases *cases, const struct set
                    const json_t *settings_object, struct partial *partial, struct row *rows, size_t *done,
                    struct reason *why);
 
-/* Give the rows their final name. */
-bool partial_commit(struct partial *partial, const char *path, struct reason *why);
+/* Give the rows their final name, if they are as many. */
+bool partial_commit(struct partial *partial, const char *path, size_t rows, struct reason *why);
 
 /* Remove both files. */
 void partial_remove(struct partial *partial);

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output.h"
-
 json_t *json_of_number(double value)
 {
     if (isnan(value)) return json_null();
@@ -106,31 +104,34 @@ json_t *provenance_record(const struct settings *settings, json_t *settings_obje
                      command, "settings", settings_object, "units", units);
 }
 
+/* A document into an output, not yet finished. Releases the document. */
+static bool open_document(const char *path, json_t *document, struct output *output, struct reason *why)
+{
+    bool good = output_open(path, output, why);
+    if (good && json_dumpf(document, output->stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0) {
+        outputs_abandon(output, 1);
+        good = refuse(why, "%.200s: cannot be written as JSON", path ? path : "standard output");
+    }
+    if (good) fputc('\n', output->stream);
+    json_decref(document);
+    return good;
+}
+
 bool provenance_write(const char *path, json_t *document, struct reason *why)
 {
     struct output output;
-    if (!output_open(path, &output, why)) {
-        json_decref(document);
-        return false;
-    }
-    const int failed = json_dumpf(document, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    json_decref(document);
-    if (failed) {
-        output_abandon(&output);
-        return refuse(why, "%.200s: cannot be written as JSON", path ? path : "standard output");
-    }
-    fputc('\n', output.stream);
-    return output_finish(&output, why);
+    return open_document(path, document, &output, why) && output_finish(&output, why);
 }
 
-bool provenance_write_beside(const char *path, json_t *record, struct reason *why)
+bool provenance_open_beside(const char *path, json_t *record, struct output *output, struct reason *why)
 {
-    if (output_is_standard(path)) {
+    memset(output, 0, sizeof *output);
+    if (output_is_stream(path)) {
         json_decref(record);
         return true;
     }
-    char *beside = path_with_suffix(path, ".meta.json");
-    const bool done = provenance_write(beside, record, why);
+    char *beside = path_beside(path, ".meta.json");
+    const bool good = open_document(beside, record, output, why);
     free(beside);
-    return done;
+    return good;
 }

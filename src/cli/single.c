@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "output.h"
+#include "places.h"
 #include "provenance.h"
 #include "rows.h"
 
@@ -26,7 +27,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
     if (settings->resume) return refuse(why, "--resume: needs --input or --grid");
     if (settings->text[TEXT_THREADS])
         return refuse(why, "--threads = %s: needs --input or --grid", settings->text[TEXT_THREADS]);
-    return settings_check_places(settings, why) && output_check(settings->text[TEXT_OUTPUT], "--output", why);
+    return output_check(settings->text[TEXT_OUTPUT], "--output", why);
 }
 
 /* The dimensionless numbers as given, in the struct that a scene fills. */
@@ -47,7 +48,9 @@ static bool solve(struct single *single, struct reason *why)
     restitute_result_init(&single->result);
     restitute_ledger_init(&single->ledger);
     restitute_numbers_init(&single->numbers);
-    if (!problem_build(&settings->values, NAME_OPTIONS, &single->materials, &single->problem, why)) return false;
+    if (!problem_build(&settings->values, NAME_OPTIONS, &single->materials, &single->problem, why) ||
+        !places_check_settings(settings, &single->materials, why))
+        return false;
     if (!single->problem.physical)
         numbers_of_impact(&single->problem.impact, &single->numbers);
     else if (restitute_scene_numbers(&single->problem.scene, &single->numbers, &error) < 0)
@@ -55,7 +58,9 @@ static bool solve(struct single *single, struct reason *why)
     if (restitute_solver_create(&settings->solver, &solver, &error) < 0) return refuse(why, "%s", error.message);
     single->status = problem_solve(solver, &single->problem, &single->result, &single->ledger, NULL, &error);
     restitute_solver_destroy(solver);
-    return single->status >= 0 ? true : refuse(why, "%s", error.message);
+    if (single->status < 0) return refuse(why, "%s", error.message);
+    if (error.message[0]) complain("remark: %s", error.message);
+    return true;
 }
 
 /* "label   value unit   (value2 unit2)"; the second part only for a scene, whose scale is not 0. */
@@ -150,8 +155,10 @@ static void text_numerics(FILE *stream, const struct single *single)
 static void write_text(FILE *stream, const struct single *single)
 {
     const restitute_result *result = &single->result;
-    fprintf(stream, "restitute %s", restitute_version());
-    if (single->problem.physical) fprintf(stream, ": %s", single->problem.info->name);
+    char name[4 * sizeof single->problem.info->name] = "";
+    if (single->problem.physical) snprintf(name, sizeof name, ": %s", single->problem.info->name);
+    escape(name, sizeof name);
+    fprintf(stream, "restitute %s%s", restitute_version(), name);
     fputs("\n\nRestitution\n", stream);
     fprintf(stream, "  normal       ez = %9.6f +- %.1e\n", result->ez, result->error_ez);
     fprintf(stream, "  tangential   ex = %9.6f +- %.1e\n", result->ex, result->error_ex);
@@ -264,19 +271,19 @@ static bool write_result(struct single *single, struct reason *why)
 {
     const struct settings *settings = single->settings;
     const char *path = settings->text[TEXT_OUTPUT];
-    struct output output;
+    struct output output[2];
     if (settings->format == FORMAT_JSON)
         return provenance_write(path,
                                 json_pack("{s:o, s:o, s:o, s:o}", "meta", make_record(single), "result",
                                           json_of_result(single), "numbers", json_of_dimensionless(&single->numbers),
                                           "energy", json_of_ledger(&single->ledger)),
                                 why);
-    if (!provenance_write_beside(path, make_record(single), why) || !output_open(path, &output, why)) return false;
+    if (!output_open(path, &output[0], why)) return false;
     if (settings->format == FORMAT_CSV)
-        write_csv(output.stream, single);
+        write_csv(output[0].stream, single);
     else
-        write_text(output.stream, single);
-    return output_finish(&output, why);
+        write_text(output[0].stream, single);
+    return provenance_open_beside(path, make_record(single), &output[1], why) && outputs_finish(output, 2, why);
 }
 
 int single_run(const struct settings *settings)

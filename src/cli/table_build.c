@@ -1,5 +1,5 @@
-/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial every ten seconds and
- * when a signal asks to stop.
+/* `restitute table build`: in pieces, with progress; what is solved is put down in FILE.partial
+ * after a second, then every ten, and when a signal asks to stop.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -9,13 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "bench.h"
-#include "output.h"
+#include "places.h"
 #include "table_settings.h"
+#include "unfinished.h"
 
 static volatile sig_atomic_t interrupted;
 
@@ -83,7 +82,7 @@ struct build {
     restitute_table_family family;
     restitute_table_options options;
     char line[1000]; /* all that the table depends on */
-    char *partial;
+    struct unfinished partial;
 };
 
 static bool read_family(struct build *b, struct reason *why)
@@ -125,6 +124,18 @@ static bool read_options(struct build *b, struct reason *why)
     return true;
 }
 
+static bool check_places(const struct build *b, struct reason *why)
+{
+    struct places places = {0};
+    const char *output = b->settings->text[TABLE_OUTPUT];
+    places_read(&places, "--material", b->settings->text[TABLE_MATERIAL]);
+    places_read(&places, "--partner", b->settings->values.partner);
+    places_read_materials(&places, &b->materials);
+    places_write(&places, "--output", output);
+    places_write_beside(&places, "--output", output, ".partial");
+    return places_check(&places, why);
+}
+
 /* Bits of the numbers, so that equal lines mean equal tables. */
 static void describe(struct build *b)
 {
@@ -145,11 +156,14 @@ static void describe(struct build *b)
                  f->chi[1], f->delta1[0], f->delta1[1], f->gamma[0], f->gamma[1]);
 }
 
-static bool put_down(const struct build *b, const restitute_table_builder *builder, struct reason *why)
+/* The library puts a new file in the place of the old one, which was locked. */
+static bool put_down(struct build *b, const restitute_table_builder *builder, struct reason *why)
 {
     restitute_error error;
-    if (restitute_table_builder_write(builder, b->line, b->partial, &error) >= 0) return true;
-    return refuse(why, "%s", error.message);
+    if (restitute_table_builder_write(builder, b->line, b->partial.path, &error) < 0)
+        return refuse(why, "%s", error.message);
+    b->partial.empty = false;
+    return unfinished_lock_again(&b->partial, why);
 }
 
 static void show(const restitute_table_builder *builder, double since)
@@ -162,11 +176,11 @@ static void show(const restitute_table_builder *builder, double since)
 }
 
 /* Solve until the table is there or a signal came. Pieces last about a fifth of a second. */
-static int run(const struct build *b, restitute_table_builder *builder, restitute_table **table, restitute_error *error,
+static int run(struct build *b, restitute_table_builder *builder, restitute_table **table, restitute_error *error,
                struct reason *why)
 {
     const double start = seconds();
-    double written = start, last = start;
+    double written = start - 9, last = start; /* put down after a second, then every ten */
     size_t piece = 64;
     int status = RESTITUTE_OK;
     while (!*table && !interrupted && status >= 0) {
@@ -184,34 +198,40 @@ static int run(const struct build *b, restitute_table_builder *builder, restitut
     return status;
 }
 
-static int finish(const struct build *b, restitute_table *table, int status, const restitute_error *error)
+static int finish(struct build *b, restitute_table *table, int status, const restitute_error *error)
 {
     restitute_error written;
     restitute_table_info info;
     restitute_table_info_init(&info);
     restitute_table_describe(table, &info, NULL);
     const int failed = restitute_table_write(table, b->settings->text[TABLE_OUTPUT], &written) < 0;
-    if (failed) return complain("%s", written.message);
-    unlink(b->partial);
-    printf("%s: errors %.2g (ez), %.2g (ex), verified at %lld points; %lld impacts solved, %.3g MB\n",
-           b->settings->text[TABLE_OUTPUT], info.error_ez, info.error_ex, (long long)info.checks,
-           (long long)info.impacts, (double)info.bytes / 1e6);
+    if (failed)
+        return complain("%s%s", written.message,
+                        b->partial.empty ? "" : "; continue with --resume when that is mended");
+    unfinished_remove(&b->partial);
+    char name[1000];
+    snprintf(name, sizeof name, "%s", b->settings->text[TABLE_OUTPUT]);
+    escape(name, sizeof name);
+    printf("%s: errors %.2g (ez), %.2g (ex), verified at %lld points; %lld impacts solved, %.3g MB\n", name,
+           info.error_ez, info.error_ex, (long long)info.checks, (long long)info.impacts, (double)info.bytes / 1e6);
     if (status == RESTITUTE_OK) return EXIT_DONE;
     complain("%s", error->message);
     return EXIT_SOME_FAILED;
 }
 
-static int build(const struct build *b)
+static int build(struct build *b)
 {
     restitute_table_builder *builder;
     restitute_table *table = NULL;
     restitute_error error;
     struct reason why;
-    struct stat there;
     if (restitute_table_builder_create(&b->family, &b->options, &builder, &error) < 0)
         return complain("%s", error.message);
-    if (b->settings->resume && stat(b->partial, &there) == 0 &&
-        restitute_table_builder_read(builder, b->line, b->partial, &error) < 0) {
+    if (!unfinished_open(b->settings->text[TABLE_OUTPUT], b->settings->resume, &b->partial, &why)) {
+        restitute_table_builder_destroy(builder);
+        return complain("%s", why.text);
+    }
+    if (!b->partial.empty && restitute_table_builder_read(builder, b->line, b->partial.path, &error) < 0) {
         restitute_table_builder_destroy(builder);
         return complain("%s", error.message);
     }
@@ -238,17 +258,16 @@ int table_build_run(const struct table_settings *settings)
     const char *output = settings->text[TABLE_OUTPUT];
     int status = EXIT_DONE;
     b->settings = settings;
-    if (output_is_standard(output))
-        refuse(&why, "--output = -: a table needs a file"), status = EXIT_USAGE;
-    else if (!output_check(output, "--output", &why) ||
-             !output_spares(output, "--output", settings->text[TABLE_MATERIAL], &why) || !read_family(b, &why) ||
-             !read_options(b, &why))
+    if (output_is_stream(output))
+        refuse(&why, "--output = %.200s: a table needs a file", output), status = EXIT_USAGE;
+    else if (!output_check(output, "--output", &why) || !read_family(b, &why) || !read_options(b, &why) ||
+             !check_places(b, &why))
         status = EXIT_USAGE;
     if (status == EXIT_DONE) {
         describe(b);
-        b->partial = path_with_suffix(output, ".partial");
         status = build(b);
-        free(b->partial);
+        if (b->partial.empty) unfinished_remove(&b->partial); /* nothing was put down */
+        unfinished_leave(&b->partial);
     } else
         complain("%s", why.text);
     materials_release(&b->materials);

@@ -7,6 +7,7 @@
 #include <restitute/files.h>
 
 #include "output.h"
+#include "places.h"
 #include "provenance.h"
 #include "rows.h"
 #include "table_settings.h"
@@ -17,6 +18,17 @@ static restitute_table *read_table(const struct table_settings *settings)
     restitute_error error;
     if (restitute_table_read(settings->file, &table, &error) < 0) complain("%s", error.message);
     return table;
+}
+
+/* The output of `query` or `export`: a place that can be written, and neither the table nor the
+ * cases. */
+static bool check_places(const struct table_settings *settings, struct reason *why)
+{
+    struct places places = {0};
+    places_read(&places, "the table", settings->file);
+    places_read(&places, "--input", settings->text[TABLE_INPUT]);
+    places_write(&places, "--output", settings->text[TABLE_OUTPUT]);
+    return places_check(&places, why) && output_check(settings->text[TABLE_OUTPUT], "--output", why);
 }
 
 /* ---- info */
@@ -56,7 +68,10 @@ static void print_info(const restitute_table_info *i, int64_t rebound_cells)
            (long long)i->checks);
     printf("%-16s %lld\n", "impacts solved", (long long)i->impacts);
     print_nodes(i, rebound_cells);
-    printf("%-16s %s\n", "built by", i->version);
+    char version[4 * sizeof i->version];
+    snprintf(version, sizeof version, "%s", i->version);
+    escape(version, sizeof version);
+    printf("%-16s %s\n", "built by", version);
 }
 
 static json_t *json_of_range(const double range[2])
@@ -191,8 +206,7 @@ static int query_one(const struct table_settings *s, struct query *q)
     struct output output;
     restitute_table_value pair;
     const bool csv = s->text[TABLE_FORMAT] && strcmp(s->text[TABLE_FORMAT], "csv") == 0;
-    if (!find_one(s, q, &pair, &why) || !output_spares(s->text[TABLE_OUTPUT], "--output", s->file, &why) ||
-        !output_open(s->text[TABLE_OUTPUT], &output, &why))
+    if (!find_one(s, q, &pair, &why) || !check_places(s, &why) || !output_open(s->text[TABLE_OUTPUT], &output, &why))
         return complain("%s", why.text);
     fprintf(output.stream, csv ? "ez,ex\n%s," : "ez = %s\n", number_text(pair.ez).text);
     fprintf(output.stream, csv ? "%s\n" : "ex = %s\n", number_text(pair.ex).text);
@@ -248,9 +262,7 @@ static int query_many(const struct table_settings *s, struct query *q)
     int column[4];
     size_t failed = 0, beyond = 0;
     if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
-    bool good = find_columns(q, csv, column, &why) &&
-                output_spares(s->text[TABLE_OUTPUT], "--output", s->text[TABLE_INPUT], &why) &&
-                output_spares(s->text[TABLE_OUTPUT], "--output", s->file, &why) &&
+    bool good = find_columns(q, csv, column, &why) && check_places(s, &why) &&
                 output_open(s->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
@@ -366,8 +378,7 @@ int table_export_run(const struct table_settings *settings)
     if (!table) return EXIT_USAGE;
     restitute_table_data_init(&data);
     restitute_table_to_data(table, &data, NULL);
-    bool good = output_spares(settings->text[TABLE_OUTPUT], "--output", settings->file, &why) &&
-                output_open(settings->text[TABLE_OUTPUT], &output, &why);
+    bool good = check_places(settings, &why) && output_open(settings->text[TABLE_OUTPUT], &output, &why);
     if (good) {
         export_table(table, &data, output.stream);
         good = output_finish(&output, &why);

@@ -20,15 +20,9 @@ int rst_check_range(double value, double low, double high, const char *name, res
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
 }
 
-int rst_check_positive(double value, int infinity_allowed, const char *name, restitute_error *error)
+int rst_check_within(double value, struct rst_range range, double besides, const char *name, restitute_error *error)
 {
-    if (value > 0 && (infinity_allowed || !isinf(value))) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be > 0 and %s", name, value,
-                      infinity_allowed ? "may be inf" : "finite");
-}
-
-int rst_check_finite(double value, const char *name, restitute_error *error)
-{
-    if (isfinite(value)) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g: must be finite", name, value);
+    if ((value >= range.low && value <= range.high) || value == besides) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]%s", name, value, range.low,
+                      range.high, besides == 0 ? " or 0" : isinf(besides) ? " or inf" : "");
 }

@@ -28,26 +28,24 @@ static int check_impact(const restitute_impact *impact, restitute_error *error)
     return status;
 }
 
-/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (THEORY 3), and its limits. */
+/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (THEORY 3), and its limits. Beyond 1e-50 and 1e50,
+ * so that g and tau keep within the bounds of ranges.h, the limit differs by less than 1e-20: of a dashpot by
+ * gamma theta^2, see rst_merge_terms, of an elastic solid by theta or 1/gamma. */
 static void standard_solid(double delta1, double gamma, struct rst_solid *solid)
 {
-    double theta = rst_theta_from_delta1(delta1), g = 1 / gamma, tau = gamma * theta;
+    const double small = 1e-50, theta = rst_theta_from_delta1(delta1);
     solid->g_inf = 1;
     solid->eta = 0;
     solid->n_terms = 0;
     solid->can_sink = 0;
-    if (delta1 <= 0 || isinf(gamma)) return;
-    if (gamma <= 0 || isinf(g) || tau <= 0) {
+    if (delta1 < small || gamma > 1 / small) return;
+    if (gamma < small) {
         solid->eta = theta;
         return;
     }
-    if (isinf(tau)) { /* a spring that never relaxes; its modulus g is then below 1e-290 */
-        solid->g_inf += g;
-        return;
-    }
     solid->n_terms = 1;
-    solid->g[0] = g;
-    solid->tau[0] = tau;
+    solid->g[0] = 1 / gamma;
+    solid->tau[0] = gamma * theta;
 }
 
 static void given_solid(const restitute_material *material, struct rst_solid *solid)
@@ -72,6 +70,15 @@ void rst_set_sliding(double psi, struct rst_problem *problem)
                                      : RST_NO_SLIP;
 }
 
+int rst_check_damping(const struct rst_solid *solid, restitute_error *error)
+{
+    const double damping = solid->eta / rst_theta_from_delta1(1);
+    if (damping <= largest_number) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "delta1 = %g of the parallel viscosity: must be <= %g; no rebound of such damping is found",
+                      damping, largest_number);
+}
+
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error)
 {
     int status = check_impact(impact, error);
@@ -84,5 +91,5 @@ int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *
         given_solid(impact->solid, &problem->solid);
     else
         standard_solid(impact->delta1, impact->gamma, &problem->solid);
-    return RESTITUTE_OK;
+    return impact->solid ? rst_check_damping(&problem->solid, error) : RESTITUTE_OK;
 }

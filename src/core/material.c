@@ -8,20 +8,27 @@
 #include "kernels.h"
 #include "status.h"
 
+/* The k-th of the times or moduli. */
+static int check_term(double value, struct rst_range range, const char *what, size_t k, const char *unit,
+                      restitute_error *error)
+{
+    char name[48];
+    if (value >= range.low && value <= range.high) return RESTITUTE_OK;
+    snprintf(name, sizeof name, "%s[%zu] (%s)", what, k, unit);
+    return rst_check_within(value, range, NAN, name, error);
+}
+
 static int check_terms(size_t n_terms, const double *tau, const double *g, restitute_error *error)
 {
     if (n_terms > 0 && (!tau || !g))
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL with n_terms = %zu",
                           tau ? "modulus" : "relaxation_time", n_terms);
-    for (size_t k = 0; k < n_terms; k++) {
-        if (!(tau[k] > 0) || isinf(tau[k]))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "relaxation_time[%zu] = %.17g s: must be > 0 and finite",
-                              k, tau[k]);
-        if (!(g[k] > 0) || isinf(g[k]))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "modulus[%zu] = %.17g Pa: must be > 0 and finite", k,
-                              g[k]);
+    int status = RESTITUTE_OK;
+    for (size_t k = 0; k < n_terms && !status; k++) {
+        status = check_term(tau[k], rst_times, "relaxation_time", k, "s", error);
+        if (!status) status = check_term(g[k], rst_moduli, "modulus", k, "Pa", error);
     }
-    return RESTITUTE_OK;
+    return status;
 }
 
 struct term {
@@ -61,8 +68,8 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
                              restitute_material **material, restitute_error *error)
 {
     if (!material) return rst_report(error, RESTITUTE_ERROR_NULL, "material is NULL");
-    int status = rst_check_range(equilibrium_modulus, 0, 1e300, "equilibrium_modulus (Pa)", error);
-    if (!status) status = rst_check_range(parallel_viscosity, 0, 1e300, "parallel_viscosity (Pa s)", error);
+    int status = rst_check_within(equilibrium_modulus, rst_moduli, 0, "equilibrium_modulus (Pa)", error);
+    if (!status) status = rst_check_within(parallel_viscosity, rst_viscosities, 0, "parallel_viscosity (Pa s)", error);
     if (!status) status = rst_check_range(poisson_ratio, 0, 0.5, "poisson_ratio", error);
     if (!status) status = check_terms(n_terms, relaxation_time, modulus, error);
     if (status) return status;
@@ -94,7 +101,7 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
 int restitute_material_elastic(double shear_modulus, double poisson_ratio, restitute_material **material,
                                restitute_error *error)
 {
-    int status = rst_check_positive(shear_modulus, 0, "shear_modulus (Pa)", error);
+    int status = rst_check_within(shear_modulus, rst_moduli, NAN, "shear_modulus (Pa)", error);
     if (status) return status;
     return restitute_material_prony(shear_modulus, 0, 0, NULL, NULL, poisson_ratio, material, error);
 }
@@ -102,9 +109,9 @@ int restitute_material_elastic(double shear_modulus, double poisson_ratio, resti
 int restitute_material_standard_solid(double modulus1, double modulus2, double viscosity, double poisson_ratio,
                                       restitute_material **material, restitute_error *error)
 {
-    int status = rst_check_positive(modulus1, 0, "modulus1 (Pa)", error);
-    if (!status) status = rst_check_positive(modulus2, 0, "modulus2 (Pa)", error);
-    if (!status) status = rst_check_positive(viscosity, 0, "viscosity (Pa s)", error);
+    int status = rst_check_within(modulus1, rst_moduli, NAN, "modulus1 (Pa)", error);
+    if (!status) status = rst_check_within(modulus2, rst_moduli, NAN, "modulus2 (Pa)", error);
+    if (!status) status = rst_check_within(viscosity, rst_viscosities, NAN, "viscosity (Pa s)", error);
     if (status) return status;
     double tau = viscosity / modulus2;
     return restitute_material_prony(modulus1, 0, 1, &tau, &modulus2, poisson_ratio, material, error);
@@ -113,8 +120,8 @@ int restitute_material_standard_solid(double modulus1, double modulus2, double v
 int restitute_material_kelvin_voigt(double modulus1, double viscosity, double poisson_ratio,
                                     restitute_material **material, restitute_error *error)
 {
-    int status = rst_check_positive(modulus1, 0, "modulus1 (Pa)", error);
-    if (!status) status = rst_check_positive(viscosity, 0, "viscosity (Pa s)", error);
+    int status = rst_check_within(modulus1, rst_moduli, NAN, "modulus1 (Pa)", error);
+    if (!status) status = rst_check_within(viscosity, rst_viscosities, NAN, "viscosity (Pa s)", error);
     if (status) return status;
     return restitute_material_prony(modulus1, viscosity, 0, NULL, NULL, poisson_ratio, material, error);
 }
@@ -122,8 +129,8 @@ int restitute_material_kelvin_voigt(double modulus1, double viscosity, double po
 int restitute_material_maxwell(double modulus, double viscosity, double poisson_ratio, restitute_material **material,
                                restitute_error *error)
 {
-    int status = rst_check_positive(modulus, 0, "modulus (Pa)", error);
-    if (!status) status = rst_check_positive(viscosity, 0, "viscosity (Pa s)", error);
+    int status = rst_check_within(modulus, rst_moduli, NAN, "modulus (Pa)", error);
+    if (!status) status = rst_check_within(viscosity, rst_viscosities, NAN, "viscosity (Pa s)", error);
     if (status) return status;
     double tau = viscosity / modulus;
     return restitute_material_prony(0, 0, 1, &tau, &modulus, poisson_ratio, material, error);

@@ -64,10 +64,27 @@ static void elastic_constants(const restitute_material *a, const restitute_mater
     *beta = ((1 - 2 * a->nu) * ja - (1 - 2 * b->nu) * jb) / (2 * normal);
 }
 
-/* The moduli of the pair at first and for ever must be those of two springs in series: a lost term would show. 1e-9:
- * rounding of the sum, with room. */
-static int is_sound(const struct rst_chain *a, const double *m_a, const struct rst_chain *b, const double *m_b,
-                    const struct rst_chain *pair, const double *m)
+/* Terms below the moduli that a material may have, as a rigid partner makes them beside each of its rates, are left out;
+ * those whose rates differ by less than rounding become one. */
+static void tidy_terms(double factor, struct rst_chain *pair, double *m, double *tau)
+{
+    int64_t kept = 0;
+    for (int64_t k = 0; k < pair->n; k++) {
+        if (factor * m[k] < rst_moduli.low) continue;
+        if (kept > 0 && tau[kept - 1] == tau[k]) {
+            m[kept - 1] += m[k];
+            continue;
+        }
+        m[kept] = m[k];
+        tau[kept++] = tau[k];
+    }
+    pair->n = kept;
+}
+
+/* The modulus of the pair at first must be that of two springs in series: a lost term would show. 1e-9: rounding of the
+ * sum, with room. */
+static int check_sound(const struct rst_chain *a, const double *m_a, const struct rst_chain *b, const double *m_b,
+                       const struct rst_chain *pair, const double *m, restitute_error *error)
 {
     double first_a = a->m_inf, first_b = b->m_inf, first = pair->m_inf;
     for (int64_t k = 0; k < a->n; k++)
@@ -76,9 +93,11 @@ static int is_sound(const struct rst_chain *a, const double *m_a, const struct r
         first_b += m_b[k];
     for (int64_t k = 0; k < pair->n; k++)
         first += m[k];
-    if (a->eta > 0 && b->eta > 0) return 1; /* rigid at first; the viscosities are in series by construction */
+    if (a->eta > 0 && b->eta > 0) return RESTITUTE_OK; /* rigid; the viscosities are in series by construction */
     double expected = a->eta > 0 ? first_b : b->eta > 0 ? first_a : first_a / (first_a + first_b) * first_b;
-    return fabs(first - expected) <= 1e-9 * expected;
+    if (fabs(first - expected) <= 1e-9 * expected) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "terms have moduli below %g Pa, which no material has", rst_moduli.low);
 }
 
 int restitute_material_pair(const restitute_material *material1, const restitute_material *material2,
@@ -101,26 +120,24 @@ int restitute_material_pair(const restitute_material *material1, const restitute
     struct rst_chain a = plane_chain(material1, s.m_a), b = plane_chain(material2, s.m_b);
     rst_series_chain(&a, s.m_a, material1->tau, &b, s.m_b, material2->tau, s.times, s.from_a, s.from_b, &chain, s.m,
                      s.tau);
-    if (!is_sound(&a, s.m_a, &b, s.m_b, &chain, s.m)) {
-        free(s.m_a);
-        free(s.from_a);
-        return rst_report(error, RESTITUTE_ERROR_INTERNAL, "the series of %zu terms lost a part of its modulus", n);
-    }
     elastic_constants(material1, material2, &nu, &beta);
-
-    double factor = (1 - nu) / 2;
+    const double factor = (1 - nu) / 2;
+    restitute_material *made;
+    restitute_error why;
+    tidy_terms(factor, &chain, s.m, s.tau);
+    int status = check_sound(&a, s.m_a, &b, s.m_b, &chain, s.m, &why);
     for (int64_t k = 0; k < chain.n; k++)
         s.m[k] *= factor;
-    restitute_material *made;
-    int status = restitute_material_prony(factor * chain.m_inf, factor * chain.eta, (size_t)chain.n, s.tau, s.m, nu,
-                                          &made, error);
+    if (!status)
+        status = restitute_material_prony(factor * chain.m_inf, factor * chain.eta, (size_t)chain.n, s.tau, s.m, nu,
+                                          &made, &why);
     free(s.m_a);
     free(s.from_a);
-    if (status) return status;
+    if (status) return rst_report(error, status, "pair of material1 and material2: %s", why.message);
     made->beta = beta;
     made->is_pair = 1;
     *pair = made;
-    return RESTITUTE_OK;
+    return rst_done(error);
 }
 
 double restitute_material_dundurs(const restitute_material *material)

@@ -59,6 +59,9 @@ void rst_set_sliding(double psi, struct rst_problem *problem);
 /* Largest chi that is accepted. */
 extern const double rst_largest_chi;
 
+/* The parallel dashpot is not stronger than delta1 may be. */
+int rst_check_damping(const struct rst_solid *solid, restitute_error *error);
+
 /* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
 

@@ -6,6 +6,7 @@
 #include <restitute/restitute.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #if defined(__GNUC__)
 #define RST_PRINTF(position, first) __attribute__((__format__(__printf__, position, first)))
@@ -26,6 +27,22 @@ static inline int rst_report(restitute_error *error, int status, const char *for
         va_end(arguments);
     }
     return status;
+}
+
+static inline void rst_remark(restitute_error *error, const char *format, ...) RST_PRINTF(2, 3);
+
+/* Add a remark behind what `error` (if wanted) says already; its status stays. */
+static inline void rst_remark(restitute_error *error, const char *format, ...)
+{
+    if (error) {
+        va_list arguments;
+        const size_t used = strlen(error->message), size = sizeof error->message;
+        const int mark = used > 0 ? snprintf(error->message + used, size - used, "; ") : 0;
+        if (used + (size_t)mark >= size) return;
+        va_start(arguments, format);
+        vsnprintf(error->message + used + mark, size - used - (size_t)mark, format, arguments);
+        va_end(arguments);
+    }
 }
 
 /* Clear `error` (if wanted) and return OK. */

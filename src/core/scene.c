@@ -25,12 +25,12 @@ void restitute_numbers_init(restitute_numbers *numbers)
 
 static int check_bodies(const restitute_scene *s, restitute_error *error)
 {
-    int status = rst_check_positive(s->radius1, 0, "radius1 (m)", error);
-    if (!status) status = rst_check_positive(s->mass1, 0, "mass1 (kg)", error);
-    if (!status) status = rst_check_positive(s->radius2, 1, "radius2 (m)", error);
-    if (!status) status = rst_check_positive(s->mass2, 1, "mass2 (kg)", error);
-    if (!status && s->inertia1 != 0) status = rst_check_positive(s->inertia1, 0, "inertia1 (kg m^2)", error);
-    if (!status && s->inertia2 != 0) status = rst_check_positive(s->inertia2, 0, "inertia2 (kg m^2)", error);
+    int status = rst_check_within(s->radius1, rst_sizes, NAN, "radius1 (m)", error);
+    if (!status) status = rst_check_within(s->mass1, rst_sizes, NAN, "mass1 (kg)", error);
+    if (!status) status = rst_check_within(s->radius2, rst_sizes, INFINITY, "radius2 (m)", error);
+    if (!status) status = rst_check_within(s->mass2, rst_sizes, INFINITY, "mass2 (kg)", error);
+    if (!status) status = rst_check_within(s->inertia1, rst_inertias, 0, "inertia1 (kg m^2)", error);
+    if (!status) status = rst_check_within(s->inertia2, rst_inertias, 0, "inertia2 (kg m^2)", error);
     if (status) return status;
     if (isinf(s->radius2) && s->spin2 != 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "spin2 = %.17g rad/s: must be 0 with radius2 = inf (a wall)",
@@ -54,12 +54,17 @@ static int check_scene(const restitute_scene *s, restitute_error *error)
             error, RESTITUTE_ERROR_DOMAIN,
             "deformable = 2: must be 1 with a material from restitute_material_pair, which is the solid of both");
     status = check_bodies(s, error);
-    if (!status) status = rst_check_range(s->friction, 0, INFINITY, "friction", error);
-    if (!status) status = rst_check_positive(s->normal_speed, 0, "normal_speed (m/s)", error);
-    if (!status) status = rst_check_finite(s->tangential_speed, "tangential_speed (m/s)", error);
-    if (!status && s->density != 0) status = rst_check_positive(s->density, 0, "density (kg/m^3)", error);
-    if (!status) status = rst_check_finite(s->spin1, "spin1 (rad/s)", error);
-    if (!status) status = rst_check_finite(s->spin2, "spin2 (rad/s)", error);
+    if (!status && s->friction != 0 && !(s->friction >= rst_least_friction))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %.17g: must be 0 or >= %g (inf: no slip)",
+                            s->friction, rst_least_friction);
+    if (!status) status = rst_check_within(s->normal_speed, rst_sizes, NAN, "normal_speed (m/s)", error);
+    if (!status) status = rst_check_within(s->tangential_speed, rst_speeds, NAN, "tangential_speed (m/s)", error);
+    if (!status) status = rst_check_within(s->density, rst_densities, 0, "density (kg/m^3)", error);
+    if (!status) status = rst_check_within(s->spin1, rst_spins, NAN, "spin1 (rad/s)", error);
+    if (!status) status = rst_check_within(s->spin2, rst_spins, NAN, "spin2 (rad/s)", error);
+    if (!status)
+        status = rst_check_within(rst_sliding_speed(s), rst_speeds, NAN,
+                                  "tangential_speed + radius1 spin1 + radius2 spin2 (m/s)", error);
     return status;
 }
 
@@ -123,14 +128,8 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
     double sliding = rst_sliding_speed(s);
     n->psi = s->friction <= 0 ? INFINITY : rst_sliding_ratio(sliding, s->friction, s->normal_speed, nu);
     standard_numbers(s->material, pair_factor(s), n);
-    if (!(n->length_z > 0) || isinf(n->length_z) || !(n->time > 0) || isinf(n->time) || !(n->force > 0) ||
-        isinf(n->force))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "scales d0 = %g m, T = %g s, m v/T = %g N: must lie in the range of a double", n->length_z,
-                          n->time, n->force);
-    if ((!(n->chi <= rst_largest_chi) && s->friction > 0) || isnan(n->psi))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "chi = %g, psi = %g: chi must be <= %g, psi a number; check inertia and spin", n->chi, n->psi,
+    if (n->chi > rst_largest_chi && s->friction > 0)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %g: must be <= %g; check inertia", n->chi,
                           rst_largest_chi);
     return RESTITUTE_OK;
 }
@@ -166,9 +165,9 @@ int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numb
         solid->g[k] = material->g[k] * factor;
         solid->tau[k] = material->tau[k] / numbers->time;
     }
-    problem->chi = numbers->chi;
+    problem->chi = fmin(numbers->chi, rst_largest_chi); /* any without friction, where it changes nothing */
     rst_set_sliding(numbers->psi, problem);
     problem->time_unit = numbers->time;
     problem->unit_name = "s";
-    return RESTITUTE_OK;
+    return rst_check_damping(solid, error);
 }

@@ -68,7 +68,7 @@ static int check_options(const restitute_options *options, restitute_error *erro
     status = rst_check_range(options->tolerance, 1e-8, 0.1, "tolerance", error);
     if (!status && options->elements != 0)
         status = rst_check_range((double)options->elements, 4, 1e6, "elements", error);
-    if (!status && options->time_step != 0) status = rst_check_positive(options->time_step, 0, "time_step", error);
+    if (!status) status = rst_check_within(options->time_step, rst_lengths, 0, "time_step", error);
     if (!status && options->time_step > 0 && !options->method->takes_time_step)
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
                             "time_step = %g: must be 0 with the method %s, which chooses its steps itself",
@@ -233,6 +233,9 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     struct rst_outcome outcome;
     struct rst_history samples;
     struct merged merged = {0};
+    restitute_result found;
+    restitute_result_init(&found);
+    rst_done(error);
     int status = solve_merged(solver, input, ledger != NULL, &problem, &outcome, &merged, error);
     if (status < 0) return status;
     if (history) {
@@ -241,17 +244,17 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     }
     struct rst_units units = rst_units_of(&problem, input->scene, &input->numbers);
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
-    restitute_result unwanted, *r = result ? result : &unwanted;
-    rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, r);
-    if (result) {
-        result->method = solver->options.method->name;
-        rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, result);
-    }
+    rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, &found);
+    found.method = solver->options.method->name;
+    rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
+    if (result) *result = found;
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);
-    if (!outcome.sunk) return judge_tolerance(&problem, r, status, error);
-    if (status == RESTITUTE_OK)
+    if (!outcome.sunk)
+        status = judge_tolerance(&problem, &found, status, error);
+    else if (status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
+    rst_name_limits(&solver->options, &found, error);
     return status;
 }
 

@@ -3,6 +3,7 @@
 #ifndef RST_STATUS_H
 #define RST_STATUS_H
 
+#include "ranges.h"
 #include "report.h"
 
 /* The struct was prepared by its _init function, of this version. */
@@ -11,10 +12,7 @@ int rst_check_size(size_t found, size_t expected, const char *name, restitute_er
 /* low <= value <= high; NaN fails. */
 int rst_check_range(double value, double low, double high, const char *name, restitute_error *error);
 
-/* 0 < value < infinity, or <= infinity where that has a meaning. */
-int rst_check_positive(double value, int infinity_allowed, const char *name, restitute_error *error);
-
-/* Any finite value. */
-int rst_check_finite(double value, const char *name, restitute_error *error);
+/* In the range, or `besides`: 0 or infinity where that has a meaning, NAN where neither has. */
+int rst_check_within(double value, struct rst_range range, double besides, const char *name, restitute_error *error);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "report.h"
+
 const char *restitute_flag_text(int flag)
 {
     switch (flag) {
@@ -30,12 +32,14 @@ static double denser_sphere(const restitute_scene *scene)
                                                         : fmax(first, sphere_density(scene->mass2, scene->radius2));
 }
 
-/* Of what deforms; the modulus is that at the time scale of the impact. A mere dashpot has none by then, and its waves
- * do not travel: the ratio is infinite. */
-static double shear_wave_speed(const restitute_scene *scene, double time)
+/* Normal speed over the speed of shear waves in what deforms; the modulus is that at the time scale of the impact. A
+ * mere dashpot has none by then, and its waves do not travel: the ratio is infinite. */
+static double speed_ratio(const restitute_scene *scene, double time)
 {
+    const double none = 1e-100; /* Pa; what fades has no end before it underflows */
     double density = scene->density > 0 ? scene->density : denser_sphere(scene);
-    return sqrt(restitute_material_modulus(scene->material, time) / density);
+    double modulus = restitute_material_modulus(scene->material, time);
+    return modulus > none ? scene->normal_speed / sqrt(modulus / density) : INFINITY;
 }
 
 void rst_judge_validity(const restitute_options *options, const restitute_scene *scene,
@@ -47,7 +51,7 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     if (!scene) return;
     double depth = outcome->max_indentation * numbers->length_z;
     double radius = outcome->max_contact_radius * numbers->length_x;
-    result->speed_ratio = scene->normal_speed / shear_wave_speed(scene, numbers->time);
+    result->speed_ratio = speed_ratio(scene, numbers->time);
     result->radius_ratio = radius / numbers->radius;
     result->displacement_ratio = fabs(rst_sliding_speed(scene)) * (depth / scene->normal_speed) / radius;
     result->dundurs_beta = restitute_material_dundurs(scene->material);
@@ -55,4 +59,20 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     if (!(result->radius_ratio <= options->radius_limit)) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
     if (!(result->displacement_ratio <= options->displacement_limit)) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
     if (!(fabs(result->dundurs_beta) <= options->dundurs_limit)) result->flags |= RESTITUTE_FLAG_COUPLED;
+}
+
+void rst_name_limits(const restitute_options *options, const restitute_result *result, restitute_error *error)
+{
+    const struct {
+        const char *name;
+        double value, limit;
+        int flag;
+    } limits[] = {{"v_z0/wave speed", result->speed_ratio, options->speed_limit, RESTITUTE_FLAG_FAST},
+                  {"contact radius/R", result->radius_ratio, options->radius_limit, RESTITUTE_FLAG_LARGE_CONTACT},
+                  {"slide/contact radius", result->displacement_ratio, options->displacement_limit,
+                   RESTITUTE_FLAG_LONG_SLIDE},
+                  {"|Dundurs' beta|", fabs(result->dundurs_beta), options->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
+        if (result->flags & limits[i].flag)
+            rst_remark(error, "%s = %.3g passes the limit %g", limits[i].name, limits[i].value, limits[i].limit);
 }

@@ -27,15 +27,14 @@ static void keep(struct run *run, double t, const double *y)
                             .shear_velocity = rst_run_shear_velocity(run, y) / recorder->psi};
 }
 
-static void sample(struct run *run, double from, double to)
+static void sample(struct run *run)
 {
     const struct recorder *recorder = run->observer;
     struct rst_history *history = recorder->history;
-    (void)from;
     while (history->count + 1 < history->capacity) {
         const double t = (double)history->count * recorder->interval;
         const double *y;
-        if (t > to || rst_run_look(run, t, &y)) return;
+        if (t > run->time || rst_run_look(run, t, &y)) return;
         keep(run, t, y);
     }
 }
@@ -46,7 +45,7 @@ int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *mem
 {
     struct run_setup setup = rst_cvode_setup(problem, family);
     struct recorder recorder = {.history = history, .psi = setup.psi};
-    struct run run = {.observe = sample, .observer = &recorder};
+    struct run run = {.sample = sample, .observer = &recorder};
     const double *y;
     recorder.end = outcome->followed_time;
     recorder.interval = recorder.end / (double)(history->capacity - 1);

@@ -362,7 +362,7 @@ static void take_over_gross_slip(struct run *run)
     for (int64_t i = 0; i < n && (run->scene.restitution || e->entry[i] <= run->time); i++) {
         e->shift[i] = e->x[i] * e->x[i];
         for (int64_t k = 0; k < terms; k++) {
-            e->c[k * n + i] = exp(-(run->time - e->entry[i]) / tau[k]) * e->past[k * n + i];
+            e->c[k * n + i] = exp(-fmax(0, run->time - e->entry[i]) / tau[k]) * e->past[k * n + i];
             e->b[k * n + i] = 0;
         }
         run->scene.n_entered++;
@@ -486,6 +486,13 @@ static int restart(struct run *run)
     return fail(run, RESTITUTE_ERROR_INTEGRATOR, rst_integrator_text(run->integrator));
 }
 
+static int end_contact(struct run *run)
+{
+    run->ended = 1;
+    return note(run, RESTITUTE_EVENT_CONTACT_END, 0, 1);
+}
+
+/* The foundation of a solid that has forgotten all it bore may have let go by then: nothing would fall through 0. */
 static int turn(struct run *run)
 {
     run->y[1] = 0;
@@ -493,10 +500,12 @@ static int turn(struct run *run)
     run->max_time = run->time;
     if (run->setup->n_nodes == 0) run->scene.n_knots = run->trace->count;
     run->near = run->scene.n_knots - 1;
-    const int status = note(run, RESTITUTE_EVENT_TURN, sqrt(run->y[0]), 0);
+    int status = note(run, RESTITUTE_EVENT_TURN, sqrt(run->y[0]), 0);
     run->scene.restitution = 1;
     run->outermost = run->next_entry - 1;
-    return status ? status : restart(run);
+    if (!status) status = restart(run);
+    evaluate(run, run->time, run->y, run->scratch);
+    return status || run->contact.square > 0 ? status : end_contact(run);
 }
 
 static int react(struct run *run, int64_t first)
@@ -518,10 +527,7 @@ static int react(struct run *run, int64_t first)
         if (!status && again && !fell[ROOT_PHASE]) return restart(run);
     }
     if (status) return status;
-    if (fell[ROOT_PHASE] && run->scene.restitution) {
-        run->ended = 1;
-        return note(run, RESTITUTE_EVENT_CONTACT_END, 0, 1);
-    }
+    if (fell[ROOT_PHASE] && run->scene.restitution) return end_contact(run);
     if (fell[ROOT_PHASE]) return turn(run);
     if (fell[ROOT_SLIP_END] && !run->shears && run->setup->n_nodes > 0) {
         int inside = 0;
@@ -591,6 +597,7 @@ static int advance(struct run *run)
     const int64_t first = run->scene.n_entered;
     const enum integrator_return what = rst_integrator_advance(run->integrator, &run->time, run->y);
     if (what == INTEGRATOR_FAILED) return fail(run, RESTITUTE_ERROR_INTEGRATOR, rst_integrator_text(run->integrator));
+    if (run->sample) run->sample(run);
     if (run->shears && admit(run, run->time))
         return fail(run, RESTITUTE_ERROR_INTERNAL, "CVODE does not know its last step");
     int status = run->setup->n_nodes == 0 && !run->scene.restitution ? extend_trace(run, from) : RESTITUTE_OK;

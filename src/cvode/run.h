@@ -43,8 +43,9 @@ struct run {
     const struct run_setup *setup;
     struct trace *trace;   /* of the compression: written by a run without elements, read by all */
     struct event_log *log; /* NULL: not wanted */
-    void (*observe)(struct run *run, double from, double to); /* after each part of a step, and once more after an
-                                                                 event, from where to where it was; NULL: nobody looks */
+    void (*sample)(struct run *run); /* after each part of a step, while run_look() sees all of it; NULL: nobody looks */
+    void (*observe)(struct run *run, double from, double to); /* then, with the memory of elements at its end, and once
+                                                                 more after an event, from where to where it was */
     void *observer;
 
     struct cvode_scene scene;
@@ -75,7 +76,8 @@ int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace 
 void rst_run_release(struct run *run);
 
 /* States at a time within the last step, with the contact and, where there are elements, their margins and sums.
- * Nonzero: not there. */
+ * Nonzero: not there. Memory of elements fades from where it is kept: looking back from there would make exp(t/tau)
+ * overflow. */
 int rst_run_look(struct run *run, double t, const double **y);
 
 /* The contact, margins and sums of where the run is. */

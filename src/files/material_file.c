@@ -324,12 +324,14 @@ static int read_csv_material(const char *path, restitute_material **material, re
 {
     struct prony_terms terms;
     uint64_t fingerprint;
+    restitute_error why;
     int status = rst_prony_terms_read_csv(path, &terms, &fingerprint, error);
     if (status != RESTITUTE_OK) return status;
-    status =
-        restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, error);
+    status = restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, &why);
     rst_prony_terms_release(&terms);
-    if (status != RESTITUTE_OK || !info) return status;
+    if (status != RESTITUTE_OK) return rst_report(error, status, "%s: %s", rst_file_name_for_message(path), why.message);
+    rst_done(error);
+    if (!info) return status;
     const char *slash = strrchr(path, '/');
     restitute_material_info_init(info);
     snprintf(info->name, sizeof info->name, "%.127s", slash ? slash + 1 : path);

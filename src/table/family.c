@@ -89,9 +89,10 @@ static int set_contact(const restitute_table_family *given, struct rst_family *f
 {
     restitute_scene plain;
     const restitute_scene *scene = given->scene;
-    int status = check_range(given->speed, "speed (m/s)", DBL_MIN, 1e12, 1e15, error);
+    int status = check_range(given->speed, "speed (m/s)", rst_sizes.low, 1e12, 1e15, error);
     if (status) return status;
-    if (scene->struct_size != sizeof *scene || !scene->material || !(scene->friction >= 0)) {
+    if (scene->struct_size != sizeof *scene || !scene->material ||
+        (scene->friction != 0 && !(scene->friction >= rst_least_friction))) {
         restitute_numbers numbers; /* the core says what is wrong */
         restitute_numbers_init(&numbers);
         status = restitute_scene_numbers(scene, &numbers, error);
@@ -224,12 +225,13 @@ static int bind_own(const restitute_table *t, const restitute_scene *scene, cons
     if (t->n_psi == 1 && scene->friction != t->friction && scene->friction > 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
                           scene->friction, t->friction);
+    const double largest_factor = 1e200; /* times the largest speed it does not overflow */
     const double ratio = t->duration / n->time, factor = ratio * ratio * ratio * ratio * ratio;
-    if (t->speed.cells > 0 && !(factor <= DBL_MAX))
+    if (t->speed.cells > 0 && !(factor <= largest_factor))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "speed_factor = %g of the scene: must be finite; its mass and radius are too far from "
+                          "speed_factor = %g of the scene: must be <= %g; its mass and radius are too far from "
                           "those of the table's contact",
-                          factor);
+                          factor, largest_factor);
     c->speed_factor = t->speed.cells > 0 ? factor : 1;
     return RESTITUTE_OK;
 }

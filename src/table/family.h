@@ -3,6 +3,7 @@
 #ifndef RST_TABLE_FAMILY_H
 #define RST_TABLE_FAMILY_H
 
+#include "../core/ranges.h"
 #include "../core/report.h"
 #include "table_form.h"
 

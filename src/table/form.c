@@ -65,7 +65,7 @@ static void set_psi_cells(restitute_table *form)
                                                 .begin = begin - sqrt(soft),
                                                 .closed = 1,
                                                 .small = rst_small};
-    form->share = rst_small * ((2 * form->chi_low - 1) / square);
+    form->share = square > 0 ? rst_small * ((2 * form->chi_low - 1) / square) : 0;
     form->limit = 4 * square;
 }
 

@@ -154,7 +154,7 @@ static inline double speed_of(const restitute_table *t, const restitute_table_co
 
 static inline int good_speeds(double v_n, double v_t)
 {
-    return v_n >= 0 && v_n <= DBL_MAX && fabs(v_t) <= DBL_MAX;
+    return v_n >= 0 && v_n <= rst_largest_speed && fabs(v_t) <= rst_largest_speed;
 }
 
 static inline const restitute_table_contact *contact_or_own(const restitute_table *table,

@@ -150,12 +150,15 @@ static void full_slip_by_speeds(double chi, double ez, double ez_normal, double 
     slope->ex_tangential = -2 * chi * (1 + ez) * (v_n / v_t) / sliding;
 }
 
-/* By the speeds themselves: psi = f v_t/v_n. Where ex would exceed its bounds and is kept at them, slopes are 0. */
-static void by_speeds(const restitute_table *t, const restitute_table_contact *c, double v_n, double v_t,
-                      const restitute_table_value *pair, restitute_table_slope *slope)
+/* By the speeds themselves: psi = f v_t/v_n. Where ex would exceed its bounds and is kept at them, slopes are 0. Below
+ * 1e-100 m/s speeds count as 0: slopes go with their inverse. */
+static void by_speeds(const restitute_table *t, const restitute_table_contact *c, double normal_speed,
+                      double tangential_speed, const restitute_table_value *pair, restitute_table_slope *slope)
 {
     struct rst_slope by;
-    const double sliding = c->psi_factor > DBL_MAX ? 0 : c->psi_factor * fabs(v_t);
+    const double v_n = normal_speed < 1 / rst_largest_speed ? 0 : normal_speed;
+    const double v_t = fabs(tangential_speed) < 1 / rst_largest_speed ? 0 : fabs(tangential_speed);
+    const double sliding = c->psi_factor > DBL_MAX ? 0 : c->psi_factor * v_t;
     const double speed = t->of_contact ? v_n * c->speed_factor : c->delta1 * pow(v_n, 0.2);
     const double rate = t->of_contact ? c->speed_factor : v_n > 0 ? 0.2 * speed / v_n : 0;
     const double psi = c->psi_factor > DBL_MAX ? INFINITY : !(sliding > 0) ? 0 : v_n > 0 ? sliding / v_n : INFINITY;
@@ -163,7 +166,7 @@ static void by_speeds(const restitute_table *t, const restitute_table_contact *c
     rst_table_slope(t, speed, c->gamma, c->chi, psi, &by);
     *slope = (restitute_table_slope){.ez_normal = by.ez_speed * rate};
     if (psi >= restitute_critical_psi(chi, pair->ez)) {
-        if (sliding > 0) full_slip_by_speeds(chi, pair->ez, slope->ez_normal, c->psi_factor, v_n, fabs(v_t), slope);
+        if (sliding > 0) full_slip_by_speeds(chi, pair->ez, slope->ez_normal, c->psi_factor, v_n, v_t, slope);
         return;
     }
     if (fabs(pair->ex) >= 1) return;

@@ -62,6 +62,9 @@ struct rst_octaves {
     double scale;     /* 3/2^shift */
 };
 
+/* Of lookups, m/s: times the factors of a contact (ranges.h) it does not overflow. */
+static const double rst_largest_speed = 1e100;
+
 /* Speeds that are compared are taken times this, so that nothing overflows that multiplies them. */
 static const double rst_small = 0x1p-24;
 

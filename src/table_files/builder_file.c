@@ -13,17 +13,15 @@ enum { oldest_schema = 3 };
 static int write_journal(const restitute_table_builder *builder, const char *settings, const char *path,
                          restitute_error *error)
 {
-    struct rst_new_file file;
     size_t count;
     const double *journal = restitute_table_builder_journal(builder, &count), nothing[4] = {0};
     const int64_t size[2] = {(int64_t)count, 4};
-    const int status = rst_new_file_begin(path, &file, error);
-    if (status) return status;
-    const int failed = rst_put_text(file.file, "settings", settings) ||
-                       rst_put_text(file.file, "restitute_version", restitute_version()) ||
-                       rst_put_values(file.file, "impacts", RST_DOUBLES, 2, size, count ? journal : nothing, "1",
+    const hid_t file = rst_container_begin();
+    const int failed = file < 0 || rst_put_text(file, "settings", settings) ||
+                       rst_put_text(file, "restitute_version", restitute_version()) ||
+                       rst_put_values(file, "impacts", RST_DOUBLES, 2, size, count ? journal : nothing, "1",
                                       "ez, ex, estimated error of ez, of ex");
-    return rst_new_file_end(&file, !failed, title, path, error);
+    return rst_container_end(file, !failed, title, path, error);
 }
 
 int restitute_table_builder_write(const restitute_table_builder *builder, const char *settings, const char *path,

@@ -1,4 +1,4 @@
-/* The block of text with the checksum, and files that get their name when they are complete.
+/* The block of text with the checksum, before HDF5 that is made and read in memory.
  *
  * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>", a line for those
  * who look into it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind the block: a change of one of
@@ -7,10 +7,14 @@
 
 #include "container.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "../core/whole_file.h"
+#include "../output/new_file.h"
 
 enum { block_size = 512 };
 
@@ -96,9 +100,6 @@ static int check_block(const char *path, const char *title, int oldest, struct r
     return refuse_block(path, title, oldest, file, error);
 }
 
-/* HDF5 wants a name even for what is in memory, and that there is no such file. */
-static const char no_file[] = "/dev/null/in_memory";
-
 int rst_old_file_open(const char *path, const char *title, int oldest_schema, struct rst_old_file *file,
                       restitute_error *error)
 {
@@ -109,7 +110,7 @@ int rst_old_file_open(const char *path, const char *title, int oldest_schema, st
         const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
         if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&
             H5Pset_file_image(access, file->bytes, file->size) >= 0)
-            file->file = H5Fopen(no_file, H5F_ACC_RDONLY, access);
+            file->file = H5Fopen(rst_no_file, H5F_ACC_RDONLY, access);
         if (access >= 0) H5Pclose(access);
         if (file->file < 0) status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not HDF5 inside", path);
     }
@@ -126,86 +127,37 @@ void rst_old_file_close(struct rst_old_file *file)
 
 /* ---- writing */
 
-static int fail_writing(restitute_error *error, const char *path)
+hid_t rst_container_begin(void)
 {
-    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(errno));
+    return rst_image_create(block_size);
 }
 
-/* A new, empty file beside the final one, with the mode that a new file has. Where links lead to: it is the file that
- * is replaced, not the link. Process and attempt in its name keep it apart from those of others. NULL: none, see
- * errno. */
-static char *new_beside(const char *path)
+/* Block and image as one file. Returns 0 or an errno. */
+static int write_file(const char *title, const void *image, size_t size, const char *path)
 {
-    enum { attempts = 1000 };
-    char *target = realpath(path, NULL);
-    const char *from = target ? target : path;
-    const size_t size = strlen(from) + 48;
-    char *name = malloc(size);
-    int descriptor = -1;
-    errno = name ? EEXIST : ENOMEM;
-    for (int i = 0; i < attempts && descriptor < 0 && errno == EEXIST; i++) {
-        snprintf(name, size, "%s.%lld.%d", from, (long long)getpid(), i);
-        descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    struct rst_new_file file;
+    char *bytes = malloc(block_size + size);
+    if (!bytes) return ENOMEM;
+    make_block(title, rst_schema, checksum(image, size), size, bytes);
+    memcpy(bytes + block_size, image, size);
+    int problem = rst_new_file_write(path, bytes, block_size + size, &file);
+    if (!problem) problem = rst_new_file_commit(&file);
+    free(bytes);
+    return problem;
+}
+
+int rst_container_end(hid_t file, int good, const char *title, const char *path, restitute_error *error)
+{
+    size_t size = 0;
+    void *image = file >= 0 ? rst_image_close(file, &size) : NULL;
+    if (!good || !image) {
+        free(image);
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: cannot be made: HDF5 fails in memory", path);
     }
-    const int why = errno;
-    if (descriptor >= 0)
-        close(descriptor);
-    else {
-        free(name);
-        name = NULL;
-    }
-    free(target);
-    errno = why;
-    return name;
-}
-
-int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_error *error)
-{
-    *file = (struct rst_new_file){.path = new_beside(path), .file = -1};
-    if (!file->path) return fail_writing(error, path);
-    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    if (creation >= 0 && H5Pset_userblock(creation, block_size) >= 0)
-        file->file = H5Fcreate(file->path, H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-    if (creation >= 0) H5Pclose(creation);
-    if (file->file >= 0) return RESTITUTE_OK;
-    unlink(file->path);
-    free(file->path);
-    return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: HDF5 fails", path);
-}
-
-static int put_block(const char *path, const char *title)
-{
-    struct rst_old_file whole = {.file = -1};
-    char block[block_size];
-    if (read_all(path, &whole, NULL) || whole.size <= block_size) {
-        free(whole.bytes);
-        return 1;
-    }
-    const size_t size = whole.size - block_size;
-    make_block(title, rst_schema, checksum(whole.bytes + block_size, size), size, block);
-    free(whole.bytes);
-    FILE *stream = fopen(path, "r+b");
-    if (!stream) return 1;
-    int failed = fwrite(block, 1, block_size, stream) != block_size;
-    failed |= fflush(stream) != 0;
-    failed |= fsync(fileno(stream)) != 0;
-    failed |= fclose(stream) != 0;
-    return failed;
-}
-
-int rst_new_file_end(struct rst_new_file *file, int good, const char *title, const char *path, restitute_error *error)
-{
-    int status = RESTITUTE_OK;
-    char *target = realpath(path, NULL);
-    errno = 0;
-    const int closed = H5Fclose(file->file) >= 0;
-    if (!good || !closed)
-        status = rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path,
-                            errno ? strerror(errno) : "HDF5 fails");
-    else if (put_block(file->path, title) || rename(file->path, target ? target : path) != 0)
-        status = fail_writing(error, path);
-    if (status) unlink(file->path);
-    free(file->path);
-    free(target);
-    return status;
+    const int problem = write_file(title, image, size, path);
+    free(image);
+    if (problem == ENOMEM) return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory", path);
+    if (problem)
+        return rst_report(error, RESTITUTE_ERROR_FILE, "%.120s: cannot be written: %s", path, strerror(problem));
+    return RESTITUTE_OK;
 }

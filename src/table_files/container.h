@@ -8,6 +8,7 @@
 #include <restitute/table_files.h>
 
 #include "../core/report.h"
+#include "../output/hdf5_image.h"
 
 /* Of what is written. */
 enum { rst_schema = 3 };
@@ -20,15 +21,11 @@ struct rst_quiet {
 struct rst_quiet rst_quiet_begin(void);
 void rst_quiet_end(struct rst_quiet quiet);
 
-/* A file being written under a name of its own beside the final one. */
-struct rst_new_file {
-    char *path;
-    hid_t file;
-};
-int rst_new_file_begin(const char *path, struct rst_new_file *file, restitute_error *error);
+/* A new file, in memory; negative: HDF5 fails. */
+hid_t rst_container_begin(void);
 
-/* Close it; if `good`, put down what it is and its checksum, and give it its name. */
-int rst_new_file_end(struct rst_new_file *file, int good, const char *title, const char *path, restitute_error *error);
+/* Close it; if `good`, write it behind the block that tells what it is. */
+int rst_container_end(hid_t file, int good, const char *title, const char *path, restitute_error *error);
 
 /* A whole file in memory, checked. */
 struct rst_old_file {

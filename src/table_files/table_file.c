@@ -133,10 +133,8 @@ static int put_table(hid_t f, const restitute_table *table, const restitute_tabl
 static int write_table(const restitute_table *table, const restitute_table_data *d, const char *path,
                        restitute_error *error)
 {
-    struct rst_new_file file;
-    const int status = rst_new_file_begin(path, &file, error);
-    if (status) return status;
-    return rst_new_file_end(&file, !put_table(file.file, table, d), title, path, error);
+    const hid_t file = rst_container_begin();
+    return rst_container_end(file, file >= 0 && !put_table(file, table, d), title, path, error);
 }
 
 int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error)

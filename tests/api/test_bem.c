@@ -48,10 +48,10 @@ static void refusals(void **state)
     options.time_step = 3;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
     assert_non_null(strstr(error.message, "time_step = 3 T: must be below half the time of contact"));
-    options.time_step = 1e300;
+    options.time_step = 1e100;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_UNSTABLE_STEP);
-    assert_non_null(strstr(error.message, "time_step = 1e+300 T: must be below"));
-    options.time_step = 1e-300; /* more steps than an integer counts */
+    assert_non_null(strstr(error.message, "time_step = 1e+100 T: must be below"));
+    options.time_step = 1e-100; /* more steps than an integer counts */
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     options.time_step = 1e-12;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
@@ -61,7 +61,7 @@ static void refusals(void **state)
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
     assert_non_null(strstr(error.message, "spent before there was a result"));
     options = options_of(0, 1e-3);
-    error = refused(options, impact_of(1, 0.5, 1, 1e-300), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    error = refused(options, impact_of(1, 0.5, 1, 1e-40), RESTITUTE_ERROR_TOO_MUCH_WORK);
     assert_non_null(strstr(error.message, "no box"));
 }
 

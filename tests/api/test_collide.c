@@ -274,6 +274,65 @@ static void what_is_no_impact_is_refused(void **state)
     CHECK(restitute_collide(solver, &contact, &a, &b, NULL, NULL) == RESTITUTE_OK, "the good one is no refusal");
 }
 
+/* Whether two spheres, or a sphere and a plane, that are `gap` apart are taken to touch. */
+static int touch(double radius1, double radius2, double gap)
+{
+    restitute_body a, b;
+    restitute_contact contact = rough(0.3);
+    restitute_error error;
+    restitute_body_init(&a);
+    restitute_body_init(&b);
+    contact.touch_gap = 1e-3;
+    a.radius = radius1, b.radius = radius2, a.mass = b.mass = 0.004, a.velocity[0] = 1, b.normal[0] = -1;
+    b.position[0] = radius1 + (isinf(radius2) ? 0 : radius2) + gap;
+    const int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
+    CHECK(status == RESTITUTE_OK || (status == RESTITUTE_ERROR_DOMAIN && (strstr(error.message, "do not touch") ||
+                                                                         strstr(error.message, "overlap"))),
+          "%d %s", status, error.message);
+    return status == RESTITUTE_OK;
+}
+
+/* By the sum of the radii, or the one radius: a gap of 1e-3 and an overlap of a tenth of that. */
+static void gaps_and_overlaps_are_measured_by_the_radii(void **state)
+{
+    (void)state;
+    const double radii[][3] = {{0.01, 0.03, 0.04}, {0.03, 0.01, 0.04}, {0.02, INFINITY, 0.02}};
+    for (int i = 0; i < 3; i++) {
+        const double *r = radii[i];
+        CHECK(touch(r[0], r[1], 0.99e-3 * r[2]) && !touch(r[0], r[1], 1.01e-3 * r[2]), "gap %d", i);
+        CHECK(touch(r[0], r[1], -0.099 * r[2]) && !touch(r[0], r[1], -0.101 * r[2]), "overlap %d", i);
+    }
+}
+
+/* At the ends of all ranges: bodies come out with finite velocities, or are refused. */
+static void ends_of_the_ranges_stay_finite(void **state)
+{
+    (void)state;
+    uint64_t random = 71;
+    int done = 0, refused = 0;
+    for (int n = 0; n < 2000; n++) {
+        const double ends[] = {1e-50, 1, 1e50}, spins[] = {-1e100, -1, 0, 1, 1e100}, inertias[] = {0, 1e-150, 1, 1e150};
+        restitute_body a, b;
+        restitute_contact contact = rough(random_below(&random, 2) ? 0.3 : 0);
+        restitute_error error;
+        restitute_body_init(&a);
+        restitute_body_init(&b);
+        a.radius = ends[random_below(&random, 3)], b.radius = ends[random_below(&random, 3)];
+        a.mass = ends[random_below(&random, 3)], b.mass = ends[random_below(&random, 3)];
+        a.inertia = inertias[random_below(&random, 4)], b.inertia = inertias[random_below(&random, 4)];
+        a.velocity[0] = ends[random_below(&random, 3)], b.velocity[1] = -ends[random_below(&random, 3)];
+        a.spin[2] = spins[random_below(&random, 5)], b.spin[1] = spins[random_below(&random, 5)];
+        b.position[0] = a.radius + b.radius;
+        const int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
+        done += status >= 0;
+        refused += status == RESTITUTE_ERROR_DOMAIN;
+        for (int i = 0; i < 3; i++)
+            CHECK(isfinite(a.velocity[i]) && isfinite(b.velocity[i]) && isfinite(a.spin[i]) && isfinite(b.spin[i]),
+                  "case %d, status %d", n, status);
+    }
+    CHECK(done > 100 && refused > 100, "%d done, %d refused", done, refused);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +341,8 @@ int main(void)
         cmocka_unit_test(rotations_and_boosts_change_nothing),
         cmocka_unit_test(plane_is_a_sphere_held_fast_of_infinite_radius),
         cmocka_unit_test(what_is_no_impact_is_refused),
+        cmocka_unit_test(gaps_and_overlaps_are_measured_by_the_radii),
+        cmocka_unit_test(ends_of_the_ranges_stay_finite),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -224,7 +224,7 @@ static void ends_of_ranges(void **state)
     } cases[] = {
         {"{\"name\": \"n\", \"model\": \"elastic\", \"modulus_pa\": 1, \"poisson_ratio\": 0}", 0},
         {"{\"name\": \"n\", \"model\": \"elastic\", \"modulus_pa\": 1, \"poisson_ratio\": 0.5}", 0.5},
-        {"{\"name\": \"n\", \"model\": \"elastic\", \"modulus_pa\": 1e-300, \"poisson_ratio\": 5e-1}", 0.5},
+        {"{\"name\": \"n\", \"model\": \"elastic\", \"modulus_pa\": 1e-30, \"poisson_ratio\": 5e-1}", 0.5},
         {"{\"name\": \"n\", \"model\": \"elastic\", \"modulus_pa\": 1, \"poisson_ratio\": 0, \"density_kg_m3\": 1e-9}",
          0},
     };
@@ -690,6 +690,7 @@ static void values_beyond_double(void **state)
         HEAD("maxwell") ", \"modulus_pa\": 1e-200, \"viscosity_pa_s\": 1e200}",
         HEAD("maxwell") ", \"modulus_pa\": 1e200, \"viscosity_pa_s\": 1e-200}",
         HEAD("standard_solid") ", \"modulus1_pa\": 1, \"modulus2_pa\": 1e-200, \"viscosity_pa_s\": 1e200}",
+        HEAD("elastic") ", \"modulus_pa\": 1e31}",
         HEAD("elastic") ", \"modulus_pa\": 1e305}",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -721,6 +722,8 @@ static void refused_csv(void **state)
         {"long row", "# c\ntau_s,G_Pa\n1,1,1\n", FORMAT, {"line 3", "3 cells", "2 columns"}},
         {"empty cell", "tau_s,G_Pa\n1,\n", FORMAT, {"line 2", "G_Pa", "> 0"}},
         {"text", "tau_s,G_Pa\n1,1\n#\n2,1.0x\n", FORMAT, {"line 4", "G_Pa", "1.0x", "> 0"}},
+        {"time beyond its range", "tau_s,G_Pa\n1e31,1\n", RANGE, {CSV ": relaxation_time[0]", "[1e-30, 1e+30]"}},
+        {"modulus beyond its range", "tau_s,G_Pa\n1,1\n2,1e-31\n", RANGE, {CSV ": modulus[1]", "[1e-30, 1e+30]"}},
         {"nan", "tau_s,G_Pa\nnan,1\n", FORMAT, {"line 2", "tau_s", "nan", "> 0"}},
         {"decimal comma", "tau_s,G_Pa\n\"1,5\",1\n", FORMAT, {"line 2", "tau_s", "1,5"}},
         {"inf", "tau_s,G_Pa\ninf,1\n", RANGE, {"line 2", "tau_s", "inf", "finite"}},

@@ -79,17 +79,18 @@ static void every_field_of_a_scene_is_checked(void **state)
         double bad[6];
         int count;
     } fields[] = {
-        {"radius1", offsetof(restitute_scene, radius1), {0, -1, NAN, INFINITY, -INFINITY}, 5},
-        {"mass1", offsetof(restitute_scene, mass1), {0, -1, NAN, INFINITY, -INFINITY}, 5},
-        {"radius2", offsetof(restitute_scene, radius2), {0, -1, NAN, -INFINITY}, 4},
-        {"mass2", offsetof(restitute_scene, mass2), {0, -1, NAN, -INFINITY}, 4},
-        {"inertia1", offsetof(restitute_scene, inertia1), {-1, NAN, INFINITY}, 3},
-        {"inertia2", offsetof(restitute_scene, inertia2), {-1, NAN, INFINITY}, 3},
-        {"friction", offsetof(restitute_scene, friction), {-0.1, NAN, -INFINITY}, 3},
-        {"normal_speed", offsetof(restitute_scene, normal_speed), {0, -1, NAN, INFINITY}, 4},
-        {"tangential_speed", offsetof(restitute_scene, tangential_speed), {NAN, INFINITY, -INFINITY}, 3},
-        {"spin1", offsetof(restitute_scene, spin1), {NAN, INFINITY, -INFINITY}, 3},
+        {"radius1", offsetof(restitute_scene, radius1), {0, -1, NAN, INFINITY, 9e-51, 2e50}, 6},
+        {"mass1", offsetof(restitute_scene, mass1), {0, -1, NAN, INFINITY, 9e-51, 2e50}, 6},
+        {"radius2", offsetof(restitute_scene, radius2), {0, -1, NAN, -INFINITY, 9e-51, 2e50}, 6},
+        {"mass2", offsetof(restitute_scene, mass2), {0, -1, NAN, -INFINITY, 9e-51, 2e50}, 6},
+        {"inertia1", offsetof(restitute_scene, inertia1), {-1, NAN, INFINITY, 9e-151, 2e150}, 5},
+        {"inertia2", offsetof(restitute_scene, inertia2), {-1, NAN, INFINITY, 9e-151, 2e150}, 5},
+        {"friction", offsetof(restitute_scene, friction), {-0.1, NAN, -INFINITY, 9e-31}, 4},
+        {"normal_speed", offsetof(restitute_scene, normal_speed), {0, -1, NAN, INFINITY, 9e-51, 2e50}, 6},
+        {"tangential_speed", offsetof(restitute_scene, tangential_speed), {NAN, INFINITY, -INFINITY, -2e50, 2e50}, 5},
+        {"spin1", offsetof(restitute_scene, spin1), {NAN, INFINITY, -INFINITY, -1e60, 2e100}, 5},
         {"spin2", offsetof(restitute_scene, spin2), {1, NAN, INFINITY}, 3},
+        {"density", offsetof(restitute_scene, density), {-1, NAN, INFINITY, 9e-101, 2e100}, 5},
     };
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
         for (int k = 0; k < fields[i].count; k++) {
@@ -144,13 +145,33 @@ static void every_field_of_an_impact_is_checked(void **state)
         }
 }
 
+/* A dashpot of a scene is not stronger than delta1 may be. */
+static void damping_is_checked(void **state)
+{
+    (void)state;
+    restitute_material *strong, *weak;
+    restitute_error error;
+    CHECK(restitute_material_kelvin_voigt(1, 2e12, 0.5, &strong, NULL) == 0, "strong");
+    CHECK(restitute_material_kelvin_voigt(1, 1, 0.5, &weak, NULL) == 0, "weak");
+    restitute_impact impact = impact_on(strong, 1, 1);
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "%s", error.message);
+    CHECK(strncmp(error.message, "delta1 = 1.369", 14) == 0, "%s", error.message);
+    impact.solid = weak;
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
+    restitute_scene scene = good_scene();
+    scene.material = strong;
+    refuse_scene(&scene, RESTITUTE_ERROR_DOMAIN, "delta1");
+    restitute_material_destroy(strong);
+    restitute_material_destroy(weak);
+}
+
 static void material_constants_are_checked(void **state)
 {
     (void)state;
     restitute_material *untouched = rubber, *material = untouched;
     restitute_error error;
-    const double bad[] = {0, -1, NAN, INFINITY, -INFINITY}, one = 1, twice[] = {2, 2}, ones[] = {1, 1};
-    for (int i = 0; i < 5; i++) {
+    const double bad[] = {0, -1, NAN, INFINITY, -INFINITY, 9e-61, 2e60}, one = 1, twice[] = {2, 2}, ones[] = {1, 1};
+    for (int i = 0; i < 7; i++) {
         double b = bad[i];
         CHECK(restitute_material_elastic(b, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "G %g", b);
         CHECK(strstr(error.message, "shear_modulus"), "%s", error.message);
@@ -166,6 +187,24 @@ static void material_constants_are_checked(void **state)
         CHECK(strstr(error.message, "relaxation_time[0]"), "%s", error.message);
         CHECK(restitute_material_prony(1, 0, 1, &one, &b, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "g %g", b);
         CHECK(strstr(error.message, "modulus[0]"), "%s", error.message);
+    }
+    const double beyond[] = {9e-31, 2e30};
+    for (int i = 0; i < 2; i++) {
+        const double b = beyond[i];
+        CHECK(restitute_material_prony(b, 0, 0, NULL, NULL, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g", b);
+        CHECK(strstr(error.message, "equilibrium_modulus (Pa)") && strstr(error.message, "[1e-30, 1e+30] or 0"), "%s",
+              error.message);
+        CHECK(restitute_material_prony(1, b * b, 0, NULL, NULL, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g",
+              b);
+        CHECK(strstr(error.message, "parallel_viscosity") && strstr(error.message, "[1e-60, 1e+60] or 0"), "%s",
+              error.message);
+        CHECK(restitute_material_prony(1, 0, 1, &b, &one, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g", b);
+        CHECK(strstr(error.message, "relaxation_time[0] (s)"), "%s", error.message);
+        CHECK(restitute_material_prony(1, 0, 1, &one, &b, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g", b);
+        CHECK(strstr(error.message, "modulus[0] (Pa)"), "%s", error.message);
+        /* times that follow from values in their ranges */
+        CHECK(restitute_material_maxwell(1, b, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g", b);
+        CHECK(restitute_material_standard_solid(1, 1, b, 0.5, &material, &error) == RESTITUTE_ERROR_DOMAIN, "%g", b);
     }
     const double ratios[] = {-0.01, 0.51, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
@@ -187,14 +226,14 @@ static void options_are_checked(void **state)
     (void)state;
     restitute_solver *made = solver;
     restitute_error error;
-    const double tolerances[] = {0, -1, NAN, 1e-9, 0.2, INFINITY}, steps[] = {-1, NAN, INFINITY};
+    const double tolerances[] = {0, -1, NAN, 1e-9, 0.2, INFINITY}, steps[] = {-1, NAN, 9e-101, 2e100};
     const int64_t counts[] = {-1, 1, 3, 1000001};
     for (int i = 0; i < 6; i++) {
         restitute_options options = to_tolerance(tolerances[i]);
         CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "%g", tolerances[i]);
         CHECK(strstr(error.message, "tolerance"), "%s", error.message);
     }
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         restitute_options options = as_told(0, steps[i]);
         CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "%g", steps[i]);
         CHECK(strstr(error.message, "time_step"), "%s", error.message);
@@ -256,6 +295,7 @@ int main(void)
         cmocka_unit_test(every_field_of_a_scene_is_checked),
         cmocka_unit_test(scenes_without_material_or_init_are_refused),
         cmocka_unit_test(every_field_of_an_impact_is_checked),
+        cmocka_unit_test(damping_is_checked),
         cmocka_unit_test(material_constants_are_checked),
         cmocka_unit_test(options_are_checked),
         cmocka_unit_test(null_and_unprepared_outputs_are_refused),

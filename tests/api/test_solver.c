@@ -132,6 +132,35 @@ static void too_little_work_allowed_is_told(void **state)
     restitute_solver_destroy(solver);
 }
 
+/* By the count of updates, 1e9 of which take about a second; in full slip half of that. */
+static void euler_names_sync_where_it_is_slow(void **state)
+{
+    (void)state;
+    const struct {
+        double tolerance;
+        int64_t max_updates;
+        int status, named;
+    } cases[] = {{1e-3, 10000000000, RESTITUTE_OK, 0},
+                 {1e-5, 10000000000, RESTITUTE_OK, 0},
+                 {3e-6, 10000000000, RESTITUTE_OK, 1},
+                 {1e-5, 10000000, RESTITUTE_TOLERANCE_NOT_REACHED, 1}};
+    const restitute_impact impact = impact_of(7.0 / 6, 6, 1, 1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        restitute_options options = to_tolerance(cases[i].tolerance);
+        restitute_solver *solver;
+        restitute_result result;
+        restitute_error error;
+        options.max_updates = cases[i].max_updates;
+        restitute_result_init(&result);
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        const int status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
+        restitute_solver_destroy(solver);
+        CHECK(status == cases[i].status && error.status == status, "%zu: %d %s", i, status, error.message);
+        CHECK(!strstr(error.message, "the method sync") == !cases[i].named, "%zu: %lld updates: \"%s\"", i,
+              (long long)result.updates, error.message);
+    }
+}
+
 static void coarse_override_tells_that_the_tolerance_is_missed(void **state)
 {
     (void)state;
@@ -380,6 +409,7 @@ int main(void)
         cmocka_unit_test(hopelessly_damped_impact_is_refused),
         cmocka_unit_test(rough_overrides_are_not_trusted),
         cmocka_unit_test(too_little_work_allowed_is_told),
+        cmocka_unit_test(euler_names_sync_where_it_is_slow),
         cmocka_unit_test(coarse_override_tells_that_the_tolerance_is_missed),
         cmocka_unit_test(status_follows_the_reported_estimate),
         cmocka_unit_test(status_follows_the_estimate_with_merged_terms),

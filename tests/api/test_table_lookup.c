@@ -38,7 +38,7 @@ static void limits(void **state)
     (void)state;
     CHECK(pair.ex == -1, "v_n = 0: %.17g", pair.ex);
     CHECK(look_up(table, 0, 0).ex == look_up(table, 1e-9, 0).ex, "no sliding, v_n = 0: the no-slip value");
-    CHECK(look_up(table, 1e-300, 1e300).ex == -1, "psi beyond all bounds");
+    CHECK(look_up(table, 1e-300, 1e100).ex == -1, "psi beyond all bounds");
     CHECK(look_up(table, 1e-9, 0).ez == look_up(table, 1e-3, 0).ez, "below the lowest: as at it");
     CHECK(look_up(table, 1e9, 0).ez == look_up(table, 10, 0).ez, "above the highest: as at it");
     CHECK(look_up(table, 1, 0.3).ex == look_up(table, 1, -0.3).ex, "the sign of v_t");
@@ -121,13 +121,13 @@ static void slopes_at_the_ends(void **state)
 {
     restitute_table_value pair;
     restitute_table_slope s;
-    static const double slow[] = {0, 1e-300, 1e-160, 1e-9};
+    static const double slow[] = {0, 1e-300, 1e-90, 1e-9};
     (void)state;
     for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
         assert_int_equal(restitute_table_pair_of(table, NULL, slow[i], 2, &pair, &s), RESTITUTE_OK);
-        const double expected = 2 * chi * (1 + pair.ez) / (PSI_FACTOR * 2);
+        const double expected = 2 * chi * (1 + pair.ez) / (PSI_FACTOR * 2), v_n = slow[i] < 1e-100 ? 0 : slow[i];
         CHECK_NEAR(s.ex_normal, expected, 1e-13 * expected, "v_n = %g", slow[i]);
-        CHECK_NEAR(s.ex_tangential, -expected * slow[i] / 2, 1e-13 * expected * slow[i], "v_n = %g", slow[i]);
+        CHECK_NEAR(s.ex_tangential, -expected * v_n / 2, 1e-13 * expected * v_n, "v_n = %g", slow[i]);
     }
     restitute_material *steel;
     restitute_scene ball = scene;
@@ -155,7 +155,7 @@ static void many_at_once(void **state)
             v[i] = i % 50 ? random_log(&random, 1e-6, 1e4) : 0;
             u[i] = i % 70 ? random_in(&random, -2, 2) * v[i] : 1e3;
             if (i % 90 == 1) u[i] = 0;
-            if (i % 110 == 1) v[i] = 1e300;
+            if (i % 110 == 1) v[i] = 1e100;
         }
         assert_int_equal(restitute_table_pairs(table, NULL, (size_t)count, v, u, ez, ex), RESTITUTE_OK);
         for (int i = 0; i < count; i++) {
@@ -234,13 +234,17 @@ static void factors_that_overflow(void **state)
     restitute_table_value pair;
     restitute_table_slope slope;
     restitute_error error;
-    restitute_scene other = scene;
+    restitute_table_data data;
+    restitute_table *odd = NULL;
     (void)state;
     restitute_table_contact_init(&contact);
-    other.mass1 = 1e-300;
-    other.radius1 = 1e300;
-    assert_int_equal(restitute_table_contact_of(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    restitute_table_data_init(&data);
+    assert_int_equal(restitute_table_to_data(table, &data, &error), RESTITUTE_OK);
+    data.duration = 1e100; /* of no contact that there is */
+    CHECK(restitute_table_from_data(&data, &odd, &error) == RESTITUTE_OK, "%s", error.message);
+    assert_int_equal(restitute_table_contact_of(odd, &scene, &contact, &error), RESTITUTE_ERROR_DOMAIN);
     CHECK(strstr(error.message, "speed_factor"), "%s", error.message);
+    restitute_table_destroy(odd);
     assert_int_equal(restitute_table_contact_of(table, &scene, &contact, &error), RESTITUTE_OK);
     contact.speed_factor = INFINITY;
     assert_int_equal(restitute_table_pair_of(table, &contact, 0, 1e-3, &pair, &slope), RESTITUTE_OK);
@@ -251,7 +255,8 @@ static void factors_that_overflow(void **state)
 
 static void bad_speeds_are_refused(void **state)
 {
-    static const double bad[][2] = {{-1, 0}, {NAN, 0}, {INFINITY, 0}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
+    static const double bad[][2] = {{-1, 0},      {NAN, 0},  {1.01e100, 0}, {INFINITY, 0},
+                                    {1, 1.01e100}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         restitute_table_value pair = {5, 6};

@@ -71,6 +71,38 @@ static void ratios_are_what_they_say(void **state)
     restitute_material_destroy(steel);
 }
 
+/* Of two spheres the denser one has the slower waves, whichever is the first; of a partner held fast nothing is known. */
+static void wave_speed_is_that_of_the_denser_sphere(void **state)
+{
+    (void)state;
+    restitute_material *steel;
+    CHECK(restitute_material_elastic(8e10, 0.3, &steel, NULL) == 0, "steel");
+    restitute_scene scene = steel_ball_on(steel, 2, 1);
+    scene.radius2 = scene.radius1;
+    for (double factor = 0.1; factor < 20; factor *= 100) { /* lighter, then denser than 7800 */
+        scene.mass2 = factor * scene.mass1;
+        CHECK_NEAR(solve_scene(default_options(), &scene).result.speed_ratio, 2 / sqrt(8e10 / (7800 * fmax(1, factor))),
+                   1e-12, "partner %g times as dense", factor);
+    }
+    scene.mass2 = INFINITY;
+    CHECK_NEAR(solve_scene(default_options(), &scene).result.speed_ratio, 2 / sqrt(8e10 / 7800), 1e-12, "held fast");
+    restitute_material_destroy(steel);
+}
+
+/* Waves do not travel in a mere dashpot, nor in a solid that has forgotten all by the time of the impact. */
+static void no_modulus_no_waves(void **state)
+{
+    (void)state;
+    restitute_material *oil, *fluid;
+    CHECK(restitute_material_prony(0, 100, 0, NULL, NULL, 0.5, &oil, NULL) == 0, "oil");
+    CHECK(restitute_material_maxwell(1e9, 1e-3, 0.5, &fluid, NULL) == 0, "fluid");
+    restitute_scene in_oil = steel_ball_on(oil, 2, 1), in_fluid = steel_ball_on(fluid, 2, 1);
+    CHECK(isinf(solve_scene(default_options(), &in_oil).result.speed_ratio), "oil");
+    CHECK(isinf(solve_scene(default_options(), &in_fluid).result.speed_ratio), "fluid");
+    restitute_material_destroy(oil);
+    restitute_material_destroy(fluid);
+}
+
 static void flags_have_texts(void **state)
 {
     (void)state;
@@ -79,12 +111,71 @@ static void flags_have_texts(void **state)
     CHECK(strcmp(restitute_flag_text(3), "unknown flag") == 0, "two flags are no flag");
 }
 
+/* What is passed stands in the message of a call that is done, and nothing else. */
+static void limits_that_are_passed_are_named(void **state)
+{
+    (void)state;
+    const char *names[] = {"v_z0/wave speed", "contact radius/R", "slide/contact radius", "Dundurs' beta"};
+    restitute_material *soft, *hard, *pair;
+    restitute_error error;
+    double ez, ex;
+    CHECK(restitute_material_elastic(1e5, 0.3, &soft, NULL) == 0, "soft");
+    CHECK(restitute_material_elastic(1e8, 0.3, &hard, NULL) == 0, "hard");
+    CHECK(restitute_material_pair(soft, hard, &pair, NULL) == 0, "pair");
+    const struct {
+        const restitute_material *material;
+        double normal_speed, tangential_speed;
+        int passed; /* bits */
+    } cases[] = {{hard, 0.01, 0.001, 0}, {soft, 0.1, 0.01, 2}, {hard, 100, 0, 3}, {hard, 0.01, 0.3, 4},
+                 {pair, 100, 500, 15}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const restitute_scene scene = steel_ball_on(cases[i].material, cases[i].normal_speed, cases[i].tangential_speed);
+        CHECK(restitute_scene_pair(&scene, &ez, &ex, &error) == RESTITUTE_OK && error.status == RESTITUTE_OK, "%s",
+              error.message);
+        for (int k = 0; k < 4; k++)
+            CHECK(!strstr(error.message, names[k]) == !(cases[i].passed & 1 << k), "%zu: %s: \"%s\"", i, names[k],
+                  error.message);
+        CHECK(!error.message[0] == !cases[i].passed, "%zu: \"%s\"", i, error.message);
+    }
+    const restitute_scene large = steel_ball_on(soft, 0.196, 0.01); /* a third of the sphere */
+    CHECK(restitute_scene_pair(&large, &ez, &ex, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(strcmp(error.message, "contact radius/R = 0.333 passes the limit 0.1") == 0, "\"%s\"", error.message);
+    restitute_material_destroy(soft);
+    restitute_material_destroy(hard);
+    restitute_material_destroy(pair);
+}
+
+/* Both remarks in one message. */
+static void limits_stand_behind_other_remarks(void **state)
+{
+    (void)state;
+    restitute_material *steel;
+    restitute_solver *solver;
+    restitute_error error;
+    restitute_options options = to_tolerance(1e-6);
+    options.max_updates = 1000000;
+    options.radius_limit = 1e-3;
+    CHECK(restitute_material_elastic(8e10, 0.3, &steel, NULL) == 0, "steel");
+    const restitute_scene scene = steel_ball_on(steel, 0.1, 0.03);
+    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+    CHECK(restitute_solve_scene(solver, &scene, NULL, NULL, NULL, &error) == RESTITUTE_TOLERANCE_NOT_REACHED, "%s",
+          error.message);
+    const char *first = strstr(error.message, "tolerance = 1e-06"), *second = strstr(error.message, "; contact radius/R");
+    CHECK(first && second && first < second, "%s", error.message);
+    restitute_solver_destroy(solver);
+    restitute_material_destroy(steel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_flag_has_a_scene_that_trips_it_alone),
         cmocka_unit_test(ratios_are_what_they_say),
+        cmocka_unit_test(wave_speed_is_that_of_the_denser_sphere),
+        cmocka_unit_test(no_modulus_no_waves),
         cmocka_unit_test(flags_have_texts),
+        cmocka_unit_test(limits_that_are_passed_are_named),
+        cmocka_unit_test(limits_stand_behind_other_remarks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,9 +36,4 @@ refused 'none.json: cannot be read' pair --input cases.csv --output out.csv --ma
 if [ -d /proc/self ]; then
     refused 'cannot be written' pair --input cases.csv --output /proc/out.csv --material $materials/steel.json
 fi
-if [ -c /dev/full ]; then
-    printf 'psi\n1\n' >cases.csv
-    "$RESTITUTE" pair --input cases.csv >/dev/full 2>err
-    [ $? -eq 2 ] || fail "a full standard output is not noticed"
-fi
 absent out.csv out.csv.meta.json out.csv.partial out.csv.partial.json

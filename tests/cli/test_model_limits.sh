@@ -19,6 +19,21 @@ expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --dens
 [ -z "$(value grid.csv status 1)" ] || fail "a gentle impact is flagged: $(value grid.csv status 1)"
 [ "$(value grid.csv status 3)" = LARGE_CONTACT ] || fail "10 m/s gives '$(value grid.csv status 3)'"
 
+# history has no place for them but standard error; nothing is said of a gentle impact.
+ball="--material $materials/polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --angle 30"
+expect 0 history $ball --velocity 10 --output history.csv
+has err 'restitute: remark: ' 'contact radius/R = 0.' 'passes the limit 0.1'
+expect 0 history $ball --velocity 1e-4 --output history.csv
+[ ! -s err ] || fail "a remark on a gentle impact"
+expect 0 pair $ball --velocity 10 --format csv
+has err 'restitute: remark: contact radius/R = 0.'
+
+# The slow method names the fast one where it misses its tolerance.
+expect 0 pair --psi 0.5 --delta1 1 --gamma 1 --tolerance 1e-6 --max-updates 1000000
+has err 'remark: tolerance = 1e-06: ' 'the method sync'
+expect 0 pair --psi 0.5 --delta1 1 --gamma 1
+[ ! -s err ] || fail "a remark on an easy impact"
+
 printf 'partner,speed_m_s\nrigid,1\n%s,1\nsame,1\n' "$materials/soda_lime_glass.json" >cases.csv
 expect 0 pair --input cases.csv --material "$materials/steel.json" --radius 0.01 --density 7850 --friction 0.2 \
     --angle 30 --output out.csv

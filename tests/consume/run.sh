@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CVODE TABLE TABLE_FILES BEM FORTRAN OPENMP
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FORTRAN OPENMP
 # The working directory is used up.
 set -eu
 
@@ -33,7 +33,7 @@ else
     installed_from=$work/other
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
-        -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
+        -DRESTITUTE_CONTACT="$WITH_CONTACT" -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
         -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" \
         -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
@@ -56,6 +56,7 @@ fi
 echo "== find_package"
 components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"
+[ "$WITH_CONTACT" = OFF ] || components="$components;contact"
 [ "$WITH_TABLE" = OFF ] || components="$components;table"
 [ "$WITH_TABLE_FILES" = OFF ] || components="$components;table_files"
 [ "$WITH_CVODE" = OFF ] || components="$components;cvode"
@@ -66,6 +67,7 @@ components=core
 user/consumer
 user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+[ "$WITH_CONTACT" = OFF ] || user/consumer_contact
 [ "$WITH_TABLE" = OFF ] || user/consumer_table
 if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
     second/bin/restitute table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \

@@ -1,5 +1,7 @@
 /* Two bodies of unlike materials as one solid: the series of their chains.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <string.h>
+
 #include "../support/random.h"
 #include "../support/solve.h"
 
@@ -194,7 +196,7 @@ static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state
         restitute_material_destroy(pair);
     }
     for (double ratio = 1e10; ratio < 1e31; ratio *= 1e5) {
-        struct chain polymer = {1e4, 3, {1e8, 1e6, 1e5}, {1e-6, 1e-3, 1e-1}}, hard = {1e8 * ratio, 0, {0}, {0}};
+        struct chain polymer = {1e-6, 3, {1e-2, 1e-4, 1e-5}, {1e-6, 1e-3, 1e-1}}, hard = {1e-2 * ratio, 0, {0}, {0}};
         restitute_material *a = material_of(&polymer, 0.5), *b = material_of(&hard, 0.5), *pair = pair_of(a, b);
         for (double t = 1e-8; t < 1e3; t *= 10) {
             double soft = restitute_material_modulus(a, t);
@@ -249,6 +251,109 @@ static void dashpots_and_bad_arguments(void **state)
     restitute_material_destroy(mixed);
 }
 
+/* Two dashpots are rigid at first, and share their compliance by their viscosities: as two springs of such moduli would. */
+static void two_dashpots_share_by_their_viscosities(void **state)
+{
+    (void)state;
+    restitute_material *a, *b, *c, *d;
+    CHECK(restitute_material_kelvin_voigt(3, 2, 0.2, &a, NULL) == 0 &&
+              restitute_material_kelvin_voigt(1, 6, 0.45, &b, NULL) == 0 &&
+              restitute_material_elastic(2, 0.2, &c, NULL) == 0 && restitute_material_elastic(6, 0.45, &d, NULL) == 0,
+          "materials");
+    restitute_material *dashpots = pair_of(a, b), *springs = pair_of(c, d);
+    CHECK_NEAR(restitute_material_poisson_ratio(dashpots), restitute_material_poisson_ratio(springs), 1e-15, "nu");
+    CHECK_NEAR(restitute_material_dundurs(dashpots), restitute_material_dundurs(springs), 1e-15, "beta");
+    restitute_material *all[] = {a, b, c, d, dashpots, springs};
+    for (int i = 0; i < 6; i++)
+        restitute_material_destroy(all[i]);
+}
+
+struct drawn {
+    restitute_material *material;
+    double g_inf, eta, nu, tau[3], g[3];
+    int n;
+};
+
+/* A solid of moduli and times within `decades` of 1, or at the ends. */
+static struct drawn draw_any(uint64_t *random, double decades, int at_ends)
+{
+    struct drawn m = {.n = random_below(random, 4), .nu = random_below(random, 3) ? random_in(random, 0, 0.5) : 0.5};
+    const double low = pow(10, -decades), high = pow(10, decades);
+    restitute_error error;
+    for (int i = 0; i < 2 * m.n + 2; i++) {
+        const int end = at_ends ? random_below(random, 4) : 3;
+        const double value = end == 0 ? low : end == 1 ? high : random_log(random, low, high);
+        double *const place[] = {&m.g_inf, &m.eta, &m.tau[0], &m.g[0], &m.tau[1], &m.g[1], &m.tau[2], &m.g[2]};
+        *place[i] = value;
+    }
+    if (random_below(random, 3) == 0 && m.n > 0) m.g_inf = 0;
+    if (random_below(random, 2)) m.eta = 0;
+    if (m.eta > 0 && at_ends) m.eta = fmin(1e60, fmax(1e-60, m.eta * m.eta));
+    const int status =
+        restitute_material_prony(m.g_inf, m.eta, (size_t)m.n, m.tau, m.g, m.nu, &m.material, &error);
+    CHECK(status == RESTITUTE_OK || strstr(error.message, "appears twice"), "%s", error.message);
+    if (status) m.material = NULL;
+    return m;
+}
+
+/* E* at a rate s: 2/(1 - nu) (G_inf + sum G_k s/(s + 1/tau_k) + eta s) */
+static double plane_modulus(const restitute_material *m, double s)
+{
+    double g_inf, eta, tau[2 * most_terms], g[2 * most_terms], sum;
+    restitute_material_series(m, &g_inf, &eta, tau, g);
+    sum = g_inf + eta * s;
+    for (size_t k = 0; k < restitute_material_terms(m); k++)
+        sum += g[k] * (s * tau[k] / (1 + s * tau[k]));
+    return 2 * sum / (1 - restitute_material_poisson_ratio(m));
+}
+
+/* 1/E* = 1/E_1* + 1/E_2* at any rate, over 16 decades of each. 1e-9: rates of the pair are good to rounding, 1e-16, beside
+ * rates that are some 1e-7 apart. */
+static void compliances_add_at_all_rates(void **state)
+{
+    (void)state;
+    uint64_t random = 23;
+    for (int n = 0; n < 2000; n++) {
+        const struct drawn a = draw_any(&random, 8, 0), b = draw_any(&random, 8, 0);
+        restitute_material *pair = pair_of(a.material, b.material);
+        for (double s = 1e-12; s < 1e13; s *= 10) {
+            const double expected = 1 / (1 / plane_modulus(a.material, s) + 1 / plane_modulus(b.material, s));
+            CHECK_NEAR(plane_modulus(pair, s), expected, 1e-9 * expected, "pair %d at %g", n, s);
+        }
+        restitute_material_destroy(a.material);
+        restitute_material_destroy(b.material);
+        restitute_material_destroy(pair);
+    }
+}
+
+/* Over the whole ranges and at their ends: a pair, or a refusal that says what it would be. Nothing is without end. */
+static void pairs_over_the_whole_ranges(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    int made = 0, refused = 0;
+    for (int n = 0; n < 20000; n++) {
+        const struct drawn a = draw_any(&random, 30, 1), b = draw_any(&random, 30, 1);
+        restitute_material *pair = NULL;
+        restitute_error error;
+        const int status = a.material && b.material ? restitute_material_pair(a.material, b.material, &pair, &error)
+                                                    : RESTITUTE_ERROR_NULL;
+        if (status == RESTITUTE_OK) {
+            const double beta = restitute_material_dundurs(pair), nu = restitute_material_poisson_ratio(pair);
+            CHECK(fabs(beta) <= 0.5 && nu >= 0 && nu <= 0.5, "%d: beta %g, nu %g", n, beta, nu);
+            made++;
+        } else if (a.material && b.material) {
+            CHECK(status == RESTITUTE_ERROR_DOMAIN && strncmp(error.message, "pair of material1", 17) == 0 && !pair,
+                  "%d: %d %s", n, status, error.message);
+            refused++;
+        }
+        restitute_material_destroy(a.material);
+        restitute_material_destroy(b.material);
+        restitute_material_destroy(pair);
+    }
+    CHECK(made > 2000 && refused > 2000, "%d made, %d refused", made, refused);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +364,9 @@ int main(void)
         cmocka_unit_test(no_term_is_lost_at_neighbouring_rates_or_extreme_ratios),
         cmocka_unit_test(a_pair_is_not_halved_or_paired_again),
         cmocka_unit_test(dashpots_and_bad_arguments),
+        cmocka_unit_test(two_dashpots_share_by_their_viscosities),
+        cmocka_unit_test(compliances_add_at_all_rates),
+        cmocka_unit_test(pairs_over_the_whole_ranges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,7 +82,8 @@ contains
     print "(2a)", "refused: ", restitute_message(error)
     scene%normal_speed = 2
     good = good .and. restitute_solve_scene(solver, scene, result, ledger, history, error) == RESTITUTE_OK
-    good = good .and. restitute_message(error) == "" .and. history%count == 20 .and. all(time(2:) > time(:19))
+    ! it is soft for that speed: what the model is strained by is named
+    good = good .and. index(restitute_message(error), "limit") > 0 .and. history%count == 20 .and. all(time(2:) > time(:19))
     good = good .and. maxval(force) > 0 .and. ledger%rebound_z > 0 .and. result%ez > 0 .and. result%ez < 1
     print "(a, 2f8.4, i4, a)", "rubber ball:", result%ez, result%ex, history%count, " samples"
     call restitute_solver_destroy(solver)

@@ -1,0 +1,50 @@
+/* What the pair style and the wall of restitute share: LAMMPS as they see it.
+ * SPDX-License-Identifier: GPL-2.0-or-later */
+#ifndef RESTITUTE_HOST_H
+#define RESTITUTE_HOST_H
+
+#include "contact_model.h"
+
+#include "atom.h"
+#include "pointers.h"
+
+#include <memory>
+
+namespace LAMMPS_NS
+{
+
+/* The spheres of a process as bodies of a contact, for as long as their arrays stay where they are. */
+class Spheres
+{
+  public:
+    Spheres(const Atom *atom, int frozen)
+        : x(atom->x), v(atom->v), omega(atom->omega), radius(atom->radius), mass(atom->rmass), mask(atom->mask),
+          frozen(frozen)
+    {
+    }
+    restitute_dem::Body body(int i) const
+    {
+        return {x[i], v[i], omega[i], radius[i], mask[i] & frozen ? 0.0 : 1 / mass[i]};
+    }
+    double density(int i) const { return mass[i] / (4.18879020478639098 * radius[i] * radius[i] * radius[i]); }
+
+  private:
+    double **x, **v, **omega, *radius, *mass;
+    int *mask, frozen;
+};
+
+/* A model of the words of a command, which names itself as `who`. */
+std::unique_ptr<restitute_dem::ContactModel> make_model(LAMMPS *lmp, const char *who, char **first, char **last);
+
+/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the group of fix freeze. */
+int check_host(LAMMPS *lmp, const char *who);
+
+/* Warns once of contacts that begin too fast for the time step. */
+void warn_of_step(LAMMPS *lmp, const restitute_dem::Record &record, bool &warned);
+
+/* The record of all processes. */
+restitute_dem::Record sum_of(const restitute_dem::Record &record, MPI_Comm world);
+
+} // namespace LAMMPS_NS
+
+#endif

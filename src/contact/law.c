@@ -1,0 +1,179 @@
+/* Contact laws: made from a material, then immutable.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "law.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "report.h"
+
+void restitute_contact_law_options_init(restitute_contact_law_options *options)
+{
+    if (!options) return;
+    *options = (restitute_contact_law_options){
+        .struct_size = sizeof *options, .deformable = RESTITUTE_BOTH_BODIES_DEFORM, .elements = 8, .terms = 4};
+}
+
+static int check_options(const restitute_contact_law_options *o, restitute_error *error)
+{
+    if (o->struct_size != sizeof *o)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "options.struct_size = %zu: must be %zu; prepare it with restitute_contact_law_options_init",
+                          o->struct_size, sizeof *o);
+    if (o->deformable != RESTITUTE_ONE_BODY_DEFORMS && o->deformable != RESTITUTE_BOTH_BODIES_DEFORM)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.deformable = %d: must be 1 or 2 bodies", o->deformable);
+    if (o->elements < 8 || o->elements > rst_most_nodes || o->elements % 8)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.elements = %d: must be 8, 16, 24 or 32", o->elements);
+    if (o->terms < 1 || o->terms > rst_most_terms)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.terms = %d: must be in [1, %d]", o->terms,
+                          rst_most_terms);
+    return RESTITUTE_OK;
+}
+
+static int check_times(const restitute_contact_law_options *o, size_t n_terms, restitute_error *error)
+{
+    if (o->shortest > 0 && o->longest > o->shortest && isfinite(o->longest / o->shortest)) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "options.shortest = %g s, longest = %g s: must be > 0 and rising, to reduce the %zu terms of the "
+                      "material to %d",
+                      o->shortest, o->longest, n_terms, o->terms);
+}
+
+/* The material's series, all of it or reduced. */
+static int take_series(const restitute_material *material, const restitute_contact_law_options *options,
+                       restitute_contact_law *law, restitute_error *error)
+{
+    struct rst_law *k = &law->kernel;
+    const size_t n = restitute_material_terms(material);
+    if (n <= (size_t)options->terms) {
+        k->n_terms = (int64_t)n;
+        restitute_material_series(material, &k->g_inf, &k->eta, k->tau, k->g);
+        return RESTITUTE_OK;
+    }
+    const int status = check_times(options, n, error);
+    if (status) return status;
+    double *tau = malloc(2 * n * sizeof *tau);
+    if (!tau) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", n);
+    struct rst_series series = {.n_terms = n, .tau = tau, .g = tau + n};
+    restitute_material_series(material, &series.g_inf, &series.eta, tau, tau + n);
+    rst_reduce_series(&series, options->terms, options->shortest, options->longest, k, &law->error_bound);
+    free(tau);
+    return RESTITUTE_OK;
+}
+
+/* Both bodies deform: in series, each with its own modulus. */
+static void halve(struct rst_law *k)
+{
+    k->g_inf /= 2;
+    k->eta /= 2;
+    for (int64_t i = 0; i < k->n_terms; i++)
+        k->g[i] /= 2;
+}
+
+/* FNV-1a. The lowest 24 bits mark states: never all zero, which is a new contact. */
+static uint64_t hash_of(const struct rst_law *kernel)
+{
+    const unsigned char *bytes = (const unsigned char *)kernel;
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < sizeof *kernel; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    return hash | 1;
+}
+
+int restitute_contact_law_create(const restitute_material *material, const restitute_contact_law_options *options,
+                                 restitute_contact_law **law, restitute_error *error)
+{
+    restitute_contact_law_options defaults;
+    if (!material || !law)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "law" : "material");
+    restitute_contact_law_options_init(&defaults);
+    if (!options) options = &defaults;
+    int status = check_options(options, error);
+    if (status) return status;
+    restitute_contact_law *made = calloc(1, sizeof *made);
+    if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a contact law");
+    status = take_series(material, options, made, error);
+    if (status) {
+        free(made);
+        return status;
+    }
+    struct rst_law *k = &made->kernel;
+    const double nu = restitute_material_poisson_ratio(material);
+    k->n = options->elements;
+    k->slips = !options->frictionless;
+    k->accounts = options->energies != 0;
+    k->surface = k->eta > 0 || !(k->g_inf > 0);
+    k->normal = 4 / (1 - nu);
+    k->tangential = 8 / (2 - nu);
+    made->halved = options->deformable == RESTITUTE_BOTH_BODIES_DEFORM;
+    if (made->halved) halve(k);
+    k->softness = k->g_inf > 0 ? 1 / k->g_inf : 0;
+    rst_law_grid(k);
+    made->size = (size_t)k->layout[7];
+    made->hash = hash_of(k);
+    *law = made;
+    return rst_done(error);
+}
+
+void restitute_contact_law_destroy(restitute_contact_law *law)
+{
+    free(law);
+}
+
+size_t restitute_contact_law_state_size(const restitute_contact_law *law)
+{
+    return law ? law->size : 0;
+}
+
+uint64_t restitute_contact_law_hash(const restitute_contact_law *law)
+{
+    return law ? law->hash : 0;
+}
+
+int restitute_contact_law_series(const restitute_contact_law *law, double *equilibrium_modulus,
+                                 double *parallel_viscosity, size_t *n_terms, double *relaxation_time, double *modulus,
+                                 double *error_bound)
+{
+    if (!law) return RESTITUTE_ERROR_NULL;
+    const struct rst_law *k = &law->kernel;
+    const double whole = law->halved ? 2 : 1;
+    if (equilibrium_modulus) *equilibrium_modulus = whole * k->g_inf;
+    if (parallel_viscosity) *parallel_viscosity = whole * k->eta;
+    if (n_terms) *n_terms = (size_t)k->n_terms;
+    for (int64_t i = 0; i < k->n_terms; i++) {
+        if (relaxation_time) relaxation_time[i] = k->tau[i];
+        if (modulus) modulus[i] = whole * k->g[i];
+    }
+    if (error_bound) *error_bound = law->error_bound;
+    return RESTITUTE_OK;
+}
+
+static int check_positive(double value, const char *name, restitute_error *error)
+{
+    if (value >= 1e-60 && value <= 1e60) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [1e-60, 1e60]", name, value);
+}
+
+int restitute_contact_rates_set(const restitute_contact_law *law, double step, restitute_contact_rates *rates,
+                                restitute_error *error)
+{
+    if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
+    const int status = check_positive(step, "step (s)", error);
+    if (status) return status;
+    rst_law_rates(&law->kernel, step, rates);
+    rates->law = law->hash;
+    return rst_done(error);
+}
+
+int restitute_contact_time_step_limit(const restitute_contact_law *law, double mass, double radius, double speed,
+                                      double *limit, restitute_error *error)
+{
+    if (!law || !limit) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "limit" : "law");
+    int status = check_positive(mass, "mass (kg)", error);
+    if (!status) status = check_positive(radius, "radius (m)", error);
+    if (!status) status = check_positive(speed, "speed (m/s)", error);
+    if (status) return status;
+    *limit = 2.94 * rst_law_overlap(&law->kernel, mass, speed, radius) / speed / 50; /* 2.94 d/v: an elastic contact */
+    return rst_done(error);
+}

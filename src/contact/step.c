@@ -1,0 +1,220 @@
+/* Steps of contacts: what is refused, and the mark of the law in the state.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "law.h"
+#include "report.h"
+
+/* The lowest bits of the grid width, the first number of a state, are those of the law's hash: a width needs no nine digits. */
+static const uint64_t mark_bits = (1u << 24) - 1;
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static void mark(const restitute_contact_law *law, double *width)
+{
+    const uint64_t bits = (bits_of(*width) & ~mark_bits) | (law->hash & mark_bits);
+    memcpy(width, &bits, sizeof bits);
+}
+
+static int is_own(const restitute_contact_law *law, const double *state)
+{
+    return bits_of(state[0]) == 0 || ((bits_of(state[0]) ^ law->hash) & mark_bits) == 0;
+}
+
+static int is_unit(const double v[3])
+{
+    return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
+}
+
+/* Ranges that the arithmetic holds: radii and masses of anything. */
+static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e60, largest_friction = 1e6;
+
+void restitute_contact_motion_init(restitute_contact_motion *motion)
+{
+    if (!motion) return;
+    *motion = (restitute_contact_motion){.struct_size = sizeof *motion, .normal = {0, 0, 1}};
+}
+
+/* One test for all: comparisons are false for NaN. */
+static int is_good(const restitute_contact_rates *rates, const restitute_contact_motion *m)
+{
+    const double *u = m->displacement, r = m->radius;
+    return m->struct_size == sizeof *m && r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
+           fabs(m->normal_velocity) <= r / rates->step && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
+           m->half_step_over_mass >= 0 && m->half_step_over_mass <= largest_mobility &&
+           m->half_step_over_tangential_mass >= 0 && m->half_step_over_tangential_mass <= largest_mobility &&
+           m->friction >= 0 && m->friction <= largest_friction && is_unit(m->normal);
+}
+
+/* The first thing that is wrong with a motion that is not good. */
+static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
+{
+    const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
+    const struct {
+        const char *name;
+        double value, low, high;
+    } numbers[] = {{"radius", r, least_radius, largest_radius},
+                   {"overlap", m->overlap, -r, r},
+                   {"normal_velocity", m->normal_velocity, -fastest, fastest},
+                   {"displacement[0]", u[0], -r, r},
+                   {"displacement[1]", u[1], -r, r},
+                   {"displacement[2]", u[2], -r, r},
+                   {"half_step_over_mass", m->half_step_over_mass, 0, largest_mobility},
+                   {"half_step_over_tangential_mass", m->half_step_over_tangential_mass, 0, largest_mobility},
+                   {"friction", m->friction, 0, largest_friction}};
+    if (m->struct_size != sizeof *m)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "motion.struct_size = %zu: must be %zu; prepare it with restitute_contact_motion_init",
+                          m->struct_size, sizeof *m);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,
+                              numbers[i].value, numbers[i].low, numbers[i].high);
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.normal = (%g, %g, %g): must be a unit vector",
+                      m->normal[0], m->normal[1], m->normal[2]);
+}
+
+static int refuse_state(const restitute_contact_law *law, const double *state, restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "state[0] = %.17g: is of another law than the one with hash %016llx, or has lost digits", state[0],
+                      (unsigned long long)law->hash);
+}
+
+static int refuse_step(int64_t why, const restitute_contact_rates *rates, const restitute_contact_motion *motion,
+                       restitute_error *error)
+{
+    if (why == rst_step_too_long)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
+                          "restitute_contact_time_step_limit",
+                          rates->step, motion->normal_velocity);
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "motion.normal = (%g, %g, %g): has turned too far since the last step; use restitute_contact_turn",
+                      motion->normal[0], motion->normal[1], motion->normal[2]);
+}
+
+static int is_finite(const restitute_contact_force *f)
+{
+    return fabs(f->normal) <= DBL_MAX && fabs(f->tangential[0]) <= DBL_MAX && fabs(f->tangential[1]) <= DBL_MAX &&
+           fabs(f->tangential[2]) <= DBL_MAX;
+}
+
+/* A checked step; what fails leaves nothing behind. */
+static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
+                   restitute_error *error)
+{
+    double before[8 + rst_most_nodes * (3 + 3 * rst_most_terms) + 2];
+    restitute_contact_force found;
+    int64_t why;
+    if (!is_good(rates, motion)) return refuse(rates, motion, error);
+    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (bits_of(state[0]) == 0 && motion->overlap <= 0) { /* not yet a contact */
+        *force = (restitute_contact_force){0};
+        return RESTITUTE_OK;
+    }
+    memcpy(before, state, law->size * sizeof *before);
+    rst_law_step(&law->kernel, rates, motion, state, &found, &why);
+    if (why != rst_step_done) return refuse_step(why, rates, motion, error);
+    if (!is_finite(&found)) {
+        memcpy(state, before, law->size * sizeof *before);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "the force is not finite: the state is spoilt, or moduli are beyond the arithmetic");
+    }
+    mark(law, &state[0]);
+    *force = found;
+    return RESTITUTE_OK;
+}
+
+static int check_call(const restitute_contact_law *law, const restitute_contact_rates *rates, const void *motion,
+                      const void *state, const void *force, restitute_error *error)
+{
+    if (!law || !rates || !motion || !state || !force)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !law ? "law" : !rates ? "rates" : !motion ? "motion" : !state ? "state" : "force");
+    if (rates->law != law->hash)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "rates: are of another law; make them with restitute_contact_rates_set");
+    return RESTITUTE_OK;
+}
+
+int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                           const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
+                           restitute_error *error)
+{
+    int status = check_call(law, rates, motion, state, force, error);
+    if (!status) status = advance(law, rates, motion, state, force, error);
+    return status ? status : rst_done(error);
+}
+
+int restitute_contact_step_many(const restitute_contact_law *law, const restitute_contact_rates *rates, size_t n,
+                                const restitute_contact_motion *motions, double *states, size_t stride,
+                                restitute_contact_force *forces, int *statuses, restitute_error *error)
+{
+    int first = RESTITUTE_OK;
+    restitute_error its;
+    if (n == 0) return rst_done(error);
+    const int status = check_call(law, rates, motions, states, forces, error);
+    if (status) return status;
+    if (stride < law->size)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "stride = %zu: must be at least the size of a state, %zu",
+                          stride, law->size);
+    for (size_t i = 0; i < n; i++) {
+        const int one = advance(law, rates, &motions[i], states + i * stride, &forces[i], &its);
+        if (statuses) statuses[i] = one;
+        if (one && !first) first = rst_report(error, one, "contact[%zu]: %.220s", i, its.message);
+    }
+    return first ? first : rst_done(error);
+}
+
+int restitute_contact_peek(const restitute_contact_law *law, const double normal[3], const double *state,
+                           restitute_contact_force *force, restitute_error *error)
+{
+    if (!law || !normal || !state || !force)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !law ? "law" : !normal ? "normal" : !state ? "state" : "force");
+    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (!is_unit(normal))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "normal = (%g, %g, %g): must be a unit vector", normal[0],
+                          normal[1], normal[2]);
+    rst_law_force(normal, state, force);
+    return rst_done(error);
+}
+
+int restitute_contact_energies_of(const restitute_contact_law *law, double radius, const double *state,
+                                  restitute_contact_energies *energies, restitute_error *error)
+{
+    if (!law || !state || !energies)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !law ? "law" : !state ? "state" : "energies");
+    if (!law->kernel.accounts)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without energies");
+    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (!(radius >= least_radius && radius <= largest_radius))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
+                          largest_radius);
+    const double *account = state + law->size - 2;
+    const double stored = rst_law_stored(&law->kernel, radius, state);
+    *energies = (restitute_contact_energies){stored, account[1], account[0] - stored - account[1]};
+    return rst_done(error);
+}
+
+int restitute_contact_turn(const restitute_contact_law *law, const double from[3], const double to[3], double *state,
+                           restitute_error *error)
+{
+    if (!law || !from || !to || !state)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !law ? "law" : !from ? "from" : !to ? "to" : "state");
+    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (!is_unit(from) || !is_unit(to))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "from, to: must be unit vectors");
+    rst_law_turn(from, to, state);
+    return rst_done(error);
+}

@@ -1,0 +1,353 @@
+/* What contact.h promises.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <float.h>
+
+#include "../support/data.h"
+#include "../support/drive.h"
+#include "../support/random.h"
+
+static restitute_contact_law *standard_law(double poisson_ratio)
+{
+    restitute_material *material;
+    const double tau[1] = {1}, g[1] = {2};
+    assert_int_equal(restitute_material_prony(1, 0, 1, tau, g, poisson_ratio, &material, NULL), 0);
+    restitute_contact_law *law = law_of(material, 8, 0);
+    restitute_material_destroy(material);
+    return law;
+}
+
+/* A contact in the middle of an oblique impact. */
+static struct drive loaded(restitute_contact_law *law)
+{
+    struct drive d = drive_of(law, 1e-2, 0.3);
+    drive_steps(&d, 20, 1e-4, 2e-5, 1e-5);
+    return d;
+}
+
+static size_t size_with(double g_inf, double eta, size_t n, int elements, int frictionless, int energies)
+{
+    const double tau[] = {1, 2, 3}, g[] = {1, 1, 1};
+    restitute_material *material = solid_of(g_inf, eta, n, tau, g);
+    restitute_contact_law *law;
+    restitute_contact_law_options options;
+    restitute_contact_law_options_init(&options);
+    options.elements = elements, options.frictionless = frictionless, options.energies = energies;
+    assert_int_equal(restitute_contact_law_create(material, &options, &law, NULL), 0);
+    const size_t size = restitute_contact_law_state_size(law);
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+    return size;
+}
+
+static void states_hold_what_the_law_needs(void **unused)
+{
+    (void)unused;
+    assert_int_equal(size_with(1, 0, 0, 8, 0, 0), 24); /* elastic: no memory of arms */
+    assert_int_equal(size_with(1, 1, 0, 8, 0, 0), 32); /* Kelvin-Voigt */
+    assert_int_equal(size_with(1, 0, 1, 8, 0, 0), 48); /* standard solid */
+    assert_int_equal(size_with(0, 0, 1, 8, 0, 0), 56); /* Maxwell: the free surface too */
+    assert_int_equal(size_with(1, 0, 3, 8, 0, 0), 96);
+    assert_int_equal(size_with(1, 0, 1, 16, 0, 0), 88);
+    assert_int_equal(size_with(1, 0, 0, 8, 1, 0), 8); /* elastic without friction: nothing but the last force */
+    assert_int_equal(size_with(1, 0, 1, 8, 1, 0), 16);
+    assert_int_equal(size_with(1, 0, 1, 8, 0, 1), 50);
+    assert_int_equal(restitute_contact_law_state_size(NULL), 0);
+}
+
+static void refuse_options(size_t size, int deformable, int elements, int terms, const char *name)
+{
+    restitute_contact_law_options o;
+    restitute_contact_law *law = NULL;
+    restitute_error error;
+    restitute_material *material = solid_of(1, 0, 0, NULL, NULL);
+    restitute_contact_law_options_init(&o);
+    o.struct_size += size, o.deformable = deformable, o.elements = elements, o.terms = terms;
+    assert_true(restitute_contact_law_create(material, &o, &law, &error) < 0);
+    CHECK(strstr(error.message, name) != NULL, "\"%s\" does not name %s", error.message, name);
+    assert_null(law);
+    restitute_material_destroy(material);
+}
+
+static void bad_options_are_named(void **unused)
+{
+    (void)unused;
+    refuse_options(1, 1, 8, 4, "struct_size");
+    refuse_options(0, 3, 8, 4, "deformable = 3");
+    refuse_options(0, 1, 12, 4, "elements = 12");
+    refuse_options(0, 1, 40, 4, "elements = 40");
+    refuse_options(0, 1, 8, 0, "terms = 0");
+    refuse_options(0, 1, 8, 9, "terms = 9");
+    restitute_contact_law *law = NULL;
+    assert_int_equal(restitute_contact_law_create(NULL, NULL, &law, NULL), RESTITUTE_ERROR_NULL);
+}
+
+/* Every refusal leaves state and force as they were. */
+static void refuse_motion(struct drive *d, const char *name)
+{
+    restitute_error error;
+    double before[most_state];
+    const restitute_contact_force force = d->force;
+    memcpy(before, d->state, sizeof before);
+    const int status = restitute_contact_step(d->law, &d->rates, &d->motion, d->state, &d->force, &error);
+    CHECK(status < 0 && status == error.status, "%s was accepted", name);
+    CHECK(strstr(error.message, name) != NULL, "\"%s\" does not name %s", error.message, name);
+    assert_memory_equal(before, d->state, sizeof before);
+    assert_memory_equal(&force, &d->force, sizeof force);
+}
+
+static void bad_motion_is_named_and_changes_nothing(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = loaded(law);
+    const restitute_contact_motion good = d.motion;
+    const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300};
+    for (int i = 0; i < 5; i++) {
+        d.motion = good, d.motion.overlap = bad[i], refuse_motion(&d, "overlap");
+        d.motion = good, d.motion.normal_velocity = bad[i], refuse_motion(&d, "normal_velocity");
+        d.motion = good, d.motion.displacement[i % 3] = bad[i], refuse_motion(&d, "displacement");
+        d.motion = good, d.motion.normal[i % 3] = bad[i], refuse_motion(&d, "normal");
+        d.motion = good, d.motion.half_step_over_mass = bad[i], refuse_motion(&d, "half_step_over_mass");
+        d.motion = good, d.motion.half_step_over_tangential_mass = bad[i], refuse_motion(&d, "tangential_mass");
+        d.motion = good, d.motion.radius = bad[i], refuse_motion(&d, "radius");
+        d.motion = good, d.motion.friction = bad[i], refuse_motion(&d, "friction");
+    }
+    d.motion = good, d.motion.overlap = 1.001, refuse_motion(&d, "overlap = 1.0009999999999999: must be in [-1, 1]");
+    d.motion = good, d.motion.struct_size--, refuse_motion(&d, "struct_size");
+    restitute_contact_law_destroy(law);
+}
+
+static void states_and_rates_of_another_law_are_refused(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5), *same = standard_law(0.5), *other = standard_law(0.3);
+    assert_true(restitute_contact_law_hash(law) == restitute_contact_law_hash(same));
+    assert_true(restitute_contact_law_hash(law) != restitute_contact_law_hash(other));
+    struct drive d = loaded(law);
+    restitute_contact_force force;
+    d.law = same; /* as after a restart */
+    drive_by(&d, 0, 0, 0);
+    d.law = other;
+    refuse_motion(&d, "rates");
+    drive_set_step(&d, 1e-2);
+    refuse_motion(&d, "state");
+    restitute_error error;
+    const double up[3] = {0, 0, 1};
+    assert_int_equal(restitute_contact_peek(other, up, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
+    restitute_contact_law_destroy(law);
+    restitute_contact_law_destroy(same);
+    restitute_contact_law_destroy(other);
+}
+
+/* With steps that a new contact cannot be followed with: refused, and nothing begins. */
+static void steps_too_long_are_refused(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    restitute_error error;
+    double limit, slower;
+    const double mass = 1e-5;
+    CHECK(restitute_contact_time_step_limit(law, mass, 1, 1e-3, &limit, &error) == 0, "%s", error.message);
+    CHECK(restitute_contact_time_step_limit(law, mass, 1, 1e-4, &slower, &error) == 0, "%s", error.message);
+    CHECK(slower > limit, "slower impacts last longer");
+    for (int times = 1; times <= 10; times += 9) {
+        struct drive d = drive_of(law, times * limit, 0.3);
+        d.motion.half_step_over_mass = times * limit / (2 * mass);
+        d.motion.normal_velocity = 1e-3;
+        d.motion.overlap = 1e-3 * times * limit;
+        if (times == 1)
+            assert_int_equal(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error), 0);
+        else
+            refuse_motion(&d, "less than ten steps");
+    }
+    assert_int_equal(restitute_contact_time_step_limit(law, 0, 1, 1, &limit, &error), RESTITUTE_ERROR_DOMAIN);
+    restitute_contact_law_destroy(law);
+    restitute_material *material = solid_of(1e30, 0, 0, NULL, NULL); /* the stiffest solid under the lightest sphere */
+    law = law_of(material, 8, 0);
+    assert_int_equal(restitute_contact_time_step_limit(law, 1e-60, 1e60, 1e-60, &limit, &error), 0);
+    CHECK(limit > 0 && isfinite(limit), "limit %g", limit);
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+}
+
+/* An elastic impact lasts 2.94 d/v, d from (24): the limit is a fiftieth. */
+static void time_step_limit_of_an_elastic_impact(void **unused)
+{
+    (void)unused;
+    restitute_material *material = solid_of(1, 0, 0, NULL, NULL);
+    restitute_contact_law *law = law_of(material, 8, 0);
+    double limit;
+    const double mass = 2.5, radius = 0.7, speed = 0.01;
+    const double d0 = pow(15 * mass * speed * speed * 0.5 / (32 * sqrt(radius)), 0.4);
+    assert_int_equal(restitute_contact_time_step_limit(law, mass, radius, speed, &limit, NULL), 0);
+    CHECK_NEAR(limit / (2.94 * d0 / speed / 50), 1, 1e-4, "limit"); /* the fixed point is left at some 1e-5 */
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+}
+
+static void peek_repeats_the_last_force(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = loaded(law);
+    restitute_contact_force force;
+    double before[most_state], none[most_state] = {0};
+    memcpy(before, d.state, sizeof before);
+    assert_int_equal(restitute_contact_peek(law, d.motion.normal, d.state, &force, NULL), 0);
+    assert_memory_equal(&force, &d.force, sizeof force);
+    assert_memory_equal(before, d.state, sizeof before);
+    assert_int_equal(restitute_contact_peek(law, d.motion.normal, none, &force, NULL), 0);
+    assert_true(force.normal <= 0 && fabs(force.tangential[0]) <= 0);
+    restitute_contact_law_destroy(law);
+}
+
+/* Bodies that only come near leave a new contact as it is: all zeros. */
+static void bodies_apart_are_no_contact(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = drive_of(law, 1e-2, 0.3);
+    const double none[most_state] = {0};
+    d.motion.overlap = -1e-5;
+    drive_by(&d, 1e-6, 1e-3, 0);
+    assert_memory_equal(d.state, none, sizeof none);
+    restitute_contact_law_destroy(law);
+}
+
+/* A contact that begins with the least overlap there is grows like any other. */
+static void least_overlap_spoils_nothing(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = drive_of(law, 1e-2, 0.3);
+    d.motion.radius = 1e-3;
+    drive_by(&d, 5e-324, 0, 0);
+    drive_by(&d, 1e-6, 1e-7, 0);
+    assert_true(d.force.normal > 0 && d.force.tangential[0] < 0);
+    restitute_contact_law_destroy(law);
+}
+
+/* The same bits as one by one; a contact that fails stops no other and is named. */
+static void many_steps_are_single_steps(void **unused)
+{
+    (void)unused;
+    enum { n = 20, stride = 50 };
+    restitute_contact_law *law = standard_law(0.5);
+    struct drive d = drive_of(law, 1e-2, 0.3);
+    restitute_contact_motion motions[n];
+    restitute_contact_force one[n], many[n] = {{0}};
+    double single[n * stride] = {0}, batch[n * stride] = {0};
+    int statuses[n];
+    restitute_error error;
+    for (int i = 0; i < n; i++) {
+        motions[i] = d.motion;
+        motions[i].overlap = 1e-5 * (i - 3), motions[i].normal_velocity = 1e-3;
+        motions[i].displacement[0] = 1e-6 * i;
+        if (i == 7) motions[i].friction = -1;
+        restitute_contact_step(law, &d.rates, &motions[i], single + i * stride, &one[i], NULL);
+    }
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, batch, stride, many, statuses, &error),
+                     RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "contact[7]: motion.friction = -1") != NULL, "%s", error.message);
+    assert_memory_equal(single, batch, sizeof single);
+    for (int i = 0; i < n; i++) {
+        assert_int_equal(statuses[i], i == 7 ? RESTITUTE_ERROR_DOMAIN : 0);
+        if (i != 7) assert_memory_equal(&one[i], &many[i], sizeof one[i]);
+    }
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, batch, 47, many, NULL, &error),
+                     RESTITUTE_ERROR_DOMAIN);
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, 0, NULL, NULL, 0, NULL, NULL, &error), 0);
+    restitute_contact_law_destroy(law);
+}
+
+/* Any bits for any number: a status or finite forces, and then a finite state. */
+static void no_input_makes_what_is_not_a_number(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = standard_law(0.4);
+    uint64_t seed = 3;
+    long done = 0;
+    for (int i = 0; i < 200000; i++) {
+        struct drive d = drive_of(law, 1e-2, 0.3);
+        double *values = &d.motion.overlap;
+        if (i % 2) d = loaded(law);
+        const int wild = i % 4 < 2;
+        for (int k = 0; k < 12; k++) {
+            const int is_normal = k >= 5 && k <= 7;
+            if (is_normal || random_below(&seed, 3)) continue;
+            double value;
+            const uint64_t bits = random_bits(&seed);
+            memcpy(&value, &bits, sizeof value);
+            values[k] = wild ? value : random_log(&seed, 1e-30, 1) * (random_below(&seed, 2) ? 1 : -1);
+        }
+        if (restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, NULL)) continue;
+        done++;
+        CHECK(isfinite(d.force.normal) && isfinite(d.force.tangential[0]) && isfinite(d.force.tangential[2]), "case %d", i);
+        for (size_t k = 0; k < restitute_contact_law_state_size(law); k++)
+            CHECK(isfinite(d.state[k]), "case %d: state[%zu] = %g", i, k, d.state[k]);
+    }
+    CHECK(done > 10000, "only %ld cases were accepted", done);
+    restitute_contact_law_destroy(law);
+}
+
+/* G(t) of the law beside that of the material, at times from a micro- to a millisecond. */
+static double worst_of_window(const restitute_material *material, int terms, double *bound)
+{
+    restitute_contact_law *law;
+    restitute_contact_law_options options;
+    restitute_error error;
+    double tau[8], g[8], g_inf, eta, worst = 0;
+    size_t n;
+    restitute_contact_law_options_init(&options);
+    options.terms = terms, options.shortest = 1e-6, options.longest = 1e-3;
+    CHECK(restitute_contact_law_create(material, &options, &law, &error) == 0, "%s", error.message);
+    assert_int_equal(restitute_contact_law_series(law, &g_inf, &eta, &n, tau, g, bound), 0);
+    restitute_contact_law_destroy(law);
+    restitute_material *reduced = solid_of(g_inf, eta, n, tau, g);
+    for (int i = 0; i <= 777; i++) {
+        const double t = 1e-6 * pow(1e3, i / 777.0), exact = restitute_material_modulus(material, t);
+        worst = fmax(worst, fabs(restitute_material_modulus(reduced, t) - exact) / exact);
+    }
+    restitute_material_destroy(reduced);
+    return worst;
+}
+
+static void long_series_are_reduced_within_their_bound(void **unused)
+{
+    (void)unused;
+    double tau[pib_terms], g[pib_terms], bound, before = 1;
+    read_pib(tau, g);
+    restitute_material *material = solid_of(0, 0, pib_terms, tau, g);
+    restitute_contact_law *law = NULL;
+    restitute_error error;
+    assert_int_equal(restitute_contact_law_create(material, NULL, &law, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "shortest") != NULL, "%s", error.message);
+    for (int terms = 4; terms <= 8; terms += 2) {
+        const double worst = worst_of_window(material, terms, &bound);
+        print_message("%d terms: G within %.4f, bound %.4f\n", terms, worst, bound);
+        CHECK(worst <= bound, "%d terms: %.4f beyond the bound %.4f", terms, worst, bound);
+        CHECK(bound < before / 2, "%d terms: bound %.4f after %.4f", terms, bound, before);
+        before = bound;
+    }
+    CHECK(before < 0.02, "8 terms: bound %.4f", before);
+    restitute_material_destroy(material);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(states_hold_what_the_law_needs),
+        cmocka_unit_test(bad_options_are_named),
+        cmocka_unit_test(bad_motion_is_named_and_changes_nothing),
+        cmocka_unit_test(states_and_rates_of_another_law_are_refused),
+        cmocka_unit_test(steps_too_long_are_refused),
+        cmocka_unit_test(time_step_limit_of_an_elastic_impact),
+        cmocka_unit_test(peek_repeats_the_last_force),
+        cmocka_unit_test(bodies_apart_are_no_contact),
+        cmocka_unit_test(least_overlap_spoils_nothing),
+        cmocka_unit_test(many_steps_are_single_steps),
+        cmocka_unit_test(no_input_makes_what_is_not_a_number),
+        cmocka_unit_test(long_series_are_reduced_within_their_bound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

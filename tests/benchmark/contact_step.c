@@ -1,0 +1,122 @@
+/* Time of a contact step beside a bare Hertz-Mindlin step, as ratios in one run:
+ *   contact_step [contacts]     contacts in memory, default 64 (hot); 1000000: from memory
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+#include <restitute/contact.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What a DEM code does in a step of Hertz and Mindlin: dashpots of constant restitution, one tangential spring with
+ * history, turned into the tangential plane, limited by friction. */
+static void hertz_mindlin(double modulus, double damping, double step, const restitute_contact_motion *m,
+                          double *shear, restitute_contact_force *force)
+{
+    const double a = sqrt(m->radius * m->overlap), kn = 4.0 / 3 * modulus * a, kt = 8.0 / 3 * modulus * a, *n = m->normal;
+    force->normal = kn * m->overlap + damping * sqrt(kn) * m->normal_velocity;
+    const double out = shear[0] * n[0] + shear[1] * n[1] + shear[2] * n[2];
+    double f[3], size = 0, before = 0, after = 0;
+    for (int i = 0; i < 3; i++)
+        before += shear[i] * shear[i];
+    for (int i = 0; i < 3; i++)
+        shear[i] -= out * n[i], after += shear[i] * shear[i];
+    const double scale = after > 0 ? sqrt(before / after) : 0;
+    for (int i = 0; i < 3; i++) {
+        shear[i] = shear[i] * scale + m->displacement[i];
+        f[i] = -kt * shear[i] - damping * sqrt(kt) * m->displacement[i] / step;
+        size += f[i] * f[i];
+    }
+    size = sqrt(size);
+    const double limit = m->friction * fabs(force->normal), part = size > limit ? limit / size : 1;
+    for (int i = 0; i < 3; i++) {
+        force->tangential[i] = f[i] * part;
+        if (part < 1) shear[i] = -force->tangential[i] / kt;
+    }
+}
+
+enum { steps = 100 };
+
+/* Impacts at different stages: overlaps follow half a sine, displacements slide. */
+static void move(size_t n, int step, restitute_contact_motion *motion)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double stage = fmod((double)i * 0.6180339887 + step / (double)steps, 1), x = 3.14159265 * (0.02 + 0.96 * stage);
+        motion[i].overlap = 1e-4 * sin(x);
+        motion[i].normal_velocity = cos(x);
+        motion[i].displacement[0] = 2e-6 * cos(3 * x);
+        motion[i].displacement[1] = 1e-6;
+    }
+}
+
+/* Nanoseconds a step: with law == NULL of Hertz-Mindlin. */
+static double time_of(const restitute_contact_law *law, int many, size_t n, restitute_contact_motion *motion, double *states,
+                      restitute_contact_force *force)
+{
+    const size_t size = law ? restitute_contact_law_state_size(law) : 3;
+    const double h = 3e-6;
+    restitute_contact_rates rates;
+    double best = 1e9;
+    long done = 0;
+    if (law) restitute_contact_rates_set(law, h, &rates, NULL);
+    memset(states, 0, n * size * sizeof *states);
+    for (int repeat = 0; repeat < 7; repeat++) {
+        double spent = 0;
+        for (int step = 0; step < steps; step++) {
+            move(n, step, motion);
+            const double start = now();
+            if (many)
+                restitute_contact_step_many(law, &rates, n, motion, states, size, force, NULL, NULL);
+            else
+                for (size_t i = 0; i < n; i++) {
+                    if (law)
+                        done += restitute_contact_step(law, &rates, &motion[i], states + i * size, &force[i], NULL);
+                    else
+                        hertz_mindlin(1, 0.1, h, &motion[i], states + i * size, &force[i]);
+                }
+            spent += now() - start;
+        }
+        best = fmin(best, spent);
+    }
+    if (done) fprintf(stderr, "a step was refused\n");
+    return 1e9 * best / ((double)n * steps);
+}
+
+int main(int count, char **words)
+{
+    const size_t n = count > 1 ? (size_t)atof(words[1]) : 64;
+    const double tau = 1e-4, g = 1;
+    restitute_material *material[3];
+    const char *name[3] = {"elastic", "standard solid", "Kelvin-Voigt"};
+    restitute_contact_motion *motion = calloc(n, sizeof *motion);
+    restitute_contact_force *force = calloc(n, sizeof *force);
+    double *states = calloc(n * 64, sizeof *states);
+    restitute_material_elastic(1, 0.5, &material[0], NULL);
+    restitute_material_prony(1, 0, 1, &tau, &g, 0.5, &material[1], NULL);
+    restitute_material_kelvin_voigt(1, 1e-5, 0.5, &material[2], NULL);
+    if (!motion || !force || !states) return 1;
+    for (size_t i = 0; i < n; i++) {
+        restitute_contact_motion_init(&motion[i]);
+        motion[i].radius = 1, motion[i].friction = 0.3;
+        motion[i].half_step_over_mass = 1e-6 / 4e-10, motion[i].half_step_over_tangential_mass = 3.5e-6 / 4e-10;
+    }
+    const double bare = time_of(NULL, 0, n, motion, states, force);
+    printf("%zu contacts; Hertz-Mindlin %.1f ns\n", n, bare);
+    for (int i = 0; i < 3; i++) {
+        restitute_contact_law *law;
+        if (restitute_contact_law_create(material[i], NULL, &law, NULL)) return 1;
+        const double one = time_of(law, 0, n, motion, states, force), many = time_of(law, 1, n, motion, states, force);
+        printf("%-15s %zu doubles: single %.1f ns, ratio %.1f; in batches %.1f ns, ratio %.1f\n", name[i],
+               restitute_contact_law_state_size(law), one, one / bare, many, many / bare);
+        restitute_contact_law_destroy(law);
+    }
+}

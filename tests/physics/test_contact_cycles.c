@@ -1,0 +1,196 @@
+/* Elastic contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/drive.h"
+
+/* G = 1 Pa, nu = 0.3, R = 1 m, against a rigid body. */
+static const double nu = 0.3, overlap = 1e-4, friction = 0.4;
+
+static restitute_contact_law *elastic_law(int elements)
+{
+    restitute_material *material;
+    assert_int_equal(restitute_material_elastic(1, nu, &material, NULL), 0);
+    restitute_contact_law *law = law_of(material, elements, 1);
+    restitute_material_destroy(material);
+    return law;
+}
+
+/* 4/3 E* sqrt(R) d^(3/2), E* = 2 G/(1 - nu) */
+static double hertz(double d)
+{
+    return 8.0 / 3 / (1 - nu) * d * sqrt(d);
+}
+
+/* Exact for any grid, also for one that is outgrown; the tolerance is the one asked for, errors are of rounding. */
+static void normal_force_is_that_of_hertz(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = elastic_law(8);
+    struct drive d = drive_of(law, 1e-3, friction);
+    for (int i = 0; i < 300; i++) {
+        drive_by(&d, i < 200 ? overlap / 100 : -overlap / 100, 0, 0);
+        CHECK_NEAR(d.force.normal / hertz(d.motion.overlap), 1, 1e-6, "overlap %g", d.motion.overlap);
+    }
+    restitute_contact_law_destroy(law);
+}
+
+/* Mindlin and Deresiewicz at constant normal force: tangential force over mu F_z at the displacement u in units of that where gross
+ * slip begins, after it turned round at `turn` with the force `there` (none: 0 and 0, factor 1). */
+static double mindlin(double u)
+{
+    return 1 - pow(1 - fmin(1, fabs(u)), 1.5);
+}
+
+static double after_turning(double u, double turn, double there)
+{
+    const double sign = u < turn ? -1 : 1;
+    return there + sign * 2 * mindlin(fabs(u - turn) / 2);
+}
+
+struct cycle {
+    double worst, loss, exact_loss;
+};
+
+/* Load to the peak, unload to its opposite, reload. Forces over mu F_z, displacements over that of gross slip. */
+static struct cycle run_cycle(int elements, double peak)
+{
+    restitute_contact_law *law = elastic_law(elements);
+    struct drive d = drive_of(law, 1e-3, friction);
+    drive_steps(&d, 100, overlap, 0, 0);
+    const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
+    struct cycle c = {0};
+    double u = 0, force = 0, exact = 0;
+    const int n = 200;
+    for (int leg = 0; leg < 3; leg++) {
+        const double start = u, to = leg % 2 ? -peak : peak, there = leg == 0 ? 0 : exact;
+        for (int i = 0; i < n; i++) {
+            const double before = force, exact_before = exact, du = (to - start) / n;
+            drive_by(&d, 0, du * reach, 0);
+            u += du;
+            force = -d.force.tangential[0] / limit;
+            exact = leg == 0 ? mindlin(u) : after_turning(u, start, there);
+            c.worst = fmax(c.worst, fabs(force - exact));
+            if (leg > 0) c.loss += 0.5 * (before + force) * du, c.exact_loss += 0.5 * (exact_before + exact) * du;
+        }
+    }
+    restitute_contact_law_destroy(law);
+    return c;
+}
+
+/* Where slip turned round, the profile of the tangential force keeps a kink that lies between two elements: the less
+ * of the contact slips, the more it shows in the loss. Sixteen elements follow small cycles too. */
+static void tangential_force_follows_mindlin_and_deresiewicz(void **unused)
+{
+    (void)unused;
+    for (int i = 3; i <= 12; i++) {
+        const struct cycle few = run_cycle(8, 0.1 * i), more = run_cycle(16, 0.1 * i);
+        print_message("peak %.1f: force within %.4f and %.4f of mu F_z, loss %.3f and %.3f of the exact one\n", 0.1 * i,
+                      few.worst, more.worst, few.loss / few.exact_loss, more.loss / more.exact_loss);
+        CHECK_NEAR(few.worst, 0, 0.0125, "8 elements, peak %.1f", 0.1 * i);
+        CHECK_NEAR(more.worst, 0, 0.005, "16 elements, peak %.1f", 0.1 * i);
+        CHECK_NEAR(more.loss / more.exact_loss, 1, 0.02, "16 elements, loss with peak %.1f", 0.1 * i);
+        if (i < 9) continue;
+        CHECK_NEAR(few.worst, 0, 0.01, "8 elements, peak %.1f", 0.1 * i);
+        CHECK_NEAR(few.loss / few.exact_loss, 1, 0.02, "8 elements, loss with peak %.1f", 0.1 * i);
+    }
+}
+
+/* A path that loads, slides round corners and unloads, in a frame turned by an angle about a normal. */
+static void follow_path(const double normal[3], const double along[3], const double across[3], double forces[40][3])
+{
+    restitute_contact_law *law = elastic_law(8);
+    struct drive d = drive_of(law, 1e-3, friction);
+    restitute_error error;
+    memcpy(d.motion.normal, normal, sizeof d.motion.normal);
+    for (int i = 0; i < 40; i++) {
+        const double approach = i < 15 ? overlap / 10 : i < 30 ? 0 : -overlap / 15;
+        const double x = 2e-5 * cos(0.4 * i), y = 1e-5 * sin(1.3 * i);
+        d.motion.overlap += approach;
+        d.motion.normal_velocity = approach / d.rates.step;
+        for (int k = 0; k < 3; k++)
+            d.motion.displacement[k] = x * along[k] + y * across[k];
+        CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
+        const double *f = d.force.tangential;
+        forces[i][0] = f[0] * along[0] + f[1] * along[1] + f[2] * along[2];
+        forces[i][1] = f[0] * across[0] + f[1] * across[1] + f[2] * across[2];
+        forces[i][2] = d.force.normal;
+    }
+    restitute_contact_law_destroy(law);
+}
+
+static void paths_do_not_depend_on_directions(void **unused)
+{
+    (void)unused;
+    const double z[3] = {0, 0, 1}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
+    const double c = cos(0.7), s = sin(0.7), x_turned[3] = {c, s, 0}, y_turned[3] = {-s, c, 0};
+    const double n[3] = {2.0 / 7, 3.0 / 7, 6.0 / 7}, t[3] = {6.0 / 7, 2.0 / 7, -3.0 / 7}, b[3] = {-3.0 / 7, 6.0 / 7, -2.0 / 7};
+    double plain[40][3], turned[40][3], tilted[40][3];
+    follow_path(z, x, y, plain);
+    follow_path(z, x_turned, y_turned, turned);
+    follow_path(n, t, b, tilted);
+    for (int i = 0; i < 40; i++)
+        for (int k = 0; k < 3; k++) {
+            const double rounding = 1e-12 * hertz(1.5 * overlap); /* some thousand operations at 1e-16 */
+            CHECK_NEAR(turned[i][k], plain[i][k], rounding, "step %d component %d", i, k);
+            CHECK_NEAR(tilted[i][k], plain[i][k], rounding, "step %d component %d, tilted", i, k);
+        }
+}
+
+/* A normal that turns by a degree a step takes the force with it: in the turned frame nothing has moved. */
+static void force_turns_with_the_normal(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = elastic_law(8);
+    struct drive d = drive_of(law, 1e-3, friction);
+    restitute_error error;
+    drive_steps(&d, 20, overlap, 1e-5, 2e-5);
+    const restitute_contact_force before = d.force;
+    const double degree = acos(-1.0) / 180;
+    double jumped[most_state], old[3] = {0, 0, 1};
+    memcpy(jumped, d.state, sizeof jumped);
+    d.motion.normal_velocity = d.motion.displacement[0] = d.motion.displacement[1] = 0;
+    for (int i = 1; i <= 90; i++) { /* from z to x: what pointed along x points along -z, y stays */
+        d.motion.normal[0] = sin(i * degree), d.motion.normal[2] = cos(i * degree);
+        CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
+    }
+    CHECK_NEAR(d.force.tangential[2], -before.tangential[0], 1e-12 * before.normal, "along the path of the normal");
+    CHECK_NEAR(d.force.tangential[1], before.tangential[1], 1e-12 * before.normal, "across it");
+    /* at once: refused, and with the turn the same force */
+    CHECK(restitute_contact_step(law, &d.rates, &d.motion, jumped, &d.force, &error) == RESTITUTE_ERROR_DOMAIN, "jump");
+    CHECK(restitute_contact_turn(law, old, d.motion.normal, jumped, &error) == 0, "%s", error.message);
+    CHECK(restitute_contact_step(law, &d.rates, &d.motion, jumped, &d.force, &error) == 0, "%s", error.message);
+    CHECK_NEAR(d.force.tangential[2], -before.tangential[0], 1e-12 * before.normal, "after a jump");
+    restitute_contact_law_destroy(law);
+}
+
+/* The springs hold the work of Hertz, 2/5 F d, within the error of the energy's quadrature with 8 elements. */
+static void stored_energy_is_the_work(void **unused)
+{
+    (void)unused;
+    restitute_contact_law *law = elastic_law(8);
+    struct drive d = drive_of(law, 1e-3, friction);
+    restitute_contact_energies e;
+    drive_steps(&d, 2000, overlap, 0, 0);
+    assert_int_equal(restitute_contact_energies_of(law, 1, d.state, &e, NULL), 0);
+    CHECK_NEAR(e.stored / (0.4 * d.force.normal * overlap), 1, 0.01, "stored");
+    CHECK_NEAR((e.stored + e.viscous + e.friction) / d.work, 1, 1e-12, "the three are the work");
+    const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
+    drive_steps(&d, 2000, 0, 4 * reach, 0); /* three quarters of it in gross slip */
+    const restitute_contact_energies before = e;
+    assert_int_equal(restitute_contact_energies_of(law, 1, d.state, &e, NULL), 0);
+    CHECK(e.friction > 3 * limit * reach && e.friction < 4 * limit * reach, "friction %g of %g", e.friction,
+          4 * limit * reach);
+    CHECK_NEAR(e.viscous - before.viscous, 0, 0.01 * limit * reach, "nothing is viscous");
+    restitute_contact_law_destroy(law);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(normal_force_is_that_of_hertz),
+        cmocka_unit_test(tangential_force_follows_mindlin_and_deresiewicz),
+        cmocka_unit_test(paths_do_not_depend_on_directions),
+        cmocka_unit_test(force_turns_with_the_normal),
+        cmocka_unit_test(stored_energy_is_the_work),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

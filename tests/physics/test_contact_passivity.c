@@ -1,0 +1,67 @@
+/* No contact gives more work than it took, whatever is done to it, and nothing but numbers comes out.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/drive.h"
+#include "../support/random.h"
+
+/* Random solids: moduli of some Pa, times about the time step of 1 s. */
+static restitute_material *random_material(uint64_t *seed)
+{
+    double tau[3], g[3];
+    const size_t n = (size_t)random_below(seed, 4);
+    for (size_t k = 0; k < n; k++)
+        tau[k] = random_log(seed, 0.01, 1000), g[k] = random_log(seed, 0.01, 10);
+    const int flows = n > 0 && random_below(seed, 4) == 0, dashpot = random_below(seed, 4) == 0;
+    restitute_material *material;
+    restitute_error error;
+    CHECK(restitute_material_prony(flows ? 0 : 1, dashpot ? random_log(seed, 0.01, 100) : 0, n, tau, g,
+                                   random_in(seed, 0, 0.5), &material, &error) == 0,
+          "%s", error.message);
+    return material;
+}
+
+/* Approach, retreat, stop, oscillate, slide round corners, with steps of several lengths; then apart. */
+static void drive_at_random(struct drive *d, uint64_t *seed, double size)
+{
+    const int legs = 3 + random_below(seed, 12);
+    for (int leg = 0; leg < legs; leg++) {
+        const int n = 10 + random_below(seed, 30), kind = leg == 0 ? 0 : random_below(seed, 4);
+        const double far = size * random_in(seed, leg == 0 ? 0.3 : -1, 1.5);
+        const double x = size * random_in(seed, -1, 1), y = size * random_in(seed, -1, 1);
+        if (random_below(seed, 3) == 0) drive_set_step(d, random_log(seed, 0.1, 10));
+        for (int i = 0; i < n; i++) {
+            const double swing = kind == 3 ? sin(0.7 * i) : 1, slide = kind == 0 ? 0 : swing / n;
+            drive_by(d, kind == 2 ? 0 : swing * far / n, slide * x, slide * y);
+        }
+    }
+    while (d->motion.overlap > -size)
+        drive_by(d, -0.1 * size, 0.01 * size, 0);
+}
+
+/* What velocity Verlet takes for the work is the trapezoid; beyond its own error and rounding (a thousand steps of 1e-16)
+ * none must be gained. */
+static void no_drive_gains_work(void **unused)
+{
+    (void)unused;
+    double least = 0, allowed = 0;
+    for (uint64_t i = 0; i < 10000; i++) {
+        uint64_t seed = i;
+        restitute_material *material = random_material(&seed);
+        restitute_contact_law *law = law_of(material, 8, 0);
+        const double size = random_log(&seed, 1e-6, 1e-2);
+        struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
+        drive_at_random(&d, &seed, size);
+        CHECK(d.force.normal <= 0, "drive %llu: has not ended", (unsigned long long)i);
+        const double scale = d.largest_force * size, gain = -d.work - d.trapezoid - 1e-12 * scale;
+        CHECK(gain <= 0, "drive %llu: gained %.3g of %.3g J", (unsigned long long)i, gain, scale);
+        if (scale > 0) least = fmin(least, d.work / scale), allowed += d.trapezoid / scale / 10000;
+        restitute_contact_law_destroy(law);
+        restitute_material_destroy(material);
+    }
+    print_message("work over force times path: at least %.3g; error of the trapezoid in the mean %.3g\n", least, allowed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_drive_gains_work)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,110 @@
+/* The core with traps on: methods euler and sync, two bodies, materials, batches.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/traps.h"
+
+static void euler_over_the_domain(void **state)
+{
+    const int counts[] = {150, 150, 300};
+    (void)state;
+    sweep_known(restitute_method_euler(), 1e-2, 1);
+    sweep_random(restitute_method_euler(), 7, counts, 1e-2, 3000000);
+}
+
+static void sync_over_the_domain(void **state)
+{
+    const int counts[] = {1000, 1000, 1000};
+    (void)state;
+    sweep_known(restitute_method_sync(), 1e-3, 1);
+    sweep_known(restitute_method_sync(), 1e-6, 1);
+    sweep_random(restitute_method_sync(), 8, counts, 1e-3, 100000000);
+    sweep_random(restitute_method_sync(), 9, counts, 1e-5, 100000000);
+}
+
+static void hosts_that_trap(void **state)
+{
+    (void)state;
+    host_that_traps(restitute_method_euler());
+    host_that_traps(restitute_method_sync());
+}
+
+/* Numbers of a scene, moduli at any time, pairs of materials, critical psi. */
+static void what_is_no_impact(void **state)
+{
+    uint64_t seed = 10;
+    (void)state;
+    for (int n = 0; n < 1500; n++) {
+        struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n), e = draw_case(&seed, (enum reach)(n % REACHES), n);
+        restitute_material *pair = NULL;
+        restitute_numbers numbers;
+        restitute_error error;
+        int status = RESTITUTE_OK;
+        restitute_numbers_init(&numbers);
+        if (d.is_scene) WITHOUT_TRAPS(status, restitute_scene_numbers(&d.scene, &numbers, &error), "%s", d.text);
+        if (d.material && e.material)
+            WITHOUT_TRAPS(status, restitute_material_pair(d.material, e.material, &pair, &error), "%d", n);
+        const double times[] = {5e-324, 1e-300, 1e-30, 1, 1e300, INFINITY};
+        for (int i = 0; i < 6 && d.material; i++)
+            WITHOUT_TRAPS(status, isnan(restitute_material_modulus(d.material, times[i])), "at %g", times[i]);
+        restitute_material_destroy(d.material);
+        restitute_material_destroy(e.material);
+        restitute_material_destroy(pair);
+    }
+}
+
+/* Two spheres, or a sphere and a wall, straight and aslant. */
+static void two_bodies(void **state)
+{
+    const double tau = 1e-3, g = 2e6;
+    restitute_material *rubber = solid_of(1e6, 0, 1, &tau, &g);
+    restitute_solver *solver = solver_of(restitute_method_sync(), 1e-3, 100000000);
+    const double frictions[] = {0, 0.3, INFINITY}, aslant[] = {0, 0.1, 3};
+    (void)state;
+    for (int k = 0; k < 18; k++) {
+        restitute_body a, b;
+        restitute_contact contact;
+        restitute_result result;
+        int status;
+        restitute_body_init(&a);
+        restitute_body_init(&b);
+        restitute_contact_init(&contact);
+        restitute_result_init(&result);
+        contact.material = rubber, contact.friction = frictions[k % 3];
+        a.radius = 0.01, a.mass = 0.004, a.velocity[0] = 1, a.velocity[1] = aslant[k / 3 % 3], a.spin[2] = k % 2;
+        b.radius = k < 9 ? INFINITY : 0.01, b.mass = 0.004, b.normal[0] = -1, b.position[0] = k < 9 ? 0.01 : 0.02;
+        WITHOUT_TRAPS(status, restitute_collide(solver, &contact, &a, &b, &result, NULL), "case %d", k);
+        CHECK(status == RESTITUTE_OK, "case %d: %d", k, status);
+    }
+    restitute_material_destroy(rubber);
+    restitute_solver_destroy(solver);
+}
+
+/* Workers take the caller's traps: where the host traps, so would they. */
+static void batches_in_a_host_that_traps(void **state)
+{
+    enum { n = 64 };
+    restitute_impact impacts[n];
+    int statuses[n];
+    uint64_t seed = 4;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        draw_impact(&seed, USUAL, &impacts[i]);
+        impacts[i].chi = 7.0 / 6;
+    }
+#ifdef RESTITUTE_HAVE_FEENABLEEXCEPT
+    feenableexcept(TRAPPED);
+#endif
+    const int status = restitute_solve_many(NULL, n, impacts, NULL, statuses, 4, NULL);
+#ifdef RESTITUTE_HAVE_FEENABLEEXCEPT
+    fedisableexcept(TRAPPED);
+#endif
+    CHECK(status >= 0, "%d", status);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(euler_over_the_domain), cmocka_unit_test(sync_over_the_domain),
+        cmocka_unit_test(hosts_that_trap),       cmocka_unit_test(what_is_no_impact),
+        cmocka_unit_test(two_bodies),            cmocka_unit_test(batches_in_a_host_that_traps)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
