@@ -125,6 +125,8 @@ RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, d
  *  tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. Where that ratio and beta change
  *  with time (unlike nu of which one relaxes), the instantaneous moduli are taken.
  *
+ *  The work grows as the square of the number of terms: 1000 with 1000 take half a second.
+ *
  *  @param material1,material2  any two materials; may be the same
  *  @param pair                 the new solid, to be destroyed like any material
  *  @return ERROR_DOMAIN also if the pair leaves the ranges of a material, which takes moduli some 60 decades apart

@@ -1,5 +1,5 @@
-! A library that exports a foreign name, calls the Fortran run-time library, takes memory, prints and ends the program: the checks must
-! find all of it.
+! A library that exports a foreign name, takes memory unseen, calls the Fortran run-time library, prints and ends the program: the
+! checks must find all of it.
 ! SPDX-License-Identifier: BSD-3-Clause
 subroutine leaky_name(value) bind(c, name="leaky_name")
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_null_char
@@ -14,8 +14,8 @@ subroutine leaky_name(value) bind(c, name="leaky_name")
     subroutine end_program() bind(c, name="abort")
     end subroutine end_program
   end interface
-  real(c_double) :: room(int(value))
-  room = value
-  print *, room
+  real(c_double) :: copies(int(value))
+  copies = value
+  print *, copies
   if (puts("value"//c_null_char) < 0) call end_program()
 end subroutine leaky_name
