@@ -43,7 +43,7 @@ class Scene:
         self.run(f"""
             units {units}
             atom_style sphere
-            atom_modify map array
+            atom_modify map array sort 0 0
             comm_modify vel yes
             boundary {boundary}
             newton {newton}

@@ -17,13 +17,13 @@ MOTION = f"""
 
 
 def impacts(dummy_first=False):
-    """Two spheres that hit obliquely and a third that hits the floor, each with spin; all touch after 100 steps."""
+    """A sphere that hits the floor and two that hit each other obliquely, with spins; all touch after 100 steps."""
     scene = Scene()
     if dummy_first:
         scene.add((0.3, 0.3, 0.3), (0, 0, 0))
+    scene.add((0.05, 0, -0.09500001), (0.02, -0.01, -0.03), (5, 0, -1))
     scene.add((0, 0, 0), (0.03, 0.02, 0.01), (1, -2, 3), radius=0.005)
     scene.add((0.0119, 0.0015460, 0), (0, 0, 0.005), (0, 4, 0), radius=0.007)
-    scene.add((0.05, 0, -0.09500001), (0.02, -0.01, -0.03), (5, 0, -1))
     scene.run(LAW + MOTION)
     return scene
 
@@ -60,7 +60,7 @@ scene = Scene()
 scene.run(f"clear\nread_restart middle.restart\n{LAW}{MOTION}")
 same("a restart with the law given again", finish(scene, 200), whole)
 
-# Without the first atom LAMMPS moves the last one into its place, and the order of the atoms is another.
+# Without the first atom LAMMPS moves the last one into its place: the two that touch are now in the other order.
 scene = impacts(dummy_first=True)
 scene.run("run 100\ngroup dummy id 1\ndelete_atoms group dummy compress no")
 order = scene.lammps.extract_atom("id")

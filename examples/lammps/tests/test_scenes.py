@@ -16,12 +16,12 @@ def end(scene, tag=1):
     return motion
 
 
-def pair(length=1, **scene_words):
-    """Two spheres; lengths in units of so many to the metre."""
+def pair(length=1, turned=lambda a: a, **scene_words):
+    """Two spheres; lengths in units of so many to the metre, in a frame of reference that may be turned."""
     scene = Scene(half_width=0.5 * length, **scene_words)
     grams = 1e-3 if length == 100 else 1
-    scene.add((0, 0, 0), (SPEED * length, ALONG * length, 0), (0, 3, 2), RADIUS * length, 2000 * grams)
-    scene.add((3 * RADIUS * length, 0, 0), (0, 0, 0), radius=2 * RADIUS * length, density=1500 * grams)
+    scene.add((0, 0, 0), turned((SPEED * length, ALONG * length, 0)), turned((0, 3, 2)), RADIUS * length, 2000 * grams)
+    scene.add(turned((3 * RADIUS * length, 0, 0)), (0, 0, 0), radius=2 * RADIUS * length, density=1500 * grams)
     scene.run(f"pair_style restitute\npair_coeff * * {WORDS}")
     return scene
 
@@ -43,6 +43,14 @@ si = end(pair())
 cgs = end(pair(100, units="cgs"))
 # Rounding of units, grown in 400 steps.
 near("centimetres and grams", [v / 100 for v in cgs[:3]] + list(cgs[3:]), si, 1e-9)
+turn = ((2 / 3, -1 / 3, 2 / 3), (2 / 3, 2 / 3, -1 / 3), (-1 / 3, 2 / 3, 2 / 3))
+
+
+def turned(a):
+    return tuple(sum(row[k] * a[k] for k in range(3)) for row in turn)
+
+
+near("a turned frame", end(pair(turned=turned)), turned(si[:3]) + turned(si[3:]), 1e-9)
 near("each contact on one process", end(pair(newton="on")), si, 0)
 
 still = end(wall("xplane 0 NULL"))
