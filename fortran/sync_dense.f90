@@ -18,6 +18,7 @@ module rst_sync_dense
   integer(ip), parameter :: most_steps = 40
   !> Part of a step that Newton's last step may be: what it changes is then taken as linear.
   real(dp), parameter :: sharpness = 1.0e-3_dp
+  real(dp), parameter :: shortest = 1.0e-100_dp  !! step: edges that are free at once are not told from each other
   real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
 
   !> A relaxation time at a level: g M, g P (in the restitution: what is left of that of the node at the edge), what is left of
@@ -263,6 +264,7 @@ contains
     integer(ip) :: i, k
     failed = .true.
     do i = 1, most_steps
+      if (h < shortest) return
       motion = on_path(path, t + h)
       bend = (motion%acceleration + mass_factor*before%force)/(2*h)
       excess = g_inf*(motion%depth - radius**2) + eta*motion%velocity

@@ -130,7 +130,7 @@ contains
         missing = missing + share(i)*h*root_law(h*place(i))
       end do
     else ! substituted such that the root is no more at its end
-      rise = (c - before_c)/before
+      if (before > 0) rise = (c - before_c)/before
       left = min(h, 2*p%slack/(-slope + sqrt(max(0.0_dp, slope**2 - 4*bend*p%slack))))
       do i = 1, 3
         missing = missing + share(i)*2*place(i)*left*root_law(left*(1 - place(i)**2))

@@ -165,7 +165,7 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
     problem->solid.tau = solver->workspace.terms + solver->workspace.terms_size / rst_term_arrays;
     int status = input->scene ? rst_problem_from_scene(input->scene, &input->numbers, problem, error)
                               : rst_problem_from_impact(input->impact, problem, error);
-    problem->time_step = o->time_step / problem->time_unit;
+    if (!status) problem->time_step = o->time_step / problem->time_unit;
     return status;
 }
 

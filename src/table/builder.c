@@ -92,7 +92,7 @@ static void set_probes(struct restitute_table_builder *b)
 {
     const double decade = log(10);
     const double speed = (b->high[0] - b->low[0]) / decade / (b->family.of_contact ? 5 : 1);
-    const double gamma = (b->high[1] - b->low[1]) / decade;
+    const double gamma = b->active[1] ? (b->high[1] - b->low[1]) / decade : 0; /* infinity is no axis */
     const int fine = b->options.tolerance < 3e-6;
     b->probe[RST_SPEED] = speed < 0.5 ? 9 : speed < 2 ? 17 : 33;
     b->probe[RST_GAMMA] = gamma < 0.5 ? 9 : gamma < 2 ? 17 : 33;
