@@ -51,7 +51,7 @@ absent report-stability.csv.partial
 
 # A map that was stopped in the middle of a line goes on from there; of other settings it is refused.
 {
-    printf '# %s, budget 60 s, quick 1, methods euler paper-euler\n' "$("$RESTITUTE" --version)"
+    printf '# %s, budget 60 s, quick 1, methods euler paper-euler\n' "$("$RESTITUTE" --version | head -n 1)"
     grep -e '^euler' -e '^paper-euler' report-stability.csv | head -40
     printf 'paper-euler,10,0.01'
 } >again-stability.csv.partial
