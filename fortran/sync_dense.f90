@@ -10,6 +10,7 @@ module rst_sync_dense
                         parabola_through, integrated, integrated_twice
   use rst_sync_grid, only: grid_type, level_type, node_type, spread_nodes, mass_factor
   use rst_sync_guess, only: first_return
+  use rst_sync_sweeps, only: shortest
   use rst_sync_loading, only: by_parts, longest_panel, first_levels
   implicit none (type, external)
   private
@@ -18,7 +19,6 @@ module rst_sync_dense
   integer(ip), parameter :: most_steps = 40
   !> Part of a step that Newton's last step may be: what it changes is then taken as linear.
   real(dp), parameter :: sharpness = 1.0e-3_dp
-  real(dp), parameter :: shortest = 1.0e-100_dp  !! step: edges that are free at once are not told from each other
   real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
 
   !> A relaxation time at a level: g M, g P (in the restitution: what is left of that of the node at the edge), what is left of

@@ -6,7 +6,7 @@ module rst_sync_restitution
                         integrated, integrated_twice, shares, memory_shares
   use rst_sync_grid, only: level_type, node_type, at_level, mass_factor
   use rst_sync_guess, only: is_likely, steps_ahead, ahead, first_return
-  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding
+  use rst_sync_sweeps, only: settle, is_lost, answer, most_sweeps, rounding, shortest
   use rst_sync_loading, only: remember_speeds
   implicit none (type, external)
   private
@@ -58,7 +58,9 @@ contains
       if (l > n) loading(:, l + q) = loading(:, l + q)*loading(:, l)
     end do
     previous = huge(1.0_dp)
+    failed = .true.
     do sweep = 1, most_sweeps
+      if (x(1) < shortest) return
       spacing = spacing_of(x)
       pushes = parabola_through(spacing, push)
       !$omp simd

@@ -286,7 +286,8 @@ contains
       term(k)%age_before = term(k)%age
       term(k)%age = t%decay*term(k)%age
     end do
-    step%drop = min(1.0_dp, step%start_response/step%end_response)
+    step%drop = 1
+    if (step%start_response < step%end_response) step%drop = step%start_response/step%end_response
   end subroutine measure_step
 
   !> Predict the force at the end of the step, move the elements, correct. Where force and velocity at the end of the step hang

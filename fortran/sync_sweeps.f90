@@ -3,9 +3,10 @@ module rst_sync_sweeps
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: settle, is_lost, answer, most_sweeps, rounding
+  public :: settle, is_lost, answer, most_sweeps, rounding, shortest
 
   integer(ip), parameter :: most_sweeps = 100
+  real(dp), parameter :: shortest = 1.0e-100_dp    !! step: edges that are free at once are not told from each other
   real(dp), parameter :: rounding = 16*epsilon(1.0_dp)  !! of differences of velocities and depths of order 1
 
 contains
