@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed ends the run with a message that names it; a time step that is long for a contact is told."""
+"""What cannot be computed ends the run with a message that names it; a time step too long for a contact is reported."""
 
 from scenes import MATERIALS, Scene, check, material
 
