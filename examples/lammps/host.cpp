@@ -36,6 +36,8 @@ int LAMMPS_NS::check_host(LAMMPS *lmp, const char *who)
         lmp->error->all(FLERR, "{}: needs atom_style sphere", who);
     if (!lmp->comm->ghost_velocity) lmp->error->all(FLERR, "{}: needs comm_modify vel yes", who);
     if (lmp->update->whichflag == 2) lmp->error->all(FLERR, "{}: its contacts need time steps, not a minimizer", who);
+    if (utils::strmatch(lmp->update->integrate_style, "^respa"))
+        lmp->error->all(FLERR, "{}: needs run_style verlet", who);
     for (const Fix *fix : lmp->modify->get_fix_list()) {
         if (fix->rigid_flag) lmp->error->all(FLERR, "{}: spheres of rigid bodies are not supported", who);
         if (utils::strmatch(fix->style, "^freeze")) frozen |= fix->groupbit;

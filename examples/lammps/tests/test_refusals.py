@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed ends the run with a message that names it; a time step that is long for a contact is told."""
+"""What cannot be computed ends the run with a message that names it; a time step too long for a contact is reported."""
 
 from scenes import MATERIALS, Scene, check, material
 
@@ -40,6 +40,7 @@ refused("a pair of types without law", ["types 1 2", "partner"],
         LAW.replace("* *", "1 1") + f"pair_coeff 2 2 {glass} friction 0.3\n" + RUN, kinds=2)
 refused("rigid bodies", ["rigid bodies"], LAW + "fix move all rigid single\nrun 1")
 refused("a minimizer", ["minimizer"], LAW + "minimize 0 1e-9 10 10")
+refused("rRESPA", ["run_style verlet"], LAW + "run_style respa 2 2\n" + RUN)
 refused("no velocities of ghosts", ["comm_modify vel yes"], "comm_modify vel no\n" + LAW + RUN)
 refused("a time step of less than ten in a contact", ["atoms 1 and 2", "step 1", "less than ten steps"],
         LAW + RUN.replace("1e-6", "2e-4"))
