@@ -270,14 +270,15 @@ contains
       if (scene%g_inf > 0) length = u - spring/scene%g_inf
     end function elongated
 
-    !> The slip velocity that brings the force of the leaving node to zero.
+    !> The slip velocity that brings the force of the leaving node to zero; 0 in a step of no length.
     pure function last_slip() result(slip)
-      real(dp) :: slip
+      real(dp) :: slip, response
       slip = 0
-      if (scene%no_slip /= 0) return
+      response = step%end_response + step%drop*step%start_response
+      if (scene%no_slip /= 0 .or. .not. response > 0) return
       slip = scene%g_inf*state%shift - alpha + scene%eta*state%velocity - step%start_response*(1 - step%drop)*kappa
       slip = slip + sum(term%stress) - sum(now%decay*before(i, 1:scene%n_terms))
-      slip = slip/(step%end_response + step%drop*step%start_response)
+      slip = slip/response
     end function last_slip
   end subroutine post_nodes
 

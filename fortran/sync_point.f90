@@ -70,7 +70,8 @@ contains
       term(k)%beta_sum = t%decay*term(k)%beta_sum
       term(k)%age = t%decay*term(k)%age
     end do
-    span%drop = min(1.0_dp, span%start_response/span%end_response)
+    span%drop = 1
+    if (span%start_response < span%end_response) span%drop = span%start_response/span%end_response
   end subroutine measure_span
 
   !> The contact point at the end of the step.

@@ -6,9 +6,9 @@
 
 static void over_the_domain(void **state)
 {
-    const int counts[] = {12, 8, 8};
+    const int counts[] = {8, 6, 6};
     (void)state;
-    sweep_known(restitute_method_bem(), 1e-2, 11);
+    sweep_known(restitute_method_bem(), 1e-2, 19);
     sweep_random(restitute_method_bem(), 14, counts, 1e-2, 100000000);
 }
 

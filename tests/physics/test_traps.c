@@ -4,7 +4,7 @@
 
 static void euler_over_the_domain(void **state)
 {
-    const int counts[] = {150, 150, 300};
+    const int counts[] = {100, 100, 200};
     (void)state;
     sweep_known(restitute_method_euler(), 1e-2, 1);
     sweep_random(restitute_method_euler(), 7, counts, 1e-2, 3000000);
@@ -12,7 +12,7 @@ static void euler_over_the_domain(void **state)
 
 static void sync_over_the_domain(void **state)
 {
-    const int counts[] = {1000, 1000, 1000};
+    const int counts[] = {300, 300, 300};
     (void)state;
     sweep_known(restitute_method_sync(), 1e-3, 1);
     sweep_known(restitute_method_sync(), 1e-6, 1);
@@ -32,7 +32,7 @@ static void what_is_no_impact(void **state)
 {
     uint64_t seed = 10;
     (void)state;
-    for (int n = 0; n < 1500; n++) {
+    for (int n = 0; n < 900; n++) {
         struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n), e = draw_case(&seed, (enum reach)(n % REACHES), n);
         restitute_material *pair = NULL;
         restitute_numbers numbers;

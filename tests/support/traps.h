@@ -104,7 +104,8 @@ static inline void sweep_random(const restitute_method *method, uint64_t seed, c
     restitute_solver_destroy(solver);
 }
 
-/* Every `every`-th of the reference values; the Prony solid of 30 terms; solids of every kind, rotating or not. */
+/* Every `every`-th of: the reference values; solids of every kind, rotating or not; the Prony solid of 30 terms, and one
+ * that sinks. */
 static inline void sweep_known(const restitute_method *method, double tolerance, int every)
 {
     restitute_solver *solver = solver_of(method, tolerance, 1000000000);
@@ -134,8 +135,9 @@ static inline void sweep_known(const restitute_method *method, double tolerance,
     restitute_scene_init(&d.scene);
     d.scene.radius1 = 0.005, d.scene.mass1 = 0.004;
     const double frictions[] = {0, 0.3, INFINITY};
-    for (int i = 0; i < 3; i++)
-        for (double v = 1e-4; v < 20; v *= 100) {
+    for (int i = 0, k = 0; i < 3; i++)
+        for (double v = 1e-4; v < 20; v *= 100, k++) {
+            if (k % every) continue;
             d.scene.material = pib;
             d.scene.friction = frictions[i], d.scene.normal_speed = v, d.scene.tangential_speed = v;
             snprintf(d.text, sizeof d.text, "polyisobutylene, friction %g, %g m/s", frictions[i], v);
