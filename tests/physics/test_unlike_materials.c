@@ -255,7 +255,7 @@ static void dashpots_and_bad_arguments(void **state)
 static void two_dashpots_share_by_their_viscosities(void **state)
 {
     (void)state;
-    restitute_material *a, *b, *c, *d;
+    restitute_material *a = NULL, *b = NULL, *c = NULL, *d = NULL;
     CHECK(restitute_material_kelvin_voigt(3, 2, 0.2, &a, NULL) == 0 &&
               restitute_material_kelvin_voigt(1, 6, 0.45, &b, NULL) == 0 &&
               restitute_material_elastic(2, 0.2, &c, NULL) == 0 && restitute_material_elastic(6, 0.45, &d, NULL) == 0,
