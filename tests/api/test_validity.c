@@ -62,6 +62,8 @@ static void ratios_are_what_they_say(void **state)
     CHECK_NEAR(r.speed_ratio, 2 / sqrt(8e10 / 7800), 1e-12, "v/c_s");
     CHECK_NEAR(r.radius_ratio, r.max_contact_radius / 0.005, 1e-15, "a/R");
     CHECK_NEAR(r.displacement_ratio, (1 + 0.5) * r.max_indentation / 2 / r.max_contact_radius, 1e-15, "travel");
+    scene.tangential_speed = -1, scene.spin1 = -100; /* the other way */
+    CHECK(solve_scene(default_options(), &scene).result.displacement_ratio == r.displacement_ratio, "sign of sliding");
     restitute_options all = default_options();
     all.speed_limit = all.radius_limit = all.displacement_limit = 0;
     CHECK(solve_scene(all, &scene).result.flags == 7, "limits can be set");
