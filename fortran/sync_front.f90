@@ -362,14 +362,14 @@ contains
     integer(ip) :: trial
     turns = .false.
     at_edge = 0
-    unseen = 0
-    if (next > scene%n) unseen = unseen_force(m, edge, scene, end, fade, trace, node)*reach
     fall = p%side*answer_of(rule, span)
     open = end%fresh + p%side*without_force(rule, span, p)
     guess = force_ahead(span%h, p)
     now%slack = open - fall*guess
     now%force = guess
     if (p%front < 0) return
+    unseen = 0
+    if (next > scene%n) unseen = unseen_force(m, edge, scene, end, fade, trace, node)*reach
     if (rule%feedback > explicit_below) guess = implied(m, open, p%side*fall, 0.0_dp, end, term, p)
     do trial = 1, most_trials
       now%slack = open - fall*guess
