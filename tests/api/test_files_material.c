@@ -182,8 +182,8 @@ static void prony_csv(void **state)
                made_prony(2e6, 0, 0.25));
     char here[2048], absolute[4096];
     CHECK(getcwd(here, sizeof here) != NULL, "no current directory");
-    snprintf(absolute, sizeof absolute, HEAD("prony") ", \"equilibrium_modulus_pa\": 2e6, \"prony_csv\": \"%s/" CSV "\"}",
-             here);
+    snprintf(absolute, sizeof absolute,
+             HEAD("prony") ", \"equilibrium_modulus_pa\": 2e6, \"prony_csv\": \"%s/" CSV "\"}", here);
     write_text(FOLDER_JSON, absolute); /* not beside the JSON file */
     check_same(read_material(FOLDER_JSON, NULL), made_prony(2e6, 0, 0.25));
 }
@@ -506,7 +506,8 @@ static void unknown_and_repeated_keys(void **state)
          FORMAT,
          {"line 3", "why"}},
         {"key in a text with quotes",
-         "{\"name\": \"a \\\" \\\"colour\\\": \", \"poisson_ratio\": 0, \"model\": \"elastic\", \"modulus_pa\": 1,\n\"colour\": 3}",
+         "{\"name\": \"a \\\" \\\"colour\\\": \", \"poisson_ratio\": 0, \"model\": \"elastic\", \"modulus_pa\": "
+         "1,\n\"colour\": 3}",
          FORMAT,
          {"line 2", "colour"}},
         {"repeated key", HEAD("elastic") ", \"modulus_pa\": 1,\n\"modulus_pa\": 1}", FORMAT, {"line 2", "modulus_pa"}},

@@ -178,8 +178,8 @@ static void slow_terms_count_in_long_contacts(void **state)
         for (double g = 1e-3; g < 5; g *= 1.3) {
             restitute_material *solid = solid_of(1, eta, 1, &tau, &g);
             struct restitute_result r = solve_impact(default_options(), impact_on(solid, solid_sphere, 1)).result;
-            CHECK(r.merging_bound <= 2e-4, "eta %g, g %g: bound %g above its shares of the tolerance, 1e-4 and 1e-4", eta,
-                  g, r.merging_bound);
+            CHECK(r.merging_bound <= 2e-4, "eta %g, g %g: bound %g above its shares of the tolerance, 1e-4 and 1e-4",
+                  eta, g, r.merging_bound);
             merged += (int)r.terms_merged;
             restitute_material_destroy(solid);
         }

@@ -60,7 +60,8 @@ static void what_is_no_impact(void **state)
     uint64_t seed = 10;
     (void)state;
     for (int n = 0; n < 900; n++) {
-        struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n), e = draw_case(&seed, (enum reach)(n % REACHES), n);
+        struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n),
+                     e = draw_case(&seed, (enum reach)(n % REACHES), n);
         restitute_material *pair = NULL;
         restitute_numbers numbers;
         restitute_error error;
@@ -129,10 +130,12 @@ static void batches_in_a_host_that_traps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(euler_over_the_domain), cmocka_unit_test(sync_over_the_domain),
-        cmocka_unit_test(ends_of_the_dimensionless_numbers),
-        cmocka_unit_test(hosts_that_trap),       cmocka_unit_test(what_is_no_impact),
-        cmocka_unit_test(two_bodies),            cmocka_unit_test(batches_in_a_host_that_traps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(euler_over_the_domain),
+                                       cmocka_unit_test(sync_over_the_domain),
+                                       cmocka_unit_test(ends_of_the_dimensionless_numbers),
+                                       cmocka_unit_test(hosts_that_trap),
+                                       cmocka_unit_test(what_is_no_impact),
+                                       cmocka_unit_test(two_bodies),
+                                       cmocka_unit_test(batches_in_a_host_that_traps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

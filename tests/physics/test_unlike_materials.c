@@ -310,8 +310,7 @@ static struct drawn draw_any(uint64_t *random, double decades, int at_ends)
     if (random_below(random, 3) == 0 && m.n > 0) m.g_inf = 0;
     if (random_below(random, 2)) m.eta = 0;
     if (m.eta > 0 && at_ends) m.eta = fmin(1e60, fmax(1e-60, m.eta * m.eta));
-    const int status =
-        restitute_material_prony(m.g_inf, m.eta, (size_t)m.n, m.tau, m.g, m.nu, &m.material, &error);
+    const int status = restitute_material_prony(m.g_inf, m.eta, (size_t)m.n, m.tau, m.g, m.nu, &m.material, &error);
     CHECK(status == RESTITUTE_OK || strstr(error.message, "appears twice"), "%s", error.message);
     if (status) m.material = NULL;
     return m;
