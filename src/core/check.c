@@ -24,5 +24,8 @@ int rst_check_within(double value, struct rst_range range, double besides, const
 {
     if ((value >= range.low && value <= range.high) || value == besides) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]%s", name, value, range.low,
-                      range.high, besides == 0 ? " or 0" : isinf(besides) ? " or inf" : "");
+                      range.high,
+                      besides == 0     ? " or 0"
+                      : isinf(besides) ? " or inf"
+                                       : "");
 }

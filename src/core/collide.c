@@ -123,9 +123,8 @@ static vector direction(vector a, vector fallback)
 static vector across(vector n)
 {
     vector axis = {{0, 0, 0}};
-    int smallest = fabs(n.x[0]) < fabs(n.x[1]) ? 0 : 1;
-    if (fabs(n.x[2]) < fabs(n.x[smallest])) smallest = 2;
-    axis.x[smallest] = 1;
+    const int smaller = fabs(n.x[0]) < fabs(n.x[1]) ? 0 : 1; /* below 0.71 */
+    axis.x[smaller] = 1;
     vector c = cross(n, axis);
     return combine(1 / length(c), c, 0, c);
 }

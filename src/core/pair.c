@@ -96,8 +96,8 @@ static int check_sound(const struct rst_chain *a, const double *m_a, const struc
     if (a->eta > 0 && b->eta > 0) return RESTITUTE_OK; /* rigid; the viscosities are in series by construction */
     double expected = a->eta > 0 ? first_b : b->eta > 0 ? first_a : first_a / (first_a + first_b) * first_b;
     if (fabs(first - expected) <= 1e-9 * expected) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "terms have moduli below %g Pa, which no material has", rst_moduli.low);
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "terms have moduli below %g Pa, which no material has",
+                      rst_moduli.low);
 }
 
 int restitute_material_pair(const restitute_material *material1, const restitute_material *material2,

@@ -67,11 +67,11 @@ void rst_name_limits(const restitute_options *options, const restitute_result *r
         const char *name;
         double value, limit;
         int flag;
-    } limits[] = {{"v_z0/wave speed", result->speed_ratio, options->speed_limit, RESTITUTE_FLAG_FAST},
-                  {"contact radius/R", result->radius_ratio, options->radius_limit, RESTITUTE_FLAG_LARGE_CONTACT},
-                  {"slide/contact radius", result->displacement_ratio, options->displacement_limit,
-                   RESTITUTE_FLAG_LONG_SLIDE},
-                  {"|Dundurs' beta|", fabs(result->dundurs_beta), options->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
+    } limits[] = {
+        {"v_z0/wave speed", result->speed_ratio, options->speed_limit, RESTITUTE_FLAG_FAST},
+        {"contact radius/R", result->radius_ratio, options->radius_limit, RESTITUTE_FLAG_LARGE_CONTACT},
+        {"slide/contact radius", result->displacement_ratio, options->displacement_limit, RESTITUTE_FLAG_LONG_SLIDE},
+        {"|Dundurs' beta|", fabs(result->dundurs_beta), options->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
         if (result->flags & limits[i].flag)
             rst_remark(error, "%s = %.3g passes the limit %g", limits[i].name, limits[i].value, limits[i].limit);

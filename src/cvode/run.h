@@ -43,7 +43,8 @@ struct run {
     const struct run_setup *setup;
     struct trace *trace;   /* of the compression: written by a run without elements, read by all */
     struct event_log *log; /* NULL: not wanted */
-    void (*sample)(struct run *run); /* after each part of a step, while run_look() sees all of it; NULL: nobody looks */
+    void (*sample)(
+        struct run *run); /* after each part of a step, while run_look() sees all of it; NULL: nobody looks */
     void (*observe)(struct run *run, double from, double to); /* then, with the memory of elements at its end, and once
                                                                  more after an event, from where to where it was */
     void *observer;

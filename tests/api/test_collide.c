@@ -286,8 +286,8 @@ static int touch(double radius1, double radius2, double gap)
     a.radius = radius1, b.radius = radius2, a.mass = b.mass = 0.004, a.velocity[0] = 1, b.normal[0] = -1;
     b.position[0] = radius1 + (isinf(radius2) ? 0 : radius2) + gap;
     const int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
-    CHECK(status == RESTITUTE_OK || (status == RESTITUTE_ERROR_DOMAIN && (strstr(error.message, "do not touch") ||
-                                                                         strstr(error.message, "overlap"))),
+    CHECK(status == RESTITUTE_OK || (status == RESTITUTE_ERROR_DOMAIN &&
+                                     (strstr(error.message, "do not touch") || strstr(error.message, "overlap"))),
           "%d %s", status, error.message);
     return status == RESTITUTE_OK;
 }

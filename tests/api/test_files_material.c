@@ -183,6 +183,12 @@ static void prony_csv(void **state)
     check_same(read_json(json, NULL), made_prony(2e6, 0, 0.25));
     check_same(read_json(HEAD("prony") ", \"equilibrium_modulus_pa\": 2e6, \"prony_csv\": \"" FOLDER_CSV "\"}", NULL),
                made_prony(2e6, 0, 0.25));
+    char here[2048], absolute[4096];
+    CHECK(getcwd(here, sizeof here) != NULL, "no current directory");
+    snprintf(absolute, sizeof absolute,
+             HEAD("prony") ", \"equilibrium_modulus_pa\": 2e6, \"prony_csv\": \"%s/" CSV "\"}", here);
+    write_text(FOLDER_JSON, absolute); /* not beside the JSON file */
+    check_same(read_material(FOLDER_JSON, NULL), made_prony(2e6, 0, 0.25));
 }
 
 static void plain_csv(void **state)
@@ -502,6 +508,11 @@ static void unknown_and_repeated_keys(void **state)
          HEAD("prony") ", \"terms\": [\n" TERM("1", "1") ",\n{\"tau_s\": 2, \"modulus_pa\": 1, \"why\": 0}]}",
          FORMAT,
          {"line 3", "why"}},
+        {"key in a text with quotes",
+         "{\"name\": \"a \\\" \\\"colour\\\": \", \"poisson_ratio\": 0, \"model\": \"elastic\", \"modulus_pa\": "
+         "1,\n\"colour\": 3}",
+         FORMAT,
+         {"line 2", "colour"}},
         {"repeated key", HEAD("elastic") ", \"modulus_pa\": 1,\n\"modulus_pa\": 1}", FORMAT, {"line 2", "modulus_pa"}},
         {"repeated text", HEAD("elastic") ", \"modulus_pa\": 1,\n\"name\": \"n\"}", FORMAT, {"line 2", "name"}},
         {"repeated key in a term",

@@ -6,8 +6,8 @@
 
 static void all_examples_are_read(void **state)
 {
-    const char *const names[] = {"polyisobutylene.json", "polyisobutylene.csv", "steel.json", "aluminium.json",
-                                 "soda_lime_glass.json", "aluminium_oxide.json"};
+    const char *const names[] = {"polyisobutylene.json", "polyisobutylene.csv",  "steel.json",
+                                 "aluminium.json",       "soda_lime_glass.json", "aluminium_oxide.json"};
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[4096];

@@ -115,6 +115,9 @@ static void scenes_without_material_or_init_are_refused(void **state)
     scene = good_scene();
     scene.inertia1 = 1e-30; /* chi = 1e20 */
     refuse_scene(&scene, RESTITUTE_ERROR_DOMAIN, "chi");
+    scene = good_scene();
+    scene.inertia2 = 1; /* of a wall */
+    refuse_scene(&scene, RESTITUTE_ERROR_DOMAIN, "inertia2");
 }
 
 static void every_field_of_an_impact_is_checked(void **state)

@@ -161,6 +161,45 @@ static void euler_names_sync_where_it_is_slow(void **state)
     }
 }
 
+/* (25): delta2 is formed like delta1, with G2 under the root and the same a_el. */
+static void numbers_of_a_standard_solid(void **state)
+{
+    (void)state;
+    restitute_material *rubber;
+    restitute_numbers n;
+    const double g1 = 1e6, g2 = 3e6, eta = 300;
+    CHECK(restitute_material_standard_solid(g1, g2, eta, 0.4, &rubber, NULL) == 0, "rubber");
+    const restitute_scene scene = ball(rubber, 0.01, 2000, 2);
+    restitute_numbers_init(&n);
+    CHECK(restitute_scene_numbers(&scene, &n, NULL) == RESTITUTE_OK, "numbers");
+    CHECK_NEAR(n.delta1, eta * sqrt(n.length_x / (g1 * scene.mass1 * 0.6)), 1e-14 * n.delta1, "rounding");
+    CHECK_NEAR(n.delta2, eta * sqrt(n.length_x / (g2 * scene.mass1 * 0.6)), 1e-14 * n.delta2, "rounding");
+    CHECK_NEAR(n.gamma, g1 / g2, 1e-15, "rounding");
+    restitute_material_destroy(rubber);
+}
+
+/* It is in chi alone, which then has no bound. */
+static void inertia_does_not_matter_without_friction(void **state)
+{
+    (void)state;
+    restitute_material *rubber;
+    const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};
+    CHECK(restitute_material_standard_solid(1e6, 3e6, 300, 0.4, &rubber, NULL) == 0, "rubber");
+    for (int i = 0; i < 2; i++) {
+        restitute_options options = to_tolerance(1e-4);
+        restitute_scene scene = ball(rubber, 0.01, 2000, 2);
+        options.method = methods[i];
+        scene.friction = 0;
+        const struct solution solid = solve_scene(options, &scene);
+        scene.inertia1 = 1e-150;
+        const struct solution light = solve_scene(options, &scene);
+        CHECK(light.status == solid.status && light.result.ex == -1, "method %d", i);
+        CHECK_NEAR(light.result.ez, solid.result.ez, light.result.error_ez + solid.result.error_ez, "method %d", i);
+        CHECK(light.result.updates <= 100 * solid.result.updates, "%lld updates", (long long)light.result.updates);
+    }
+    restitute_material_destroy(rubber);
+}
+
 static void coarse_override_tells_that_the_tolerance_is_missed(void **state)
 {
     (void)state;
@@ -410,6 +449,8 @@ int main(void)
         cmocka_unit_test(rough_overrides_are_not_trusted),
         cmocka_unit_test(too_little_work_allowed_is_told),
         cmocka_unit_test(euler_names_sync_where_it_is_slow),
+        cmocka_unit_test(numbers_of_a_standard_solid),
+        cmocka_unit_test(inertia_does_not_matter_without_friction),
         cmocka_unit_test(coarse_override_tells_that_the_tolerance_is_missed),
         cmocka_unit_test(status_follows_the_reported_estimate),
         cmocka_unit_test(status_follows_the_estimate_with_merged_terms),

@@ -255,7 +255,7 @@ static void factors_that_overflow(void **state)
 
 static void bad_speeds_are_refused(void **state)
 {
-    static const double bad[][2] = {{-1, 0},      {NAN, 0},  {1.01e100, 0}, {INFINITY, 0},
+    static const double bad[][2] = {{-1, 0},       {NAN, 0}, {1.01e100, 0}, {INFINITY, 0},
                                     {1, 1.01e100}, {1, NAN}, {1, INFINITY}, {1, -INFINITY}};
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -17,14 +17,15 @@ static void look_up_speeds(const restitute_table *table, const restitute_table_c
             double ez[3], ex[3];
             restitute_table_value pair;
             restitute_table_slope s;
-            WITHOUT_TRAPS(status, restitute_table_pair_of(table, contact, v_n[0], v_t[0], &pair, &s), "%s: %g, %g", name,
-                          v_n[0], v_t[0]);
+            WITHOUT_TRAPS(status, restitute_table_pair_of(table, contact, v_n[0], v_t[0], &pair, &s), "%s: %g, %g",
+                          name, v_n[0], v_t[0]);
             CHECK(isfinite(s.ez_normal) && isfinite(s.ex_normal) && isfinite(s.ex_tangential), "%s: %g, %g", name,
                   v_n[0], v_t[0]);
-            WITHOUT_TRAPS(status, restitute_table_pairs(table, contact, 3, v_n, v_t, ez, ex), "%s: %g, %g", name, v_n[0],
-                          v_t[0]);
+            WITHOUT_TRAPS(status, restitute_table_pairs(table, contact, 3, v_n, v_t, ez, ex), "%s: %g, %g", name,
+                          v_n[0], v_t[0]);
             if (contact) continue;
-            WITHOUT_TRAPS(status, restitute_table_pair(table, v_n[0], v_t[0], &pair), "%s: %g, %g", name, v_n[0], v_t[0]);
+            WITHOUT_TRAPS(status, restitute_table_pair(table, v_n[0], v_t[0], &pair), "%s: %g, %g", name, v_n[0],
+                          v_t[0]);
         }
 }
 
@@ -87,7 +88,8 @@ static void look_up_numbers(const restitute_table *table, const char *name)
 
 static void tables_of_ranges(void **state)
 {
-    const double delta1[][2] = {{0, 0}, {0.3, 3}, {1, 1}}, gamma[][2] = {{1, 1}, {0, 0}, {0.5, 1}, {INFINITY, INFINITY}};
+    const double delta1[][2] = {{0, 0}, {0.3, 3}, {1, 1}},
+                 gamma[][2] = {{1, 1}, {0, 0}, {0.5, 1}, {INFINITY, INFINITY}};
     int status;
     (void)state;
     for (int k = 0; k < 12; k++) {

@@ -62,6 +62,8 @@ static void ratios_are_what_they_say(void **state)
     CHECK_NEAR(r.speed_ratio, 2 / sqrt(8e10 / 7800), 1e-12, "v/c_s");
     CHECK_NEAR(r.radius_ratio, r.max_contact_radius / 0.005, 1e-15, "a/R");
     CHECK_NEAR(r.displacement_ratio, (1 + 0.5) * r.max_indentation / 2 / r.max_contact_radius, 1e-15, "travel");
+    scene.tangential_speed = -1, scene.spin1 = -100; /* the other way */
+    CHECK(solve_scene(default_options(), &scene).result.displacement_ratio == r.displacement_ratio, "sign of sliding");
     restitute_options all = default_options();
     all.speed_limit = all.radius_limit = all.displacement_limit = 0;
     CHECK(solve_scene(all, &scene).result.flags == 7, "limits can be set");
@@ -126,10 +128,11 @@ static void limits_that_are_passed_are_named(void **state)
         const restitute_material *material;
         double normal_speed, tangential_speed;
         int passed; /* bits */
-    } cases[] = {{hard, 0.01, 0.001, 0}, {soft, 0.1, 0.01, 2}, {hard, 100, 0, 3}, {hard, 0.01, 0.3, 4},
-                 {pair, 100, 500, 15}};
+    } cases[] = {
+        {hard, 0.01, 0.001, 0}, {soft, 0.1, 0.01, 2}, {hard, 100, 0, 3}, {hard, 0.01, 0.3, 4}, {pair, 100, 500, 15}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const restitute_scene scene = steel_ball_on(cases[i].material, cases[i].normal_speed, cases[i].tangential_speed);
+        const restitute_scene scene =
+            steel_ball_on(cases[i].material, cases[i].normal_speed, cases[i].tangential_speed);
         CHECK(restitute_scene_pair(&scene, &ez, &ex, &error) == RESTITUTE_OK && error.status == RESTITUTE_OK, "%s",
               error.message);
         for (int k = 0; k < 4; k++)
@@ -160,7 +163,8 @@ static void limits_stand_behind_other_remarks(void **state)
     CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
     CHECK(restitute_solve_scene(solver, &scene, NULL, NULL, NULL, &error) == RESTITUTE_TOLERANCE_NOT_REACHED, "%s",
           error.message);
-    const char *first = strstr(error.message, "tolerance = 1e-06"), *second = strstr(error.message, "; contact radius/R");
+    const char *first = strstr(error.message, "tolerance = 1e-06"),
+               *second = strstr(error.message, "; contact radius/R");
     CHECK(first && second && first < second, "%s", error.message);
     restitute_solver_destroy(solver);
     restitute_material_destroy(steel);

@@ -20,6 +20,33 @@ static void sync_over_the_domain(void **state)
     sweep_random(restitute_method_sync(), 9, counts, 1e-5, 100000000);
 }
 
+/* From the least number that there is to the largest: the limits, Kelvin-Voigt and elastic. */
+static void ends_of_the_dimensionless_numbers(void **state)
+{
+    const double small[] = {5e-324, 1e-310, 1e-51, 1e-49}, large[] = {1e49, 1e51, 1e308};
+    const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};
+    double voigt_ez, ez;
+    int status;
+    (void)state;
+    CHECK(restitute_pair(7.0 / 6, 0.5, 0.5, 0, &voigt_ez, NULL, NULL) == RESTITUTE_OK, "Kelvin-Voigt");
+    for (int k = 0; k < 22; k++) {
+        const int i = k / 2, limit = i < 4 ? 0 : i < 7 ? 1 : 2; /* of gamma to 0, to infinity, of delta1 to 0 */
+        struct drawn d = {.impact = impact_of(7.0 / 6, 0.5, 0.5, 1)};
+        restitute_solver *solver = solver_of(methods[k % 2], 1e-3, 100000000);
+        restitute_result r;
+        if (limit == 0) d.impact.gamma = small[i];
+        if (limit == 1) d.impact.gamma = large[i - 4];
+        if (limit == 2) d.impact.delta1 = small[i - 7];
+        snprintf(d.text, sizeof d.text, "delta1 %g, gamma %g", d.impact.delta1, d.impact.gamma);
+        sweep_case(solver, &d);
+        restitute_result_init(&r);
+        WITHOUT_TRAPS(status, solve_case(solver, &d, &r, NULL, NULL, NULL), "%s", d.text);
+        ez = limit == 0 ? voigt_ez : 1;
+        CHECK_NEAR(r.ez, ez, 2e-3, "%s", d.text); /* two tolerances */
+        restitute_solver_destroy(solver);
+    }
+}
+
 static void hosts_that_trap(void **state)
 {
     (void)state;
@@ -33,7 +60,8 @@ static void what_is_no_impact(void **state)
     uint64_t seed = 10;
     (void)state;
     for (int n = 0; n < 900; n++) {
-        struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n), e = draw_case(&seed, (enum reach)(n % REACHES), n);
+        struct drawn d = draw_case(&seed, (enum reach)(n % REACHES), n),
+                     e = draw_case(&seed, (enum reach)(n % REACHES), n);
         restitute_material *pair = NULL;
         restitute_numbers numbers;
         restitute_error error;
@@ -102,9 +130,12 @@ static void batches_in_a_host_that_traps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(euler_over_the_domain), cmocka_unit_test(sync_over_the_domain),
-        cmocka_unit_test(hosts_that_trap),       cmocka_unit_test(what_is_no_impact),
-        cmocka_unit_test(two_bodies),            cmocka_unit_test(batches_in_a_host_that_traps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(euler_over_the_domain),
+                                       cmocka_unit_test(sync_over_the_domain),
+                                       cmocka_unit_test(ends_of_the_dimensionless_numbers),
+                                       cmocka_unit_test(hosts_that_trap),
+                                       cmocka_unit_test(what_is_no_impact),
+                                       cmocka_unit_test(two_bodies),
+                                       cmocka_unit_test(batches_in_a_host_that_traps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

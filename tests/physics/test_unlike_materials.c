@@ -268,6 +268,27 @@ static void two_dashpots_share_by_their_viscosities(void **state)
         restitute_material_destroy(all[i]);
 }
 
+/* Rates of the pair that are the same to rounding are one; the ratio of two like Poisson ratios is not above 1/2. */
+static void pairs_to_the_last_bit(void **state)
+{
+    (void)state;
+    struct chain soft = {4e6, 2, {1, 1e-11}, {1, 8e27}}, hard = {1e30, 3, {5e25, 1e4, 20}, {1e-30, 1, 1e-20}};
+    restitute_material *a = material_of(&hard, 0.15), *b = material_of(&soft, 0.27), *pair = pair_of(a, b);
+    CHECK_NEAR(restitute_material_modulus(pair, 1e-3), restitute_material_modulus(b, 1e-3), 4, "next to a rigid one");
+    restitute_material_destroy(a);
+    restitute_material_destroy(b);
+    restitute_material_destroy(pair);
+    struct chain one = {1, 0, {0}, {0}};
+    for (int i = 1; i < 2000; i++) {
+        struct chain other = {0.3 * i, 0, {0}, {0}};
+        a = material_of(&one, 0.5), b = material_of(&other, 0.5 - i * 0x1p-54), pair = pair_of(a, b);
+        CHECK(restitute_material_poisson_ratio(pair) <= 0.5, "case %d", i);
+        restitute_material_destroy(a);
+        restitute_material_destroy(b);
+        restitute_material_destroy(pair);
+    }
+}
+
 struct drawn {
     restitute_material *material;
     double g_inf, eta, nu, tau[3], g[3];
@@ -289,8 +310,7 @@ static struct drawn draw_any(uint64_t *random, double decades, int at_ends)
     if (random_below(random, 3) == 0 && m.n > 0) m.g_inf = 0;
     if (random_below(random, 2)) m.eta = 0;
     if (m.eta > 0 && at_ends) m.eta = fmin(1e60, fmax(1e-60, m.eta * m.eta));
-    const int status =
-        restitute_material_prony(m.g_inf, m.eta, (size_t)m.n, m.tau, m.g, m.nu, &m.material, &error);
+    const int status = restitute_material_prony(m.g_inf, m.eta, (size_t)m.n, m.tau, m.g, m.nu, &m.material, &error);
     CHECK(status == RESTITUTE_OK || strstr(error.message, "appears twice"), "%s", error.message);
     if (status) m.material = NULL;
     return m;
@@ -365,6 +385,7 @@ int main(void)
         cmocka_unit_test(a_pair_is_not_halved_or_paired_again),
         cmocka_unit_test(dashpots_and_bad_arguments),
         cmocka_unit_test(two_dashpots_share_by_their_viscosities),
+        cmocka_unit_test(pairs_to_the_last_bit),
         cmocka_unit_test(compliances_add_at_all_rates),
         cmocka_unit_test(pairs_over_the_whole_ranges),
     };

@@ -35,7 +35,8 @@ static inline restitute_material *draw_material(uint64_t *random, enum reach rea
         tau[k] = time * draw_number(random, reach, times[reach]) * (1 + 1e-9 * k); /* no two alike */
         g[k] = scale * draw_number(random, reach, moduli[reach]);
     }
-    const double g_inf = scale * draw_number(random, reach, moduli[reach] > 10 && reach != EXTREME ? 10 : moduli[reach]);
+    const double g_inf =
+        scale * draw_number(random, reach, moduli[reach] > 10 && reach != EXTREME ? 10 : moduli[reach]);
     const double eta = scale * time * draw_number(random, reach, dashpots[reach]);
     const double nu = random_below(random, 2) ? 0.5 : random_in(random, 0, 0.5);
     restitute_material *material = NULL;
@@ -89,8 +90,8 @@ static inline struct drawn draw_case(uint64_t *random, enum reach reach, int num
     if (!d.material) d.is_scene = 0;
     if (d.is_scene)
         snprintf(d.text, sizeof d.text, "case %d: R %g %g, m %g %g, mu %g, v %.17g %.17g, spin %g", number,
-                 d.scene.radius1, d.scene.radius2, d.scene.mass1, d.scene.mass2, d.scene.friction,
-                 d.scene.normal_speed, d.scene.tangential_speed, d.scene.spin1);
+                 d.scene.radius1, d.scene.radius2, d.scene.mass1, d.scene.mass2, d.scene.friction, d.scene.normal_speed,
+                 d.scene.tangential_speed, d.scene.spin1);
     else
         snprintf(d.text, sizeof d.text, "case %d: chi %.17g, psi %.17g, delta1 %.17g, gamma %.17g%s", number,
                  d.impact.chi, d.impact.psi, d.impact.delta1, d.impact.gamma, d.impact.solid ? ", a solid" : "");

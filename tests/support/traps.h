@@ -22,8 +22,8 @@ enum { trap_samples = 40 };
         (status) = (call);                                                                                             \
         const int raised_ = fetestexcept(TRAPPED);                                                                     \
         if (raised_ && (status) != RESTITUTE_ERROR_DOMAIN) {                                                           \
-            print_error("%s%s%sby " #call " (status %d): ", raised_ & FE_INVALID ? "INVALID " : "",                    \
-                        raised_ & FE_DIVBYZERO ? "DIVBYZERO " : "", raised_ & FE_OVERFLOW ? "OVERFLOW " : "", status); \
+            print_error("%s%s%sby " #call " (status %d): ", raised_ &FE_INVALID ? "INVALID " : "",                     \
+                        raised_ &FE_DIVBYZERO ? "DIVBYZERO " : "", raised_ &FE_OVERFLOW ? "OVERFLOW " : "", status);   \
             CHECK(!raised_, __VA_ARGS__);                                                                              \
         }                                                                                                              \
     } while (0)
@@ -37,10 +37,25 @@ static inline int solve_case(restitute_solver *solver, const struct drawn *d, re
 
 static inline void all_finite(const struct drawn *d, const restitute_result *r, const restitute_ledger *l)
 {
-    const double value[] = {r->ez,          r->ex,        r->error_ez,   r->error_ex,   r->max_indentation,
-                            r->max_contact_radius,        r->max_normal_force,          r->merging_bound,
-                            r->time_step,   r->element_spacing,          l->rebound_z,  l->viscous_z, l->left_z,
-                            l->residual_z,  l->rebound_x, l->friction_x, l->viscous_x,  l->left_x,    l->residual_x};
+    const double value[] = {r->ez,
+                            r->ex,
+                            r->error_ez,
+                            r->error_ex,
+                            r->max_indentation,
+                            r->max_contact_radius,
+                            r->max_normal_force,
+                            r->merging_bound,
+                            r->time_step,
+                            r->element_spacing,
+                            l->rebound_z,
+                            l->viscous_z,
+                            l->left_z,
+                            l->residual_z,
+                            l->rebound_x,
+                            l->friction_x,
+                            l->viscous_x,
+                            l->left_x,
+                            l->residual_x};
     for (size_t i = 0; i < sizeof value / sizeof *value; i++)
         CHECK(isfinite(value[i]), "value %zu = %g: %s", i, value[i], d->text);
     CHECK(!isnan(r->contact_time), "contact time: %s", d->text);
