@@ -140,10 +140,11 @@ static inline int block_of(size_t left)
     return left < rst_block ? (int)left : rst_block;
 }
 
-/* psi v_n; infinite without friction. */
+/* psi v_n; infinite without friction. A sum: of two branches a compiler may compute both, infinity times 0 too. */
 static inline double sliding_of(const restitute_table_contact *c, double v_t)
 {
-    return c->psi_factor > DBL_MAX ? INFINITY : c->psi_factor * fabs(v_t);
+    const int none = c->psi_factor > DBL_MAX;
+    return (none ? 0 : c->psi_factor) * fabs(v_t) + (none ? (double)INFINITY : 0);
 }
 
 /* The number that the first axis goes by. */
