@@ -32,7 +32,8 @@ function(restitute_accepted_flags language result)
 endfunction()
 
 # No contraction to fused multiply-add: the same numbers on every machine that has IEEE arithmetic.
-restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off)
+# Clang would compute both branches of a selection, and so divide by 0 where the source does not: hosts trap that.
+restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off -ffp-exception-behavior=maytrap)
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextra -ffp-contract=off -fopenmp-simd)
 
 # In a shared library every procedure could be replaced by one of the same name from outside, so compilers do not inline
