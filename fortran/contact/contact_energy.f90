@@ -2,7 +2,7 @@
 module rst_contact_energy
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
-  use rst_contact_types, only: law_type, at_width, at_overlap, most_nodes
+  use rst_contact_types, only: law_type, at_width, at_overlap, at_arrays, most_nodes
   implicit none (type, external)
   private
   public :: stored_energy
@@ -20,12 +20,12 @@ contains
     if (.not. state(at_width) > 0) return
     n = law%n
     edge = sqrt(max(0.0_dp, state(at_overlap))*radius)/state(at_width)
-    call normal_displacement(law, state(at_width)**2/radius, state(at_overlap), n, law%n_terms, state(law%at%w_z), &
-                             state(law%at%u_z), u)
-    energy = law%normal*stored(law, edge, n, law%n_terms, u, state(law%at%w_z))
+    call normal_displacement(law, state(at_width)**2/radius, state(at_overlap), n, law%n_terms, state(at_arrays), &
+                             state(law%at_surface), u)
+    energy = law%normal*stored(law, edge, n, law%n_terms, u, state(at_arrays))
     if (law%slips /= 0) &
-      energy = energy + law%tangential*(stored(law, edge, n, law%n_terms, state(law%at%u_x), state(law%at%w_x)) &
-                                        + stored(law, edge, n, law%n_terms, state(law%at%u_y), state(law%at%w_y)))
+      energy = energy + law%tangential*(stored(law, edge, n, law%n_terms, state(law%at_u), state(law%at_w)) &
+                                        + stored(law, edge, n, law%n_terms, state(law%at_u + n), state(law%at_w + n*law%n_terms)))
     energy = energy*state(at_width)
   end function stored_energy
 
@@ -40,7 +40,7 @@ contains
       if (law%surface /= 0) then
         u(j) = surface(j)
       else
-        u(j) = max(overlap - law%y(j)*scale, -dot_product(law%g(1:n_terms), w(j, :))*law%softness)
+        u(j) = max(overlap - law%y(j)*scale, -dot_product(law%g(1:n_terms), w(j, :))*law%compliance)
       end if
     end do
   end subroutine normal_displacement

@@ -2,7 +2,7 @@
 module rst_contact_interfaces
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
-  use rst_contact_types, only: law_type, rates_type, motion_type, at_width, at_overlap, at_force, at_axis
+  use rst_contact_types, only: law_type, rates_type, motion_type, at_width, at_overlap, at_force, at_axis, at_arrays
   use rst_contact_grid, only: stretch
   use rst_contact_rates, only: largest_overlap
   use rst_contact_normal, only: normal_type, press
@@ -42,8 +42,8 @@ contains
     if (.not. state(at_width) > 0 .and. .not. lost) call touch(law, rates, motion, state, status)
     if (status /= done) return
     state(at_axis:at_axis + 2) = axis
-    call stretch(law, motion%overlap*motion%radius, state)
-    call press(law, rates, motion, state(at_overlap), state(at_width), state, contact)
+    if (motion%overlap*motion%radius > state(at_width)**2) call stretch(law, motion%overlap*motion%radius, state)
+    call press(law, rates, motion, state(at_overlap), state(at_width), state(at_arrays), state(law%at_surface), contact)
     before = state(at_force:at_force + 2)
     approach = motion%overlap - state(at_overlap)
     state(at_overlap) = motion%overlap
@@ -53,10 +53,11 @@ contains
     if (law%slips /= 0) then
       other = cross(motion%axis, axis)
       displacement = [dot_product(axis, motion%displacement), dot_product(other, motion%displacement)]
-      call shear(law, rates, motion, displacement, state(at_width), contact, state, state(at_force + 1), friction)
+      call shear(law, rates, motion, displacement, state(at_width), contact, &
+                 state(law%at_u), state(law%at_w), state(at_force + 1), friction)
     end if
     if (law%accounts /= 0) call keep_account(approach, displacement, before + state(at_force:at_force + 2), friction, &
-                                             state(law%at%work))
+                                             state(law%at_work))
     call contact_force(motion%axis, state, force)
   end subroutine contact_step
 

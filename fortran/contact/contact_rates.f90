@@ -1,11 +1,11 @@
-!> Springs and dashpots over one time step, exact for a velocity that is linear in it (THEORY 5), and the width of a new contact.
+!> Springs and dashpots over one time step, exact for a velocity that is linear in it (docs/contact.md), and the width of a new contact.
 module rst_contact_rates
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type
   implicit none (type, external)
   private
-  public :: set_rates, arm_of, relief, largest_overlap
+  public :: set_rates, arm_of, velocity_response, largest_overlap
 
 contains
 
@@ -35,7 +35,7 @@ contains
     integer(ip) :: k
     rates%step = step
     stiffness = law%g_inf + law%eta/step
-    rates%drag = law%eta
+    rates%viscosity = law%eta
     rates%decay = 0
     rates%gain = 0
     rates%bend = 0
@@ -43,24 +43,24 @@ contains
       call arm_of(step, law%tau(k), rates%decay(k), rates%gain(k), rates%bend(k))
       if (law%tau(k) > step) rates%bend(k) = 0 ! slow arms are springs: their forces do not follow the velocity
       stiffness = stiffness + law%g(k)*rates%gain(k)
-      rates%drag = rates%drag + law%g(k)*rates%bend(k)
+      rates%viscosity = rates%viscosity + law%g(k)*rates%bend(k)
     end do
-    rates%softness = 1/stiffness
+    rates%compliance = 1/stiffness
   end subroutine set_rates
 
-  !> Change of the velocity until the end of the step by a unit force that holds it back, with a drag of that force over velocity.
-  !> Such that a mere dashpot decays by exp(-drag dt/m) in a velocity-Verlet step, however strong it is.
-  elemental function relief(mobility, drag)
-    real(dp), intent(in) :: mobility, drag  !! mobility: step/(2 m)
-    real(dp) :: relief, z, part
-    z = 2*mobility*drag
+  !> Change of the velocity until the end of the step by a unit force that holds it back, with a damping of that force over
+  !> velocity. Such that a mere dashpot decays by exp(-damping dt/m) in a velocity-Verlet step, however strong it is.
+  elemental function velocity_response(mobility, damping) result(response)
+    real(dp), intent(in) :: mobility, damping  !! mobility: step/(2 m)
+    real(dp) :: response, z, share
+    z = 2*mobility*damping
     if (z < 1.0e-3_dp) then
-      part = 0.5_dp + z/12
+      share = 0.5_dp + z/12
     else
-      part = 1/(1 - exp(-z)) - 1/z
+      share = 1/(1 - exp(-z)) - 1/z
     end if
-    relief = 2*mobility*part/(1 + z*part)
-  end function relief
+    response = 2*mobility*share/(1 + z*share)
+  end function velocity_response
 
   !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24) with the mean modulus over
   !> 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a parallel dashpot +-3 %, its part is fitted).

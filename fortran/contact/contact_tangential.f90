@@ -3,9 +3,9 @@
 module rst_contact_tangential
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, most_nodes, lanes
-  use rst_contact_grid, only: weight, integral
-  use rst_contact_rates, only: relief
-  use rst_contact_normal, only: normal_type, strain
+  use rst_contact_grid, only: weight
+  use rst_contact_rates, only: velocity_response
+  use rst_contact_normal, only: normal_type
   implicit none (type, external)
   private
   public :: shear
@@ -17,223 +17,237 @@ module rst_contact_tangential
     real(dp) :: q(most_nodes, 2)     !! within the limit
     real(dp) :: excess(most_nodes)   !! part of the trial force beyond the limit
     real(dp) :: at_rim(2), limit_at_rim
+    real(dp) :: total(2)             !! integral of q over the contact radius, in grid widths
   end type shear_type
 
 contains
 
-  pure subroutine shear(law, rates, motion, displacement, width, contact, state, force, friction)
+  pure subroutine shear(law, rates, motion, displacement, width, contact, u, w, force, friction)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
     type(motion_type), intent(in) :: motion
     real(dp), intent(in) :: displacement(2), width
     type(normal_type), intent(in) :: contact
-    real(dp), intent(inout) :: state(*)
+    real(dp), intent(inout) :: u(law%n, 2), w(law%n, law%n_terms, 2)
     real(dp), intent(out) :: force(2)  !! that body 1 feels is the opposite
     real(dp), intent(out) :: friction  !! energy lost in the step
     type(shear_type) :: s
-    real(dp) :: ratio, sticking, change(2)
+    real(dp) :: scale, sticking, change(2)
+    integer(ip) :: d, j, k, last
 
-    ratio = motion%friction*law%normal/law%tangential
-    s%limit_at_rim = ratio*contact%at_rim
-    call stick(law, rates, displacement(1), law%n, law%n_terms, contact, state(law%at%u_x), state(law%at%w_x), s%trial(:, 1))
-    call stick(law, rates, displacement(2), law%n, law%n_terms, contact, state(law%at%u_y), state(law%at%w_y), s%trial(:, 2))
-    call limit_by_friction(law%n, ratio, contact%f, s)
-    call hold_rim(law, rates, displacement/rates%step, contact, state(law%at%w_x), state(law%at%w_y), s)
-    force = law%tangential*width*summed(law, contact, s)
-    if (rates%drag > 0 .and. contact%last > 0) then
-      sticking = sum(law%weight(1:contact%last), mask=.not. s%excess(1:contact%last) > 0)
-      if (.not. s%excess(contact%last) > 0) sticking = sticking + contact%inner + contact%outer
-      change = -relief(motion%mobility(2), law%tangential*width*sticking*rates%drag)*force
-      call feel_end_velocity(rates, change(1), law%n, law%n_terms, contact, state(law%at%w_x), s%trial(:, 1))
-      call feel_end_velocity(rates, change(2), law%n, law%n_terms, contact, state(law%at%w_y), s%trial(:, 2))
-      call limit_by_friction(law%n, ratio, contact%f, s)
-      call hold_rim(law, rates, displacement/rates%step + change, contact, state(law%at%w_x), state(law%at%w_y), s)
-      force = law%tangential*width*summed(law, contact, s)
+    last = contact%last
+    scale = law%tangential*width
+    do j = 1, law%n, lanes
+      call stick(law, displacement, law%eta/rates%step, contact%touch(j), contact%decay(j, 1), contact%gain(j, 1), u(j, 1), &
+                 w(j, 1, 1), s%trial(j, 1))
+    end do
+    call slip_where_beyond(law, rates, motion%friction, displacement/rates%step, contact, w, s)
+    if (rates%viscosity > 0 .and. last > 0) then
+      sticking = sum(law%weight(1:last), mask=.not. s%excess(1:last) > 0)
+      if (.not. s%excess(last) > 0) sticking = sticking + contact%inner + contact%outer
+      change = -velocity_response(motion%mobility(2), scale*sticking*rates%viscosity)*scale*s%total
+      do d = 1, 2
+        do k = 1, law%n_terms
+          w(:, k, d) = w(:, k, d) + rates%bend(k)*change(d)*contact%touch(1:law%n)
+        end do
+        s%trial(1:law%n, d) = s%trial(1:law%n, d) + rates%viscosity*change(d)*contact%touch(1:law%n)
+      end do
+      call slip_where_beyond(law, rates, motion%friction, displacement/rates%step + change, contact, w, s)
     end if
+    force = scale*s%total
     friction = 0
-    if (law%accounts /= 0) friction = law%tangential*width*rates%softness*lost(law, contact, s)
-    call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 1), state(law%at%u_x), state(law%at%w_x))
-    call slip(rates, law%n, law%n_terms, s%excess, s%trial(:, 2), state(law%at%u_y), state(law%at%w_y))
+    if (law%accounts /= 0 .and. last > 0) friction = scale*rates%compliance*lost(law, contact, s)
+    do j = 1, law%n, lanes
+      call spring_back(law, rates, s%excess(j), s%trial(j, 1), u(j, 1), w(j, 1, 1))
+    end do
   end subroutine shear
 
-  !> One direction, if nothing slips.
-  pure subroutine stick(law, rates, displacement, n, n_terms, contact, u, w, trial)
+  !> Eight elements, if nothing slips.
+  pure subroutine stick(law, displacement, eta_over_step, touch, decay, gain, u, w, trial)
     type(law_type), intent(in) :: law
-    type(rates_type), intent(in) :: rates
-    real(dp), intent(in) :: displacement
-    integer(ip), intent(in) :: n, n_terms
-    type(normal_type), intent(in) :: contact
-    real(dp), intent(inout) :: u(n), w(n, n_terms)
-    real(dp), intent(out) :: trial(n)
-    real(dp) :: move(most_nodes), viscous
-    integer(ip) :: first, j, k
-    viscous = law%eta*displacement/rates%step
-    do first = 0, n - 1, lanes
-      do j = first + 1, first + lanes
-        move(j) = contact%part(j)*displacement
-        u(j) = u(j) + move(j)
-        trial(j) = law%g_inf*u(j) + merge(viscous, 0.0_dp, contact%part(j) > 0)
-      end do
+    real(dp), intent(in) :: displacement(2), eta_over_step
+    real(dp), intent(in) :: touch(lanes), decay(most_nodes, law%n_terms), gain(most_nodes, law%n_terms)
+    real(dp), intent(inout) :: u(law%n, 2), w(law%n, law%n_terms, 2), trial(most_nodes, 2)
+    real(dp) :: viscous(2)
+    integer(ip) :: i, k
+    viscous = eta_over_step*displacement
+    !$omp simd
+    do i = 1, lanes
+      u(i, 1) = u(i, 1) + touch(i)*displacement(1)
+      u(i, 2) = u(i, 2) + touch(i)*displacement(2)
+      trial(i, 1) = law%g_inf*u(i, 1) + merge(viscous(1), 0.0_dp, touch(i) > 0)
+      trial(i, 2) = law%g_inf*u(i, 2) + merge(viscous(2), 0.0_dp, touch(i) > 0)
     end do
-    do k = 1, n_terms
-      call strain(law, rates, k, n, contact%entered, contact%part, move, w(:, k), trial)
+    do k = 1, law%n_terms
+      !$omp simd
+      do i = 1, lanes
+        w(i, k, 1) = decay(i, k)*w(i, k, 1) + gain(i, k)*(touch(i)*displacement(1))
+        w(i, k, 2) = decay(i, k)*w(i, k, 2) + gain(i, k)*(touch(i)*displacement(2))
+        trial(i, 1) = trial(i, 1) + law%g(k)*w(i, k, 1)
+        trial(i, 2) = trial(i, 2) + law%g(k)*w(i, k, 2)
+      end do
     end do
   end subroutine stick
 
-  !> The viscous force at the velocity of the end of the step.
-  pure subroutine feel_end_velocity(rates, change, n, n_terms, contact, w, trial)
+  !> Eight elements: what is beyond the limit springs back.
+  pure subroutine spring_back(law, rates, excess, trial, u, w)
+    type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
-    real(dp), intent(in) :: change
-    integer(ip), intent(in) :: n, n_terms
-    type(normal_type), intent(in) :: contact
-    real(dp), intent(inout) :: w(n, n_terms), trial(n)
-    integer(ip) :: k
-    do k = 1, n_terms
-      w(:, k) = w(:, k) + rates%bend(k)*change*contact%part(1:n)
+    real(dp), intent(in) :: excess(lanes), trial(most_nodes, 2)
+    real(dp), intent(inout) :: u(law%n, 2), w(law%n, law%n_terms, 2)
+    real(dp) :: back(lanes, 2)
+    integer(ip) :: i, k
+    !$omp simd
+    do i = 1, lanes
+      back(i, 1) = excess(i)*trial(i, 1)*rates%compliance
+      back(i, 2) = excess(i)*trial(i, 2)*rates%compliance
+      u(i, 1) = u(i, 1) - back(i, 1)
+      u(i, 2) = u(i, 2) - back(i, 2)
     end do
-    trial = trial + rates%drag*change*contact%part(1:n)
-  end subroutine feel_end_velocity
+    do k = 1, law%n_terms
+      !$omp simd
+      do i = 1, lanes
+        w(i, k, 1) = w(i, k, 1) - rates%gain(k)*back(i, 1)
+        w(i, k, 2) = w(i, k, 2) - rates%gain(k)*back(i, 2)
+      end do
+    end do
+  end subroutine spring_back
 
-  pure subroutine limit_by_friction(n, ratio, f, s)
-    integer(ip), intent(in) :: n
-    real(dp), intent(in) :: ratio, f(*)
+  !> Forces within the limits of friction, and their integral.
+  pure subroutine slip_where_beyond(law, rates, friction, velocity, contact, w, s)
+    type(law_type), intent(in) :: law
+    type(rates_type), intent(in) :: rates
+    real(dp), intent(in) :: friction, velocity(2)
+    type(normal_type), intent(in) :: contact
+    real(dp), intent(in) :: w(law%n, law%n_terms, 2)
     type(shear_type), intent(inout) :: s
     real(dp), parameter :: least = 1.0e-300_dp
-    real(dp) :: q
+    real(dp) :: ratio, q, total_x, total_y, stuck
     integer(ip) :: first, j
-    do first = 0, n - 1, lanes
-      !$omp simd private(q)
-      do j = first + 1, first + lanes
-        s%limit(j) = ratio*f(j)
+    ratio = friction*law%normal/law%tangential
+    s%limit_at_rim = ratio*contact%at_rim
+    total_x = 0
+    total_y = 0
+    stuck = 0
+    do first = 1, law%n, lanes
+      !$omp simd private(q) reduction(+: total_x, total_y, stuck)
+      do j = first, first + lanes - 1
+        s%limit(j) = ratio*contact%f(j)
         q = sqrt(s%trial(j, 1)**2 + s%trial(j, 2)**2)
         s%excess(j) = max(q - s%limit(j), 0.0_dp)/(q + least)
         s%q(j, 1) = s%trial(j, 1)*(1 - s%excess(j))
         s%q(j, 2) = s%trial(j, 2)*(1 - s%excess(j))
+        total_x = total_x + law%weight(j)*s%q(j, 1)
+        total_y = total_y + law%weight(j)*s%q(j, 2)
+        stuck = stuck + law%bit(j)*merge(0.0_dp, 1.0_dp, s%excess(j) > 0)
       end do
     end do
-  end subroutine limit_by_friction
+    s%total = [total_x, total_y]
+    if (contact%last == 0) return
+    call hold_rim(law, rates, velocity, contact, w, s)
+    s%total = s%total + contact%inner*s%q(contact%last, :) + contact%outer*s%at_rim
+    call add_kinks(law, contact%last, int(stuck, ip), s)
+    if (contact%last > 1) call add_kink_at_rim(law, contact, s)
+  end subroutine slip_where_beyond
 
-  !> What is beyond the limit springs back.
-  pure subroutine slip(rates, n, n_terms, excess, trial, u, w)
+  !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that of the last element by as much;
+  !> else the same part of the limit.
+  pure subroutine hold_rim(law, rates, velocity, contact, w, s)
+    type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
-    integer(ip), intent(in) :: n, n_terms
-    real(dp), intent(in) :: excess(n), trial(n)
-    real(dp), intent(inout) :: u(n), w(n, n_terms)
-    real(dp) :: back(most_nodes)
-    integer(ip) :: first, j, k
-    do first = 0, n - 1, lanes
-      do j = first + 1, first + lanes
-        back(j) = excess(j)*trial(j)*rates%softness
-        u(j) = u(j) - back(j)
-      end do
+    real(dp), intent(in) :: velocity(2)
+    type(normal_type), intent(in) :: contact
+    real(dp), intent(in) :: w(law%n, law%n_terms, 2)
+    type(shear_type), intent(inout) :: s
+    real(dp) :: q(2), slipped(2), size
+    integer(ip) :: k, last
+    s%at_rim = 0
+    last = contact%last
+    if (.not. contact%at_rim > 0) return
+    q = law%eta*velocity
+    slipped = s%excess(last)*s%trial(last, :)*rates%compliance
+    do k = 1, law%n_terms
+      q = q + law%g(k)*contact%rim_ratio(k)*(w(last, k, :) - rates%gain(k)*slipped)
     end do
-    do k = 1, n_terms
-      do first = 0, n - 1, lanes
-        do j = first + 1, first + lanes
-          w(j, k) = w(j, k) - rates%gain(k)*back(j)
-        end do
-      end do
-    end do
-  end subroutine slip
+    if (.not. law%eta > 0 .and. .not. contact%rim_ratio(1) > 0) &
+      q = s%q(last, :)*(s%limit_at_rim/max(s%limit(last), tiny(1.0_dp)))
+    size = sqrt(q(1)**2 + q(2)**2)
+    if (size > s%limit_at_rim) q = q*(s%limit_at_rim/size)
+    s%at_rim = q
+  end subroutine hold_rim
 
-  !> Integral of the friction limit times the slip, over the softness of the elements.
+  !> What the integral lacks where stick turns to slip between two elements. `stuck` has a bit for every element that sticks.
+  pure subroutine add_kinks(law, last, stuck, s)
+    type(law_type), intent(in) :: law
+    integer(ip), intent(in) :: last, stuck
+    type(shear_type), intent(inout) :: s
+    real(dp) :: direction(2), weight
+    integer(ip) :: turns, inside, outside, behind
+    turns = iand(ieor(stuck, shiftr(stuck, 1)), shiftl(1_ip, last - 1) - 1)
+    do while (turns /= 0)
+      inside = trailz(turns) + 1 ! the element before the turn
+      turns = iand(turns, turns - 1)
+      outside = inside + 1
+      weight = law%outwards(inside)
+      if (.not. btest(stuck, inside - 1)) then ! slip within, stick without
+        outside = inside
+        inside = inside + 1
+        weight = law%weight(inside) - law%outwards(inside)
+      end if
+      behind = 2*inside - outside
+      if (behind < 1 .or. behind > last .or. .not. s%limit(outside) > 0) cycle
+      direction = s%q(outside, :)/s%limit(outside)
+      s%total = s%total + direction*lacking(law, s, inside, behind, law%y(outside), weight, direction)
+    end do
+  end subroutine add_kinks
+
+  !> Likewise if the last elements stick and slip begins between them and the rim.
+  pure subroutine add_kink_at_rim(law, contact, s)
+    type(law_type), intent(in) :: law
+    type(normal_type), intent(in) :: contact
+    type(shear_type), intent(inout) :: s
+    real(dp) :: beyond(2), size, more, reach
+    integer(ip) :: last
+    last = contact%last
+    reach = (contact%edge**2 - law%y(last))*law%per_cell(last)
+    if (s%excess(last) > 0 .or. .not. reach > 0) return
+    beyond = s%q(last, :) + reach*(s%q(last, :) - s%q(last - 1, :))
+    size = sqrt(beyond(1)**2 + beyond(2)**2)
+    if (size <= s%limit_at_rim) return
+    beyond = beyond/size
+    more = lacking(law, s, last, last - 1, contact%edge**2, contact%inner + law%outwards(last), beyond)
+    if (more > 0) s%total = s%total + more*beyond + contact%outer*(s%limit_at_rim*beyond - s%at_rim)
+  end subroutine add_kink_at_rim
+
+  !> Slip begins between `inside`, which sticks as its neighbour `behind` does, and `outside`, which slips in `direction`: there the
+  !> margin limit - q, extrapolated from the sticking side, is zero. The quadrature took it to fall to zero at y = `outside`, so
+  !> that the margin has the weight `weight_inside`.
+  pure function lacking(law, s, inside, behind, outside, weight_inside, direction)
+    type(law_type), intent(in) :: law
+    type(shear_type), intent(in) :: s
+    integer(ip), intent(in) :: inside, behind
+    real(dp), intent(in) :: outside, weight_inside, direction(2)
+    real(dp) :: lacking, margin, change, y
+    lacking = 0
+    margin = s%limit(inside) - dot_product(direction, s%q(inside, :))
+    change = s%limit(behind) - dot_product(direction, s%q(behind, :)) - margin
+    if (s%excess(behind) > 0 .or. .not. margin > 0 .or. .not. change > 0) return
+    y = law%y(inside) + margin*(law%y(inside) - law%y(behind))/change
+    if ((outside - y)*(outside - law%y(inside)) <= 0 .or. y <= 0) return
+    lacking = margin*(weight_inside - weight(law%x(inside), sqrt(y)))
+  end function lacking
+
+  !> Integral of the friction limit times the slip, over the compliance of the elements.
   pure function lost(law, contact, s)
     type(law_type), intent(in) :: law
     type(normal_type), intent(in) :: contact
     type(shear_type), intent(in) :: s
     real(dp) :: lost
     integer(ip) :: j, last
-    lost = 0
     last = contact%last
-    if (last == 0) return
+    lost = s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, s%trial(last, :))
     do j = 1, last
       lost = lost + law%weight(j)*s%excess(j)*dot_product(s%q(j, :), s%trial(j, :))
     end do
-    lost = lost + s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, s%trial(last, :))
   end function lost
-
-  !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that of the last element by as much;
-  !> else the same part of the limit.
-  pure subroutine hold_rim(law, rates, velocity, contact, w_x, w_y, s)
-    type(law_type), intent(in) :: law
-    type(rates_type), intent(in) :: rates
-    real(dp), intent(in) :: velocity(2)
-    type(normal_type), intent(in) :: contact
-    real(dp), intent(in) :: w_x(law%n, law%n_terms), w_y(law%n, law%n_terms)
-    type(shear_type), intent(inout) :: s
-    real(dp) :: q(2), slipped(2), size
-    integer(ip) :: k, last
-    s%at_rim = 0
-    last = contact%last
-    if (last == 0 .or. .not. contact%at_rim > 0) return
-    q = law%eta*velocity
-    slipped = s%excess(last)*s%trial(last, :)*rates%softness
-    do k = 1, law%n_terms
-      q = q + law%g(k)*contact%rise(k)*([w_x(last, k), w_y(last, k)] - rates%gain(k)*slipped)
-    end do
-    if (.not. law%eta > 0 .and. .not. contact%rise(1) > 0) q = s%q(last, :)*(s%limit_at_rim/max(s%limit(last), tiny(1.0_dp)))
-    size = sqrt(q(1)**2 + q(2)**2)
-    if (size > s%limit_at_rim) q = q*(s%limit_at_rim/size)
-    s%at_rim = q
-  end subroutine hold_rim
-
-  !> Integral over the contact radius, with the kinks where stick turns to slip between two elements.
-  pure function summed(law, contact, s) result(total)
-    type(law_type), intent(in) :: law
-    type(normal_type), intent(in) :: contact
-    type(shear_type), intent(in) :: s
-    real(dp) :: total(2)
-    integer(ip) :: j, last
-    total = 0
-    last = contact%last
-    if (last == 0) return
-    total = [integral(law, s%q(:, 1)), integral(law, s%q(:, 2))] + contact%inner*s%q(last, :) + contact%outer*s%at_rim
-    do j = 1, last - 1
-      if (s%excess(j) > 0 .and. .not. s%excess(j + 1) > 0) then
-        if (j + 2 <= last) call add_kink(law, s, j + 1, j + 2, j, total)
-      else if (s%excess(j + 1) > 0 .and. .not. s%excess(j) > 0) then
-        if (j > 1) call add_kink(law, s, j, j - 1, j + 1, total)
-      end if
-    end do
-    if (last > 1) call add_kink_at_rim(law, contact, s, last, total)
-  end function summed
-
-  !> Slip begins between `inside`, which sticks as its neighbour `behind` does, and `outside`, which slips: there the margin
-  !> limit - q, extrapolated from the sticking side, is zero. The quadrature took it to fall to zero at `outside`.
-  pure subroutine add_kink(law, s, inside, behind, outside, total)
-    type(law_type), intent(in) :: law
-    type(shear_type), intent(in) :: s
-    integer(ip), intent(in) :: inside, behind, outside
-    real(dp), intent(inout) :: total(2)
-    real(dp) :: direction(2), margin(2), kink
-    if (s%excess(behind) > 0 .or. .not. s%limit(outside) > 0) return
-    direction = s%q(outside, :)/s%limit(outside)
-    margin = [s%limit(inside) - dot_product(direction, s%q(inside, :)), s%limit(behind) - dot_product(direction, s%q(behind, :))]
-    if (.not. margin(1) > 0 .or. margin(2) <= margin(1)) return
-    kink = law%y(inside) + margin(1)*(law%y(inside) - law%y(behind))/(margin(2) - margin(1))
-    if ((law%y(outside) - kink)*(law%y(outside) - law%y(inside)) <= 0 .or. kink <= 0) return
-    total = total + direction*margin(1)*(weight(law%x(inside), law%x(outside)) - weight(law%x(inside), sqrt(kink)))
-  end subroutine add_kink
-
-  !> Likewise if all elements stick and slip begins between the last one and the rim.
-  pure subroutine add_kink_at_rim(law, contact, s, last, total)
-    type(law_type), intent(in) :: law
-    type(normal_type), intent(in) :: contact
-    type(shear_type), intent(in) :: s
-    integer(ip), intent(in) :: last
-    real(dp), intent(inout) :: total(2)
-    real(dp) :: beyond(2), direction(2), margin(2), size, kink, reach
-    if (s%excess(last) > 0 .or. s%excess(last - 1) > 0 .or. contact%edge <= law%x(last)) return
-    reach = (contact%edge**2 - law%y(last))/(law%y(last) - law%y(last - 1))
-    beyond = s%q(last, :) + reach*(s%q(last, :) - s%q(last - 1, :))
-    size = sqrt(beyond(1)**2 + beyond(2)**2)
-    if (size <= s%limit_at_rim) return
-    direction = beyond/size
-    margin = [s%limit(last) - dot_product(direction, s%q(last, :)), s%limit(last - 1) - dot_product(direction, s%q(last - 1, :))]
-    if (.not. margin(1) > 0 .or. margin(2) <= margin(1)) return
-    kink = law%y(last) + margin(1)*(law%y(last) - law%y(last - 1))/(margin(2) - margin(1))
-    if (kink >= contact%edge**2) return
-    total = total + direction*margin(1)*(contact%inner + law%outwards(last) - weight(law%x(last), sqrt(kink))) &
-            + contact%outer*(s%limit_at_rim*direction - s%at_rim)
-  end subroutine add_kink_at_rim
 end module rst_contact_tangential

@@ -9,12 +9,12 @@ enum { rst_most_nodes = 32, rst_most_terms = 8 };
 
 struct rst_law {
     int64_t n, n_terms, surface, slips, accounts;
-    int64_t layout[8]; /* set with the grid; the last two: where the work is (from 1), the size of a state */
-    double g_inf, eta, softness;
+    int64_t layout[4], size; /* of a state in doubles; both set with the grid */
+    double g_inf, eta, compliance;
     double normal, tangential;
     double g[rst_most_terms], tau[rst_most_terms];
     double x[rst_most_nodes + 1], y[rst_most_nodes + 1];
-    double weight[rst_most_nodes], outwards[rst_most_nodes];
+    double weight[rst_most_nodes], outwards[rst_most_nodes], per_cell[rst_most_nodes], bit[rst_most_nodes];
 };
 
 enum { rst_step_done, rst_step_too_long, rst_normal_jumped };

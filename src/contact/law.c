@@ -108,9 +108,9 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     k->tangential = 8 / (2 - nu);
     made->halved = options->deformable == RESTITUTE_BOTH_BODIES_DEFORM;
     if (made->halved) halve(k);
-    k->softness = k->g_inf > 0 ? 1 / k->g_inf : 0;
+    k->compliance = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
-    made->size = (size_t)k->layout[7];
+    made->size = (size_t)k->size;
     made->hash = hash_of(k);
     *law = made;
     return rst_done(error);
