@@ -56,18 +56,13 @@ contains
       call shear(law, rates, motion, displacement, state(at_width), contact, &
                  state(law%at_u), state(law%at_w), state(at_force + 1), friction)
     end if
-    if (law%accounts /= 0) call keep_account(approach, displacement, before + state(at_force:at_force + 2), friction, &
-                                             state(law%at_work))
+    if (law%accounts /= 0) then ! work of the bodies by the trapezoid, as velocity Verlet has it; what friction took of it
+      state(law%at_work) = state(law%at_work) &
+                           + 0.5_dp*dot_product([approach, displacement], before + state(at_force:at_force + 2))
+      state(law%at_work + 1) = state(law%at_work + 1) + friction
+    end if
     call contact_force(motion%axis, state, force)
   end subroutine contact_step
-
-  !> Work of the bodies on the contact, by the trapezoid that velocity Verlet has, and what friction took of it.
-  pure subroutine keep_account(approach, displacement, both_forces, friction, account)
-    real(dp), intent(in) :: approach, displacement(2), both_forces(3), friction
-    real(dp), intent(inout) :: account(2)
-    account(1) = account(1) + 0.5_dp*(approach*both_forces(1) + dot_product(displacement, both_forces(2:3)))
-    account(2) = account(2) + friction
-  end subroutine keep_account
 
   !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.
   pure subroutine touch(law, rates, motion, state, status)
@@ -131,20 +126,13 @@ contains
     if (.not. lost) axis = in_plane/sqrt(size)
   end subroutine follow_normal
 
-  !> A vector after the smallest rotation that turns one unit vector into another.
+  !> A tangential vector after the smallest rotation that turns one normal into another.
   pure function turned(vector, from, to)
     real(dp), intent(in) :: vector(3), from(3), to(3)
-    real(dp) :: turned(3), axis(3), cosine, across(3)
+    real(dp) :: turned(3), axis(3), cosine
     axis = cross(from, to)
     cosine = dot_product(from, to)
-    if (1 + cosine > 1.0e-12_dp) then
-      turned = cosine*vector + cross(axis, vector) + axis*(dot_product(axis, vector)/(1 + cosine))
-    else ! opposite: half a turn about any tangential axis
-      across = 0
-      across(minloc(abs(from), 1)) = 1
-      across = across - dot_product(from, across)*from
-      across = across/sqrt(dot_product(across, across))
-      turned = 2*dot_product(across, vector)*across - vector
-    end if
+    turned = vector ! opposite: half a turn about the vector itself
+    if (1 + cosine > 1.0e-12_dp) turned = cosine*vector + cross(axis, vector) + axis*(dot_product(axis, vector)/(1 + cosine))
   end function turned
 end module rst_contact_interfaces

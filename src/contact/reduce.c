@@ -32,57 +32,42 @@ static double impulse(const struct rst_series *s, double t)
     return sum;
 }
 
-static double sample_time(double shortest, double longest, int i, int n)
+static double between(double first, double last, int i, int n)
 {
-    return shortest * pow(longest / shortest, (double)i / (n - 1));
+    return n > 1 ? first * pow(last / first, (double)i / (n - 1)) : sqrt(first * last);
 }
 
-/* Normal equations: column n_terms is that of the equilibrium modulus. */
-struct equations {
-    int n;
-    double matrix[unknowns][unknowns], right[unknowns];
-};
-
-static void add_row(struct equations *e, const double *row, double value)
+/* Normal equations of G(t) at the samples and, with the same weight, of the impulse; the last unknown is G_inf. */
+static void set_up(const struct rst_series *s, int n, const double *tau, double shortest, double longest,
+                   double matrix[unknowns][unknowns], double *right)
 {
-    for (int i = 0; i < e->n; i++) {
-        e->right[i] += row[i] * value;
-        for (int j = 0; j < e->n; j++)
-            e->matrix[i][j] += row[i] * row[j];
+    for (int i = 0; i <= samples; i++) {
+        const int of_modulus = i < samples;
+        const double t = of_modulus ? between(shortest, longest, i, samples) : shortest;
+        const double weight = of_modulus ? 1 : samples, whole = of_modulus ? modulus(s, t) : impulse(s, t);
+        double row[unknowns];
+        for (int k = 0; k < n; k++)
+            row[k] = (of_modulus ? exp(-t / tau[k]) : -tau[k] * expm1(-t / tau[k])) / whole;
+        row[n] = s->g_inf > 0 ? (of_modulus ? 1 : t) / whole : 0; /* what flows is to flow still */
+        for (int k = 0; k <= n; k++) {
+            right[k] += weight * row[k];
+            for (int j = 0; j <= n; j++)
+                matrix[k][j] += weight * row[k] * row[j];
+        }
     }
-}
-
-static void set_up(const struct rst_series *s, const struct rst_law *law, double shortest, double longest,
-                   struct equations *e)
-{
-    const int n_terms = (int)law->n_terms;
-    double row[unknowns];
-    *e = (struct equations){.n = n_terms + 1};
-    for (int i = 0; i < samples; i++) {
-        const double t = sample_time(shortest, longest, i, samples), scale = 1 / modulus(s, t);
-        for (int k = 0; k < n_terms; k++)
-            row[k] = scale * exp(-t / law->tau[k]);
-        row[n_terms] = s->g_inf > 0 ? scale : 0; /* what flows is to flow still */
-        add_row(e, row, 1);
-    }
-    const double scale = sqrt(samples) / impulse(s, shortest);
-    for (int k = 0; k < n_terms; k++)
-        row[k] = -scale * law->tau[k] * expm1(-shortest / law->tau[k]);
-    row[n_terms] = s->g_inf > 0 ? scale * shortest : 0;
-    add_row(e, row, sqrt(samples));
 }
 
 /* The least squares with x >= 0, one unknown after the other. */
-static void solve_positive(const struct equations *e, double *x)
+static void solve_positive(int n, const double matrix[unknowns][unknowns], const double *right, double *x)
 {
     double change = 1, size = 1;
     for (int sweep = 0; sweep < most_sweeps && change > settled * size; sweep++) {
         change = size = 0;
-        for (int i = 0; i < e->n; i++) {
-            double rest = e->right[i];
-            for (int j = 0; j < e->n; j++)
-                if (j != i) rest -= e->matrix[i][j] * x[j];
-            const double next = e->matrix[i][i] > 0 ? fmax(0, rest / e->matrix[i][i]) : 0;
+        for (int i = 0; i < n; i++) {
+            double rest = right[i];
+            for (int j = 0; j < n; j++)
+                if (j != i) rest -= matrix[i][j] * x[j];
+            const double next = matrix[i][i] > 0 ? fmax(0, rest / matrix[i][i]) : 0;
             change += fabs(next - x[i]);
             size += next;
             x[i] = next;
@@ -96,7 +81,7 @@ static double bound_error(const struct rst_series *whole, const struct rst_serie
     const double first = impulse(whole, shortest);
     double bound = fabs(impulse(few, shortest) - first) / first, before[2] = {0};
     for (int i = 0; i < checks; i++) {
-        const double t = sample_time(shortest, longest, i, checks), now[2] = {modulus(whole, t), modulus(few, t)};
+        const double t = between(shortest, longest, i, checks), now[2] = {modulus(whole, t), modulus(few, t)};
         if (i > 0) bound = fmax(bound, fmax(before[0] - now[1], before[1] - now[0]) / now[0]);
         before[0] = now[0];
         before[1] = now[1];
@@ -104,51 +89,30 @@ static double bound_error(const struct rst_series *whole, const struct rst_serie
     return bound;
 }
 
-/* The best moduli for times from `fastest` to `slowest`, and their bound. */
-static double fit(const struct rst_series *series, double shortest, double longest, double fastest, double slowest,
-                  struct rst_law *law)
-{
-    struct equations equations;
-    double x[unknowns] = {0};
-    const int terms = (int)law->n_terms;
-    for (int k = 0; k < terms; k++)
-        law->tau[k] = terms > 1 ? sample_time(fastest, slowest, k, terms) : sqrt(fastest * slowest);
-    set_up(series, law, shortest, longest, &equations);
-    solve_positive(&equations, x);
-    law->g_inf = x[terms];
-    for (int k = 0; k < terms; k++)
-        law->g[k] = x[k];
-    const struct rst_series few = {.g_inf = law->g_inf, .n_terms = (size_t)terms, .tau = law->tau, .g = law->g};
-    return bound_error(series, &few, shortest, longest);
-}
-
-/* Terms of no modulus cost memory and time. */
-static void drop_empty(struct rst_law *law)
-{
-    int64_t kept = 0;
-    for (int64_t k = 0; k < law->n_terms; k++)
-        if (law->g[k] > 0) {
-            law->tau[kept] = law->tau[k];
-            law->g[kept++] = law->g[k];
-        }
-    for (int64_t k = kept; k < law->n_terms; k++)
-        law->tau[k] = law->g[k] = 0;
-    law->n_terms = kept;
-}
-
 void rst_reduce_series(const struct rst_series *series, int terms, double shortest, double longest, struct rst_law *law,
                        double *error_bound)
 {
-    struct rst_law trial = *law;
-    trial.n_terms = terms;
-    trial.eta = series->eta;
+    law->eta = series->eta;
     *error_bound = INFINITY;
-    for (int i = 0; i < reach_count; i++)
-        for (int j = 0; j < reach_count; j++) {
-            const double bound = fit(series, shortest, longest, shortest * reaches[i], longest / reaches[j], &trial);
-            if (!(bound < *error_bound)) continue;
-            *error_bound = bound;
-            *law = trial;
-        }
-    drop_empty(law);
+    for (int trial = 0; trial < reach_count * reach_count; trial++) {
+        const double fastest = shortest * reaches[trial / reach_count], slowest = longest / reaches[trial % reach_count];
+        double tau[rst_most_terms], matrix[unknowns][unknowns] = {{0}}, right[unknowns] = {0}, x[unknowns] = {0};
+        for (int k = 0; k < terms; k++)
+            tau[k] = between(fastest, slowest, k, terms);
+        set_up(series, terms, tau, shortest, longest, matrix, right);
+        solve_positive(terms + 1, matrix, right, x);
+        const struct rst_series few = {.g_inf = x[terms], .n_terms = (size_t)terms, .tau = tau, .g = x};
+        const double bound = bound_error(series, &few, shortest, longest);
+        if (!(bound < *error_bound)) continue;
+        *error_bound = bound;
+        law->g_inf = x[terms];
+        law->n_terms = 0;
+        for (int k = 0; k < terms; k++)
+            if (x[k] > 0) { /* others would cost memory and time */
+                law->tau[law->n_terms] = tau[k];
+                law->g[law->n_terms++] = x[k];
+            }
+    }
+    for (int64_t k = law->n_terms; k < rst_most_terms; k++)
+        law->tau[k] = law->g[k] = 0;
 }

@@ -53,6 +53,25 @@ static int is_good(const restitute_contact_rates *rates, const restitute_contact
            m->friction >= 0 && m->friction <= largest_friction && is_unit(m->normal);
 }
 
+/* A call on a state: nothing NULL (`other` is called `name`), and the state one of this law. */
+static int check_state(const restitute_contact_law *law, const double *state, const void *other, const char *name,
+                       restitute_error *error)
+{
+    if (!law || !state || !other)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !law ? "law" : !state ? "state" : name);
+    if (is_own(law, state)) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "state[0] = %.17g: is of another law than the one with hash %016llx, or has lost digits", state[0],
+                      (unsigned long long)law->hash);
+}
+
+static int check_unit(const double *v, const char *name, restitute_error *error)
+{
+    if (!v) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", name);
+    if (is_unit(v)) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1], v[2]);
+}
+
 /* The first thing that is wrong with a motion that is not good. */
 static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
 {
@@ -77,15 +96,7 @@ static int refuse(const restitute_contact_rates *rates, const restitute_contact_
         if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,
                               numbers[i].value, numbers[i].low, numbers[i].high);
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.normal = (%g, %g, %g): must be a unit vector",
-                      m->normal[0], m->normal[1], m->normal[2]);
-}
-
-static int refuse_state(const restitute_contact_law *law, const double *state, restitute_error *error)
-{
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "state[0] = %.17g: is of another law than the one with hash %016llx, or has lost digits", state[0],
-                      (unsigned long long)law->hash);
+    return check_unit(m->normal, "motion.normal", error);
 }
 
 static int refuse_step(int64_t why, const restitute_contact_rates *rates, const restitute_contact_motion *motion,
@@ -116,7 +127,7 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
     restitute_contact_force found;
     int64_t why;
     if (!is_good(rates, motion)) return refuse(rates, motion, error);
-    if (!is_own(law, state)) return refuse_state(law, state, error);
+    if (!is_own(law, state)) return check_state(law, state, state, "state", error);
     if (bits_of(state[0]) == 0 && motion->overlap <= 0) { /* not yet a contact */
         *force = (restitute_contact_force){0};
         return RESTITUTE_OK;
@@ -178,13 +189,9 @@ int restitute_contact_step_many(const restitute_contact_law *law, const restitut
 int restitute_contact_peek(const restitute_contact_law *law, const double normal[3], const double *state,
                            restitute_contact_force *force, restitute_error *error)
 {
-    if (!law || !normal || !state || !force)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                          !law ? "law" : !normal ? "normal" : !state ? "state" : "force");
-    if (!is_own(law, state)) return refuse_state(law, state, error);
-    if (!is_unit(normal))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "normal = (%g, %g, %g): must be a unit vector", normal[0],
-                          normal[1], normal[2]);
+    int status = check_state(law, state, force, "force", error);
+    if (!status) status = check_unit(normal, "normal", error);
+    if (status) return status;
     rst_law_force(normal, state, force);
     return rst_done(error);
 }
@@ -192,16 +199,14 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
 int restitute_contact_energies_of(const restitute_contact_law *law, double radius, const double *state,
                                   restitute_contact_energies *energies, restitute_error *error)
 {
-    if (!law || !state || !energies)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !law ? "law" : !state ? "state" : "energies");
+    const int status = check_state(law, state, energies, "energies", error);
+    if (status) return status;
     if (!law->kernel.accounts)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without energies");
-    if (!is_own(law, state)) return refuse_state(law, state, error);
     if (!(radius >= least_radius && radius <= largest_radius))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
                           largest_radius);
-    const double *account = state + law->size - 2;
-    const double stored = rst_law_stored(&law->kernel, radius, state);
+    const double *account = state + law->size - 2, stored = rst_law_stored(&law->kernel, radius, state);
     *energies = (restitute_contact_energies){stored, account[1], account[0] - stored - account[1]};
     return rst_done(error);
 }
@@ -209,12 +214,10 @@ int restitute_contact_energies_of(const restitute_contact_law *law, double radiu
 int restitute_contact_turn(const restitute_contact_law *law, const double from[3], const double to[3], double *state,
                            restitute_error *error)
 {
-    if (!law || !from || !to || !state)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                          !law ? "law" : !from ? "from" : !to ? "to" : "state");
-    if (!is_own(law, state)) return refuse_state(law, state, error);
-    if (!is_unit(from) || !is_unit(to))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "from, to: must be unit vectors");
+    int status = check_state(law, state, law, "law", error);
+    if (!status) status = check_unit(from, "from", error);
+    if (!status) status = check_unit(to, "to", error);
+    if (status) return status;
     rst_law_turn(from, to, state);
     return rst_done(error);
 }
