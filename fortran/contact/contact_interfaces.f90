@@ -50,18 +50,20 @@ contains
     state(at_force) = contact%force
     displacement = 0
     friction = 0
+    force%normal = contact%force
+    force%tangential = 0
     if (law%slips /= 0) then
       other = cross(motion%axis, axis)
       displacement = [dot_product(axis, motion%displacement), dot_product(other, motion%displacement)]
       call shear(law, rates, motion, displacement, state(at_width), contact, &
                  state(law%at_u), state(law%at_w), state(at_force + 1), friction)
+      force%tangential = -(state(at_force + 1)*axis + state(at_force + 2)*other)
     end if
     if (law%accounts /= 0) then ! work of the bodies by the trapezoid, as velocity Verlet has it; what friction took of it
       state(law%at_work) = state(law%at_work) &
                            + 0.5_dp*dot_product([approach, displacement], before + state(at_force:at_force + 2))
       state(law%at_work + 1) = state(law%at_work + 1) + friction
     end if
-    call contact_force(motion%axis, state, force)
   end subroutine contact_step
 
   !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.

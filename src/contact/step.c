@@ -118,12 +118,11 @@ static int is_finite(const restitute_contact_force *f)
            fabs(f->tangential[2]) <= DBL_MAX;
 }
 
-/* A checked step; what fails leaves nothing behind. */
+/* A checked step; what is refused leaves nothing behind. */
 static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                    restitute_error *error)
 {
-    double before[8 + rst_most_nodes * (3 + 3 * rst_most_terms) + 2];
     restitute_contact_force found;
     int64_t why;
     if (!is_good(rates, motion)) return refuse(rates, motion, error);
@@ -132,14 +131,10 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
         *force = (restitute_contact_force){0};
         return RESTITUTE_OK;
     }
-    memcpy(before, state, law->size * sizeof *before);
     rst_law_step(&law->kernel, rates, motion, state, &found, &why);
     if (why != rst_step_done) return refuse_step(why, rates, motion, error);
-    if (!is_finite(&found)) {
-        memcpy(state, before, law->size * sizeof *before);
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "the force is not finite: the state is spoilt, or moduli are beyond the arithmetic");
-    }
+    if (!is_finite(&found)) /* within their ranges all inputs give finite forces */
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is spoilt, the force that it gives is not finite");
     mark(law, &state[0]);
     *force = found;
     return RESTITUTE_OK;
