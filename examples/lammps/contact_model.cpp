@@ -18,26 +18,23 @@ static double dot(const double *a, const double *b)
 
 bool touching(const Body &first, const Body &second, Contact &c)
 {
-    double *n = c.normal, turn[3];
+    const double *a = first.position, *b = second.position, *v = first.velocity, *w = second.velocity;
+    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
     const double sum = first.radius + second.radius;
-    for (int i = 0; i < 3; i++)
-        n[i] = second.position[i] - first.position[i];
-    const double square = dot(n, n);
     c.inverse_mass = first.inverse_mass + second.inverse_mass;
     if (!(square < sum * sum) || square == 0 || c.inverse_mass == 0) return false;
-    const double distance = std::sqrt(square), inverse = 1 / distance;
+    const double distance = std::sqrt(square), inverse = 1 / distance, n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
     c.overlap = sum - distance;
     c.arm1 = first.radius - 0.5 * c.overlap; /* arms that add up to the distance conserve angular momentum */
     c.arm2 = second.radius > 0 ? second.radius - 0.5 * c.overlap : 0;
     c.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
-    for (int i = 0; i < 3; i++) {
-        n[i] *= inverse;
-        turn[i] = c.arm1 * first.spin[i] + c.arm2 * second.spin[i];
-        c.velocity[i] = first.velocity[i] - second.velocity[i];
-    }
-    c.velocity[0] += turn[1] * n[2] - turn[2] * n[1];
-    c.velocity[1] += turn[2] * n[0] - turn[0] * n[2];
-    c.velocity[2] += turn[0] * n[1] - turn[1] * n[0];
+    const double turn0 = c.arm1 * first.spin[0] + c.arm2 * second.spin[0];
+    const double turn1 = c.arm1 * first.spin[1] + c.arm2 * second.spin[1];
+    const double turn2 = c.arm1 * first.spin[2] + c.arm2 * second.spin[2];
+    c.normal[0] = n0, c.normal[1] = n1, c.normal[2] = n2;
+    c.velocity[0] = v[0] - w[0] + turn1 * n2 - turn2 * n1;
+    c.velocity[1] = v[1] - w[1] + turn2 * n0 - turn0 * n2;
+    c.velocity[2] = v[2] - w[2] + turn0 * n1 - turn1 * n0;
     return true;
 }
 
