@@ -118,6 +118,12 @@ static int is_finite(const restitute_contact_force *f)
            fabs(f->tangential[2]) <= DBL_MAX;
 }
 
+/* Within their ranges all inputs give finite forces. */
+static int refuse_spoilt(restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is spoilt, the force that it gives is not finite");
+}
+
 /* A checked step; what is refused leaves nothing behind. */
 static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
@@ -133,8 +139,7 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
     }
     rst_law_step(&law->kernel, rates, motion, state, &found, &why);
     if (why != rst_step_done) return refuse_step(why, rates, motion, error);
-    if (!is_finite(&found)) /* within their ranges all inputs give finite forces */
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is spoilt, the force that it gives is not finite");
+    if (!is_finite(&found)) return refuse_spoilt(error);
     mark(law, &state[0]);
     *force = found;
     return RESTITUTE_OK;
@@ -187,7 +192,10 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
     int status = check_state(law, state, force, "force", error);
     if (!status) status = check_unit(normal, "normal", error);
     if (status) return status;
-    rst_law_force(normal, state, force);
+    restitute_contact_force found;
+    rst_law_force(normal, state, &found);
+    if (!is_finite(&found)) return refuse_spoilt(error);
+    *force = found;
     return rst_done(error);
 }
 
