@@ -33,7 +33,10 @@ contains
       law%y(j) = law%x(j)**2
     end do
     law%per_cell(2:n) = 1/(law%y(2:n) - law%y(1:n - 1))
-    law%bit(1:n) = real([(shiftl(1_ip, j), j = 0, n - 1)], dp)
+    law%bit(1) = 1
+    do j = 2, n
+      law%bit(j) = 2*law%bit(j - 1)
+    end do
     law%outwards(1:n) = weight(law%x(1:n), law%x(2:n + 1))
     law%weight(1:n) = law%outwards(1:n)
     law%weight(2:n) = law%weight(2:n) + weight(law%x(2:n), law%x(1:n - 1))
