@@ -1,6 +1,6 @@
 !> All procedures that C calls, under their C names, and nothing else. Arguments are described where they are computed.
 module rst_c_interfaces
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_funptr, c_f_procpointer
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_relaxation, only: relaxation_modulus, step_coefficients, largest_stable_step
   use rst_dimensionless, only: elastic_contact_radius, tangential_mass_ratio, sliding_ratio, damping_modulus, critical_psi, &
                                theta_from_delta1
@@ -11,7 +11,7 @@ module rst_c_interfaces
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
   use rst_sync_grid, only: grid_type, level_type, node_type, likely_depth, choose_grid
   use rst_sync_dense, only: trace_type, thin_levels
-  use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, element_loop, term_type, columns
+  use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, term_type, columns
   use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
   use rst_sync_ledger, only: keep_ledger, loss_type
   use rst_ledger, only: ledger_type
@@ -167,10 +167,9 @@ contains
     call thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node)
   end subroutine rst_thin_levels
 
-  subroutine rst_trace_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot) &
+  subroutine rst_trace_shear(scene, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot) &
     bind(c, name="rst_trace_shear")
     type(sync_scene_type), intent(in) :: scene
-    type(c_funptr), intent(in), value :: elements
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -180,9 +179,7 @@ contains
     type(term_type), intent(inout) :: term(scene%n_terms)
     integer(c_int64_t), intent(out) :: n_knots
     type(knot_type), intent(out) :: knot(0:2*scene%n)
-    procedure(element_loop), pointer :: loop
-    call c_f_procpointer(elements, loop)
-    call trace_shear(scene, loop, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
+    call trace_shear(scene, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
   end subroutine rst_trace_shear
 
   pure subroutine rst_edge_rates(scene, g, tau, level, trace, rate) bind(c, name="rst_edge_rates")
@@ -207,11 +204,10 @@ contains
     call sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample)
   end subroutine rst_sample_impact
 
-  subroutine rst_keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, &
+  subroutine rst_keep_ledger(scene, kind, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, &
                              ledger) bind(c, name="rst_keep_ledger")
     type(sync_scene_type), intent(in) :: scene
     integer(c_int64_t), intent(in), value :: kind
-    type(c_funptr), intent(in), value :: elements
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -223,8 +219,6 @@ contains
     type(term_type), intent(inout) :: now(scene%n_terms)
     type(loss_type), intent(inout) :: loss(scene%n_terms)
     type(ledger_type), intent(out) :: ledger
-    procedure(element_loop), pointer :: loop
-    call c_f_procpointer(elements, loop)
-    call keep_ledger(scene, kind, loop, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
+    call keep_ledger(scene, kind, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
   end subroutine rst_keep_ledger
 end module rst_c_interfaces

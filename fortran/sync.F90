@@ -1,11 +1,5 @@
 ! The method sync as one unit: compilers inline across the modules of one file, and its small functions are called so often
-! that calls would cost more than what they compute.
-!
-! It is compiled for several vector widths, which all give the same bits: nothing is contracted or summed in another order.
-! CMakeLists.txt gives the modules of each width names of their own; RST_WIDTH ends the names that C knows.
-#ifndef RST_WIDTH
-#define RST_WIDTH ""
-#endif
+! that calls would cost as much as what they compute.
 #include "bounded.f90"
 #include "memory.f90"
 #include "cubic.f90"
@@ -18,6 +12,7 @@
 #include "sync_levels.f90"
 #include "sync_dense.f90"
 #include "sync_elements.f90"
+#include "sync_lanes.f90"
 #include "sync_quadrature.f90"
 #include "sync_edge.f90"
 #include "sync_point.f90"

@@ -1,10 +1,10 @@
 !> What the parts of the tangential problem of the method `sync` share: a scene, where the contact point is, a step, and what
-!> the loop over elements takes and gives; the loop itself is in sync_lanes.F90.
+!> the loop over elements takes and gives; the loop itself is in module rst_sync_lanes.
 module rst_sync_elements
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes
+  public :: scene_type, shear_type, step_type, sums_type, term_type, lanes
   public :: column_x2, column_weight, column_alpha, column_kappa, columns
 
   integer(ip), parameter :: lanes = 8  !! element arrays are longer by as many than the nodes
@@ -55,18 +55,4 @@ module rst_sync_elements
   type, bind(c) :: sums_type
     real(dp) :: q, stuck
   end type sums_type
-
-  abstract interface
-    !> Move all elements in contact by one step, or with trial /= 0 only say what that would give.
-    subroutine element_loop(step, trial, term, body, beta, faded, sums) bind(c)
-      import :: step_type, sums_type, term_type, columns, dp, ip
-      implicit none (type, external)
-      type(step_type), intent(in) :: step
-      integer(ip), intent(in), value :: trial
-      type(term_type), intent(in) :: term(step%n_terms)
-      real(dp), intent(inout) :: body(0:step%capacity - 1, columns)
-      real(dp), intent(inout), dimension(0:step%capacity - 1, step%n_terms) :: beta, faded
-      type(sums_type), intent(out) :: sums
-    end subroutine element_loop
-  end interface
 end module rst_sync_elements

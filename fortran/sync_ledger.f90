@@ -12,7 +12,7 @@ module rst_sync_ledger
   use rst_ledger, only: ledger_type
   use rst_sync_levels, only: level_type, node_type
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, element_loop, columns, column_weight, column_alpha, &
+  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, columns, column_weight, column_alpha, &
                                column_kappa
   use rst_sync_shear, only: start_shear, advance_shear, place_nodes, measure_step
   implicit none (type, external)
@@ -35,10 +35,9 @@ module rst_sync_ledger
 contains
 
   !> All accounts. kind: a parameter above; body, beta, faded, term, before, now, loss: room.
-  subroutine keep_ledger(scene, kind, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
+  subroutine keep_ledger(scene, kind, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
     type(scene_type), intent(in) :: scene
     integer(ip), intent(in) :: kind
-    procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -70,7 +69,7 @@ contains
         ledger%left_x = gross*ledger%left_x
         ledger%friction_x = slide(scene, level, state%level, state%time - level(state%level)%time, state%velocity, state%force)
       end if
-      call post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
+      call post_shear(scene, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
     end if
   end subroutine keep_ledger
 
@@ -163,9 +162,8 @@ contains
   end function slide
 
   !> In x, from the instant at which the contact sticks for the first time.
-  subroutine post_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
+  subroutine post_shear(scene, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, state, ledger)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -191,7 +189,7 @@ contains
         loss(k) = loss_of(step%h, g(k), tau(k))
       end do
       call remember_nodes(scene, tau, level, edge, body, beta, state, before)
-      call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+      call advance_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
       call post_nodes(scene, g, edge, step, loss, now, term, velocity, shift, body, before, state, ledger)
     end do
   end subroutine post_shear

@@ -67,14 +67,16 @@ contains
     type(spacing_type) :: spacing
     type(parabola_type) :: speeds
     real(dp), parameter :: faint = 1.0e-290_dp
-    real(dp) :: share(2, 2)
+    real(dp) :: share(2, 2), remembered_now(0:2)
     integer(ip) :: k
     if (n_terms == 0) return
     spacing = spacing_of(x)
     speeds = parabola_through(spacing, v)
     do k = 1, n_terms
       call remember_pair(x/tau(k), m)
-      call remember_speeds(g(k), m, x, speeds, memory(k, :))
+      remembered_now = memory(k, :)
+      call remember_speeds(g(k), m, x, speeds, remembered_now)
+      memory(k, :) = remembered_now
       loading(k, 1:2) = loading(k, 1:2) + moved*(g(k)*a*v(1:2) - loading(k, 1:2)/tau(k))
       if (by_parts(x, tau(k), resolved)) then
         loading(k, 1:2) = loading(k, 1:2) + g(k)*m%phi1*a*lift

@@ -8,7 +8,7 @@ module rst_sync_record
   use rst_precision, only: dp, ip
   use rst_sync_levels, only: level_type, node_type
   use rst_sync_dense, only: trace_type
-  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, element_loop, columns
+  use rst_sync_elements, only: scene_type, shear_type, step_type, term_type, columns
   use rst_sync_edge, only: stick_radius
   use rst_sync_shear, only: start_shear, advance_shear
   use rst_cubic, only: cubic_type, cubic_between, cubic_value, cubic_slope
@@ -32,9 +32,8 @@ module rst_sync_record
 contains
 
   !> Follow the contact point from where it first sticks to the end.
-  subroutine trace_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
+  subroutine trace_shear(scene, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -50,7 +49,7 @@ contains
     knot(0) = knot_type(state%time, state%velocity, state%force, 1.0_dp)
     i = 0
     do while (state%level < 2*scene%n)
-      call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+      call advance_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
       i = i + 1
       knot(i) = knot_type(state%time, state%velocity, state%force, stick_share(scene, level, trace, node, body, beta, faded, term, &
                                                                                state))

@@ -181,12 +181,15 @@ contains
     real(dp), intent(inout) :: memory(n_terms, 0:2), left(n_terms)
     type(memory_pair_type) :: m
     type(parabola_type) :: speeds
+    real(dp) :: remembered_now(0:2)
     integer(ip) :: k
     if (n_terms == 0) return
     speeds = parabola_through(spacing_of(x), v)
     do k = 1, n_terms
       call remember_pair(x/tau(k), m)
-      call remember_speeds(g(k), m, x, speeds, memory(k, :))
+      remembered_now = memory(k, :)
+      call remember_speeds(g(k), m, x, speeds, remembered_now)
+      memory(k, :) = remembered_now
       left(k) = left(k)*m%decay(2)
     end do
   end subroutine remember_terms

@@ -19,8 +19,9 @@ module rst_sync_shear
   use rst_memory, only: memory_type, memory_of
   use rst_sync_levels, only: level_type, node_type, mass_factor
   use rst_sync_dense, only: trace_type, fade_in_step
-  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, element_loop, lanes, columns, &
+  use rst_sync_elements, only: scene_type, shear_type, step_type, sums_type, term_type, lanes, columns, &
                                column_x2, column_weight, column_alpha, column_kappa
+  use rst_sync_lanes, only: move_elements
   use rst_sync_quadrature, only: full_friction, choose_weights, explicit_below, shortest_start, most_trials
   use rst_sync_edge, only: weight_of, shear_force, find_front
   use rst_sync_front, only: follow_front
@@ -71,9 +72,8 @@ contains
   end subroutine first_stick
 
   !> From state%level to the next level.
-  subroutine advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+  subroutine advance_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -93,16 +93,15 @@ contains
                       trace(:, next), term, step)
     step%f = level(next)%fresh
     if (next > scene%n) call leave_node(scene, edge, trace, body, beta, term, state)
-    call take_step(scene, elements, next > scene%n, node(edge)%radius, &
+    call take_step(scene, next > scene%n, node(edge)%radius, &
                    level(next), trace, body, beta, faded, term, step, state)
     state%level = next
     if (next < scene%n) call enter_node(scene, edge, level(next)%velocity, trace(:, next), body, beta, faded, term, state)
   end subroutine advance_shear
 
   !> One impact to its end; state%velocity is U' then. Without elements, if slip stays behind one front.
-  subroutine follow_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+  subroutine follow_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     type(level_type), intent(in) :: level(0:2*scene%n)
@@ -120,7 +119,7 @@ contains
     call start_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
     slides = .false.
     do while (state%level < 2*scene%n)
-      call advance_shear(scene, elements, g, tau, level, trace, node, body, beta, faded, term, state)
+      call advance_shear(scene, g, tau, level, trace, node, body, beta, faded, term, state)
       slid = slides
       slides = slides_on(scene, level, body(:, column_kappa), state)
       if (slid .and. slides) exit
@@ -292,9 +291,8 @@ contains
 
   !> Predict the force at the end of the step, move the elements, correct. Where force and velocity at the end of the step hang
   !> together closely (dashpots, few levels) the velocity is first found by Newton steps on trial moves.
-  subroutine take_step(scene, elements, restitution, radius, normal, trace, body, beta, faded, term, step, state)
+  subroutine take_step(scene, restitution, radius, normal, trace, body, beta, faded, term, step, state)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
     logical, intent(in) :: restitution
     real(dp), intent(in) :: radius            !! of the contact at the new level
@@ -319,7 +317,7 @@ contains
     call move(scene, push, force, velocity, state, term, step, shift)
     if (feedback > explicit_below) then
       do trial = 1, most_trials
-        call move_nodes(scene, elements, 1_ip, term, step, body, beta, faded, state, sums)
+        call move_nodes(scene, 1_ip, term, step, body, beta, faded, state, sums)
         force = shear_force(scene, .true., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
         change = (state%velocity - push*(start + impulse(force, weight, state)) - velocity) &
                  /(1 + push*weight(0)*step%end_response*sums%stuck)
@@ -330,7 +328,7 @@ contains
       end do
     end if
     if (scene%no_slip == 0) call wake_nodes(scene, trace, step, body, beta, faded, term, state)
-    call move_nodes(scene, elements, 0_ip, term, step, body, beta, faded, state, sums)
+    call move_nodes(scene, 0_ip, term, step, body, beta, faded, state, sums)
     call find_front(scene, body(:, column_kappa), step%last, state)
     force = shear_force(scene, .false., restitution, radius, normal, velocity, trace, step, term, body, beta, faded, sums, state)
     passed = start + impulse(force, weight, state)
@@ -484,9 +482,8 @@ contains
   end subroutine wake_group
 
   !> The loop over active elements, and what passive ones, all stuck, add.
-  subroutine move_nodes(scene, elements, trial, term, step, body, beta, faded, state, sums)
+  subroutine move_nodes(scene, trial, term, step, body, beta, faded, state, sums)
     type(scene_type), intent(in) :: scene
-    procedure(element_loop) :: elements
     integer(ip), intent(in) :: trial
     type(term_type), intent(in) :: term(scene%n_terms)
     type(step_type), intent(inout) :: step
@@ -498,7 +495,7 @@ contains
     sums = sums_type(0.0_dp, 0.0_dp)
     step%first = state%first
     if (step%first <= step%last) then
-      call elements(step, trial, term, body, beta, faded, sums)
+      call move_elements(step, trial, term, body, beta, faded, sums)
       state%updates = state%updates + step%last - step%first + 1
     end if
     sums%stuck = sums%stuck + state%passive_weight

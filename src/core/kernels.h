@@ -98,8 +98,6 @@ enum sync_sliding { RST_HAS_NO_FRICTION = 0, RST_SLIPS_TO_THE_END = 1, RST_STICK
 /* The loop over elements, which only Fortran calls, and the layout of its arrays. */
 struct sync_step;
 struct sync_sums;
-typedef void sync_loop(const struct sync_step *step, int64_t trial, const struct sync_term *term, double *body,
-                       double *beta, double *faded, struct sync_sums *sums);
 enum { rst_sync_lanes = 8, rst_sync_columns = 4 };
 
 double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
@@ -137,7 +135,22 @@ void rst_thin_levels(int64_t n_terms, int64_t n, const struct sync_level *level,
                      struct sync_node *thin_node);
 
 struct rst_sample;
-void rst_trace_shear(const struct sync_scene *scene, sync_loop *elements, const double *g, const double *tau,
+void rst_normal_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms,
+                                const double *g, const double *tau, int64_t n, double closeness, int64_t guessed,
+                                struct sync_level *level, double *memory, double *loading, struct sync_node *node,
+                                int64_t *failed);
+void rst_double_levels(int64_t n, struct sync_level *level);
+void rst_dense_levels(const struct sync_grid *grid, double g_inf, double eta, int64_t n_terms, const double *g,
+                               const double *tau, int64_t n, int64_t r, const struct sync_level *coarse,
+                               struct sync_level *level, struct sync_trace *trace, struct sync_node *node,
+                               int64_t *failed);
+void rst_finish_levels(double g_inf, int64_t n_terms, int64_t n, const struct sync_trace *trace,
+                                const struct sync_node *node, struct sync_level *level);
+void rst_follow_shear(const struct sync_scene *scene, const double *g, const double *tau,
+                               const struct sync_level *level, const struct sync_trace *trace,
+                               const struct sync_node *node, double *body, double *beta, double *faded,
+                               struct sync_term *term, struct sync_shear *state);
+void rst_trace_shear(const struct sync_scene *scene, const double *g, const double *tau,
                      const struct sync_level *level, const struct sync_trace *trace, const struct sync_node *node,
                      double *body, double *beta, double *faded, struct sync_term *term, int64_t *n_knots,
                      struct sync_knot *knot);
@@ -146,7 +159,7 @@ void rst_edge_rates(const struct sync_scene *scene, const double *g, const doubl
 void rst_sample_impact(const struct sync_scene *scene, int64_t slides, const struct sync_level *level,
                        const struct sync_node *node, const double *rate, int64_t n_knots, const struct sync_knot *knot,
                        int64_t l, int64_t i, double time, struct rst_sample *sample);
-void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, sync_loop *elements, const double *g,
+void rst_keep_ledger(const struct sync_scene *scene, int64_t kind, const double *g,
                      const double *tau, const struct sync_level *level, const struct sync_trace *trace,
                      const struct sync_node *node, double *body, double *beta, double *faded, struct sync_term *term,
                      double *before, struct sync_term *now, struct sync_loss *loss, struct euler_ledger *ledger);

@@ -96,7 +96,6 @@ int restitute_solver_create(const restitute_options *options, restitute_solver *
     restitute_solver *s = calloc(1, sizeof *s);
     if (!s) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a solver");
     s->options = chosen;
-    s->workspace.kernel = rst_widest_sync_kernel();
     if (chosen.method->reserve && chosen.method->reserve(chosen.tolerance, &s->workspace)) {
         restitute_solver_destroy(s);
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the workspace of a solver");

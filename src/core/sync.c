@@ -104,16 +104,15 @@ struct run {
 };
 
 /* stepped: with elements from the start; 0: if slip does not stay behind one front. */
-static void follow_shear(const struct rst_problem *problem, const struct rst_workspace *workspace,
-                         const struct store *store, int stepped, struct run *run, struct rst_outcome *outcome)
+static void follow_shear(const struct rst_problem *problem, const struct store *store, int stepped, struct run *run,
+                         struct rst_outcome *outcome)
 {
     const struct rst_solid *s = &problem->solid;
     struct sync_scene scene = rst_sync_scene(problem, store);
     struct sync_shear shear;
     scene.stepped = stepped;
-    const struct sync_kernel *kernel = workspace->kernel;
-    kernel->follow_shear(&scene, kernel->elements, s->g, s->tau, store->level, store->trace, store->node, store->body,
-                         store->beta, store->faded, store->term, &shear);
+    rst_follow_shear(&scene, s->g, s->tau, store->level, store->trace, store->node, store->body,
+                     store->beta, store->faded, store->term, &shear);
     *run = (struct run){.levels = store->levels,
                         .updates = 2 * store->levels + shear.updates * (1 + s->n_terms),
                         .one_front = shear.updates == 0,
@@ -316,13 +315,13 @@ static int first_runs(const struct rst_problem *problem, struct rst_workspace *w
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = 0;
     if (half_alone) {
-        follow_shear(problem, workspace, &store[1], 0, now, outcome);
+        follow_shear(problem, &store[1], 0, now, outcome);
         return RESTITUTE_OK;
     }
-    follow_shear(problem, workspace, &store[0], 0, now, outcome);
-    follow_shear(problem, workspace, &store[1], !now->one_front, before, outcome);
+    follow_shear(problem, &store[0], 0, now, outcome);
+    follow_shear(problem, &store[1], !now->one_front, before, outcome);
     if (runs > 2) {
-        follow_shear(problem, workspace, &store[2], !now->one_front, &quarter, outcome);
+        follow_shear(problem, &store[2], !now->one_front, &quarter, outcome);
         *change_before = before->velocity - quarter.velocity;
     }
     return RESTITUTE_OK;
@@ -340,7 +339,7 @@ static int next_run(const struct rst_problem *problem, struct rst_workspace *wor
     outcome->max_normal_force = 15.0 / 8.0 * force;
     *change_before = before->levels > 0 ? now->velocity - before->velocity : 0;
     *before = *now;
-    follow_shear(problem, workspace, &store, 0, now, outcome);
+    follow_shear(problem, &store, 0, now, outcome);
     return RESTITUTE_OK;
 }
 

@@ -82,7 +82,7 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
 {
     const struct rst_solid *s = &problem->solid;
     int64_t failed = 0;
-    normal->kernel->dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
+    rst_dense_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, normal->levels, ratio,
                                  normal->level, rung->level, rung->trace, rung->node, &failed);
     if (failed)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
@@ -92,7 +92,7 @@ static int make_rungs(const struct rst_problem *problem, const struct normal *no
         rst_thin_levels(s->n_terms, rung[k].levels, rung[k - 1].level, rung[k - 1].trace, rung[k - 1].node,
                         rung[k].level, rung[k].trace, rung[k].node);
     for (int k = first; k < count; k++)
-        normal->kernel->finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
+        rst_finish_levels(s->g_inf, s->n_terms, rung[k].levels, rung[k].trace, rung[k].node, rung[k].level);
     return RESTITUTE_OK;
 }
 

@@ -54,7 +54,7 @@ int rst_sync_ledger(const struct rst_problem *problem, struct rst_workspace *wor
     struct sync_term *now = (struct sync_term *)(before + columns * (size_t)store.capacity);
     struct sync_loss *loss = (struct sync_loss *)(now + terms);
     const struct sync_scene scene = rst_sync_scene(problem, &store);
-    rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), workspace->kernel->elements, s->g, s->tau,
+    rst_keep_ledger(&scene, sliding(problem, -outcome->velocity), s->g, s->tau,
                     store.level, store.trace, store.node, store.body, store.beta, store.faded, store.term, before, now,
                     loss, &outcome->ledger);
     return RESTITUTE_OK;

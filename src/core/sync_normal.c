@@ -158,8 +158,8 @@ static int run(const struct rst_problem *problem, const struct rst_shelf *shelf,
     int64_t failed;
     memo->known = 0;
     memo->kept = (struct kept){0};
-    if (guessed) normal->kernel->double_levels(levels / 2, level);
-    normal->kernel->normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels,
+    if (guessed) rst_double_levels(levels / 2, level);
+    rst_normal_levels(&normal->grid, s->g_inf, s->eta, s->n_terms, s->g, s->tau, levels,
                                   slack * rst_sync_closeness(problem), guessed, level, memory, loading, node, &failed);
     normal->level = level;
     normal->levels = levels;
@@ -175,11 +175,10 @@ int rst_sync_is_graded(const struct rst_problem *problem)
     return grid.start > 0;
 }
 
-static int choose_grid(const struct rst_problem *problem, const struct rst_workspace *workspace, struct normal *normal,
-                       restitute_error *error)
+static int choose_grid(const struct rst_problem *problem, struct normal *normal, restitute_error *error)
 {
     const struct rst_solid *s = &problem->solid;
-    *normal = (struct normal){.kernel = workspace->kernel};
+    *normal = (struct normal){0};
     rst_choose_grid(s->g_inf, s->eta, s->n_terms, s->g, s->tau, &normal->grid);
     if (normal->grid.turn > strongest_damping)
         return rst_report(
@@ -200,7 +199,7 @@ int rst_sync_normal_again(const struct rst_problem *problem, struct rst_workspac
                           struct normal *normal, restitute_error *error)
 {
     struct rst_shelf *shelf = &workspace->spare;
-    int status = choose_grid(problem, workspace, normal, error);
+    int status = choose_grid(problem, normal, error);
     if (!status) status = make_room(problem, shelf, levels, error);
     if (status) return status;
     if (run(problem, shelf, levels, 0, 1, normal)) normal->levels = 0;
@@ -262,7 +261,7 @@ int rst_sync_normal(const struct rst_problem *problem, struct rst_workspace *wor
         return RESTITUTE_OK;
     }
     forget_other_solids(workspace, &question);
-    int status = choose_grid(problem, workspace, normal, error);
+    int status = choose_grid(problem, normal, error);
     if (status) return status;
     for (int64_t n = first; n <= last && n <= rst_sync_most_levels; n *= 2) {
         normal->ahead = normal->updates + 2 * n;

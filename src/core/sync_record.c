@@ -30,7 +30,7 @@ static int follow(const struct rst_problem *problem, struct rst_workspace *works
     trace->n_knots = 0;
     rst_edge_rates(&trace->scene, s->g, s->tau, store->level, store->trace, trace->rate);
     if (rst_sync_sticks(problem, -outcome->velocity))
-        rst_trace_shear(&trace->scene, workspace->kernel->elements, s->g, s->tau, store->level, store->trace,
+        rst_trace_shear(&trace->scene, s->g, s->tau, store->level, store->trace,
                         store->node, store->body, store->beta, store->faded, store->term, &trace->n_knots, trace->knot);
     return RESTITUTE_OK;
 }

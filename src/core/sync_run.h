@@ -13,7 +13,6 @@ enum { rst_sync_most_levels = 1 << 15 };
 
 /* The solution of the normal problem, on its shelf. */
 struct normal {
-    const struct sync_kernel *kernel; /* what computes it, and what is made from it */
     struct sync_grid grid;
     int64_t levels;             /* of one phase */
     struct sync_level *level;   /* 2 levels + 1 */

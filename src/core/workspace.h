@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "sync_kernel.h"
+#include "kernels.h"
 
 /* First member of what a method of another component keeps in the workspace. */
 struct rst_own_memory {
@@ -27,7 +27,6 @@ struct rst_workspace {
     size_t elements_size;
     struct rst_shelf shelves[rst_shelves], spare; /* spare: of what is not kept */
     struct rst_own_memory *own;                   /* of the solver's method; NULL: none */
-    const struct sync_kernel *kernel;             /* of the method sync, the widest that this processor has */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
