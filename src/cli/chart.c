@@ -144,13 +144,14 @@ static void plot_series(FILE *commands, const char *data, const struct series *s
 {
     static const char *const kinds[] = {
         [MARK_LINE] = "lines", [MARK_POINTS] = "points", [MARK_BOTH] = "linespoints", [MARK_LIMIT] = "lines"};
+    static const int points[] = {4, 6, 8, 10, 12, 1, 2}; /* hollow ones, plus and cross */
     const unsigned colour = s->mark == MARK_LIMIT ? 0xb03030 : chart_colour((double)s->style / (double)styles);
     fprintf(commands, "%s using 1:2 with %s linecolor rgb '#%06x'", data, kinds[s->mark], colour);
     if (s->mark != MARK_POINTS)
         fprintf(commands, " linewidth %g dashtype %zu", s->mark == MARK_LIMIT ? 2.2 : 1.7,
                 s->mark == MARK_LIMIT ? 4 : s->mark == MARK_BOTH ? 1 : 1 + s->style % 5);
     if (s->mark == MARK_POINTS || s->mark == MARK_BOTH)
-        fprintf(commands, " pointtype %zu pointsize %g", s->mark == MARK_BOTH ? (size_t)7 : 4 + 2 * (s->style % 5),
+        fprintf(commands, " pointtype %d pointsize %g", s->mark == MARK_BOTH ? 7 : points[s->style % 7],
                 s->mark == MARK_BOTH ? 0.35 : 0.5);
     if (!named || !*s->name) return;
     fputs(" title ", commands);
@@ -163,7 +164,7 @@ static void range(FILE *commands, char axis, const double ends[2], bool logarith
     for (int i = 0; i < 2; i++)
         snprintf(text[i], sizeof text[i], isnan(ends[i]) ? "*" : "%g", ends[i]);
     fprintf(commands, "set %crange [%s:%s]\n%sset logscale %c\nset format %c '%s'\n", axis, text[0], text[1],
-            logarithmic ? "" : "un", axis, axis, logarithmic ? "%g" : "%h");
+            logarithmic ? "" : "un", axis, axis, !logarithmic ? "%h" : axis == 'y' ? "10^{%T}" : "%g");
 }
 
 static void text_setting(FILE *commands, const char *what, const char *text)
@@ -176,7 +177,7 @@ static void text_setting(FILE *commands, const char *what, const char *text)
 /* Where panel `index` stands on the sheet, its key to the right of it. */
 static void place(FILE *commands, size_t index, size_t panels, bool key)
 {
-    static const double places[][2] = {{0.085, 0.8}, {0.075, 0.42}, {0.52, 0.855}};
+    static const double places[][2] = {{0.11, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
     const double *at = places[panels == 1 ? 0 : 1 + index];
     fprintf(commands, "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen 0.14\nset tmargin at screen 0.78\n",
             at[0], at[1]);

@@ -8,29 +8,17 @@
 
 #include "sweep_slip.h"
 
-enum { LINE_POINTS = 241 };
-
-/* Dimensionless impacts along curve `curve`, at LINE_POINTS places x. One that fails leaves NaN. */
-static void solve_line(const struct sweep *sweep, size_t curve, double psi, double *x, restitute_result *results)
+void sweep_line(const struct sweep *sweep, size_t curve, double *x, restitute_result *results)
 {
-    const struct sweep_figure *f = sweep->figure;
-    const restitute_options options = sweep_fine_options(sweep->settings);
-    restitute_impact impacts[LINE_POINTS];
-    restitute_material *solids[LINE_POINTS];
-    int statuses[LINE_POINTS];
-    for (size_t i = 0; i < LINE_POINTS; i++) {
-        const double part = (double)i / (LINE_POINTS - 1);
-        x[i] = f->kind == SWEEP_FRICTION ? f->low + (f->high - f->low) * part : f->low * pow(f->high / f->low, part);
-        const struct sweep_numbers numbers = sweep_numbers_at(f, curve, x[i], psi);
-        impacts[i] = sweep_impact(&numbers, &solids[i]);
-        restitute_result_init(&results[i]);
+    struct sweep_numbers numbers[SWEEP_LINE];
+    struct reason why;
+    for (size_t i = 0; i < SWEEP_LINE; i++) {
+        x[i] = sweep_along(sweep->figure, (double)i / (SWEEP_LINE - 1));
+        numbers[i] = sweep_numbers_at(sweep->figure, curve, x[i], 1);
     }
-    restitute_solve_many(&options, LINE_POINTS, impacts, results, statuses, sweep->settings->threads, NULL);
-    for (size_t i = 0; i < LINE_POINTS; i++) {
-        restitute_material_destroy(solids[i]);
-        if (statuses[i] < 0) results[i].ez = results[i].ex = NAN;
-        if (statuses[i] == RESTITUTE_NO_REBOUND) results[i].ex = NAN; /* it stays in contact, and there is no after */
-    }
+    sweep_solve(sweep->settings, SWEEP_LINE, numbers, results, &why); /* what fails is a gap */
+    for (size_t i = 0; i < SWEEP_LINE; i++)
+        if (isinf(results[i].contact_time)) results[i].ex = NAN; /* it stays in contact, and there is no after */
 }
 
 static void name_curve(const struct sweep_figure *f, size_t curve, char *name, size_t size)
@@ -86,14 +74,14 @@ static void add_points(struct panel *panel, const struct sweep *sweep, const str
 /* Lines of the dimensionless numbers, and the impacts drawn as points on them. */
 static void add_curves(struct panel *panel, const struct sweep *sweep, const struct row *rows, int number)
 {
-    double x[LINE_POINTS];
-    restitute_result results[LINE_POINTS];
+    double x[SWEEP_LINE];
+    restitute_result results[SWEEP_LINE];
     for (size_t curve = 0; curve < sweep->figure->curves; curve++) {
         char name[48];
         name_curve(sweep->figure, curve, name, sizeof name);
-        solve_line(sweep, curve, 1, x, results);
-        struct series *line = chart_series(panel, MARK_LINE, curve, LINE_POINTS, name);
-        for (size_t i = 0; i < LINE_POINTS; i++)
+        sweep_line(sweep, curve, x, results);
+        struct series *line = chart_series(panel, MARK_LINE, curve, SWEEP_LINE, name);
+        for (size_t i = 0; i < SWEEP_LINE; i++)
             series_add(line, x[i], number == ROW_EZ ? results[i].ez : results[i].ex);
         add_points(panel, sweep, rows, curve, number, MARK_POINTS, "");
     }
@@ -117,12 +105,12 @@ static void add_limit(struct panel *panel, double x1, double y1, double x2, doub
 /* psi_c by (31) over delta1; style: like which curve it is drawn. */
 static void add_critical(struct panel *panel, const struct sweep *sweep, size_t curve, enum mark mark, const char *name)
 {
-    double x[LINE_POINTS];
-    restitute_result results[LINE_POINTS];
-    solve_line(sweep, curve, 1, x, results);
-    struct series *s = chart_series(panel, mark, curve, LINE_POINTS, name);
+    double x[SWEEP_LINE];
+    restitute_result results[SWEEP_LINE];
+    sweep_line(sweep, curve, x, results);
+    struct series *s = chart_series(panel, mark, curve, SWEEP_LINE, name);
     const double chi = sweep_numbers_at(sweep->figure, curve, 1, 1).chi;
-    for (size_t i = 0; i < LINE_POINTS; i++)
+    for (size_t i = 0; i < SWEEP_LINE; i++)
         series_add(s, x[i], restitute_critical_psi(chi, results[i].ez));
 }
 
@@ -145,16 +133,13 @@ static void draw_contours(struct chart *chart, const struct sweep *sweep, const 
     panel->series[1].mark = MARK_LINE;
 }
 
-/* Radius and duration that the simulation is told; then psi_c. */
-static double simulate(const struct sweep *sweep, const struct sweep_numbers *n, int64_t elements)
+double sweep_simulated_psi_c(const struct sweep *sweep, const struct sweep_numbers *numbers, int64_t elements)
 {
-    restitute_material *solid;
-    const restitute_options options = sweep_fine_options(sweep->settings);
-    const restitute_impact impact = sweep_impact(n, &solid);
-    restitute_result result;
-    restitute_result_init(&result);
-    if (restitute_solve_many(&options, 1, &impact, &result, NULL, 1, NULL) < 0) return NAN;
-    return sweep_critical_psi(n->chi, n->delta1, n->gamma, &result, elements);
+    restitute_result result; /* tells the simulation radius and duration */
+    struct reason why;
+    return sweep_solve(sweep->settings, 1, numbers, &result, &why)
+               ? sweep_critical_psi(numbers->chi, numbers->delta1, numbers->gamma, &result, elements)
+               : NAN;
 }
 
 static void draw_critical(struct chart *chart, const struct sweep *sweep)
@@ -172,30 +157,38 @@ static void draw_critical(struct chart *chart, const struct sweep *sweep)
         for (size_t i = curve * f->points; i < (curve + 1) * f->points; i++) {
             const struct sweep_numbers *n = &sweep->samples[i].numbers;
             const double formula = restitute_critical_psi(n->chi, sweep->samples[i].ez);
-            const double simulated = simulate(sweep, n, error ? (int64_t)f->curve[curve] : 128);
+            const double simulated = sweep_simulated_psi_c(sweep, n, error ? (int64_t)f->curve[curve] : 128);
             series_add(s, n->delta1, error ? fabs(simulated / formula - 1) : simulated);
         }
     }
 }
 
-/* tau/T below which the sphere sinks in, by bisection. */
-static double no_rebound_limit(const struct sweep *sweep)
+/* Whether a Maxwell body lets the sphere sink in: compression alone, docs/theory.md, D'' = -(15/8) P and
+ * P' = sqrt(D) D' - P/tau by the midpoint rule. At last D' obeys tau v'' + v' + (15/8) tau sqrt(D) v = 0, which crosses
+ * zero if it is not overdamped. */
+static bool sinks_in(double tau)
 {
-    const restitute_options options = sweep_fine_options(sweep->settings);
-    double low = 0.05, high = 3;
-    while (high / low > 1 + 1e-6) {
-        struct sweep_numbers n = sweep_numbers_at(sweep->figure, 0, sqrt(low * high), 1);
-        restitute_material *solid;
-        restitute_result result;
-        const restitute_impact impact = sweep_impact(&n, &solid);
-        restitute_result_init(&result);
-        const int status = restitute_solve_many(&options, 1, &impact, &result, NULL, 1, NULL);
-        restitute_material_destroy(solid);
-        if (status < 0) return NAN;
-        if (status == RESTITUTE_NO_REBOUND)
-            low = n.relaxation;
+    const double step = 1e-4;
+    double depth = 0, v = 1, force = 0;
+    while (v > 1e-8) {
+        const double d = depth + 0.5 * step * v, w = v - 0.5 * step * 15 / 8 * force;
+        const double f = force + 0.5 * step * (sqrt(depth) * v - force / tau);
+        depth += step * w;
+        v -= step * 15 / 8 * f;
+        force += step * (sqrt(d) * w - f / tau);
+    }
+    return v > 0 && 7.5 * tau * tau * sqrt(depth) < 1;
+}
+
+static double no_rebound_limit(void)
+{
+    double low = 0.1, high = 3;
+    while (high - low > 1e-5) {
+        const double tau = 0.5 * (low + high);
+        if (sinks_in(tau))
+            low = tau;
         else
-            high = n.relaxation;
+            high = tau;
     }
     return high;
 }
@@ -203,13 +196,13 @@ static double no_rebound_limit(const struct sweep *sweep)
 static void draw_maxwell(struct chart *chart, const struct sweep *sweep, const struct row *rows)
 {
     struct panel *z = &chart->panel[0], *x = &chart->panel[1];
-    const double limit = no_rebound_limit(sweep);
+    const double limit = no_rebound_limit();
     axes(z, "Normal restitution", "τ / T", "e_z", true);
     axes(x, "Tangential restitution", "τ / T", "e_x", true);
     add_curves(z, sweep, rows, ROW_EZ);
     add_curves(x, sweep, rows, ROW_EX);
     add_limit(z, limit, 0, limit, 1, "");
-    add_limit(x, limit, -0.6, limit, 0.6, "sinks in below");
+    add_limit(x, limit, -0.6, limit, 0.6, "no rebound");
 }
 
 static void draw_temperature(struct chart *chart, const struct sweep *sweep, const struct row *rows)
@@ -238,24 +231,20 @@ static double loss_tangent(const struct sweep_numbers *n, double contact_time)
 static void draw_tangent(struct chart *chart, const struct sweep *sweep, const struct row *rows)
 {
     const struct sweep_figure *f = sweep->figure;
-    const restitute_options options = sweep_fine_options(sweep->settings);
-    axes(&chart->panel[0], "", "loss tangent  G''/G'  at  ω = π / contact time", "e_z", true);
+    axes(&chart->panel[0], "", "loss tangent at the frequency  1 / (2 contact time)", "e_z", true);
     for (size_t curve = 0; curve < f->curves; curve++) {
         char name[48];
         name_curve(f, curve, name, sizeof name);
         struct series *s = chart_series(&chart->panel[0], MARK_POINTS, curve, f->points, name);
         for (size_t i = curve * f->points; i < (curve + 1) * f->points; i++) {
-            restitute_material *solid;
+            const struct sweep_numbers *n = &sweep->samples[i].numbers;
             restitute_result result;
-            const restitute_impact impact = sweep_impact(&sweep->samples[i].numbers, &solid);
-            restitute_result_init(&result);
-            const int status = restitute_solve_many(&options, 1, &impact, &result, NULL, 1, NULL);
-            restitute_material_destroy(solid);
-            if (status >= 0 && isfinite(result.contact_time) && rows[i].solved)
-                series_add(s, loss_tangent(&sweep->samples[i].numbers, result.contact_time), rows[i].number[ROW_EZ]);
+            struct reason why;
+            if (sweep_solve(sweep->settings, 1, n, &result, &why) && isfinite(result.contact_time) && rows[i].solved)
+                series_add(s, loss_tangent(n, result.contact_time), rows[i].number[ROW_EZ]);
         }
     }
-    chart->panel[0].xrange[0] = 0.01;
+    chart->panel[0].xrange[0] = 0.01, chart->panel[0].xrange[1] = 20;
 }
 
 /* Parts of the energy of the tangential motion. */
@@ -270,10 +259,10 @@ static void draw_friction(struct chart *chart, const struct sweep *sweep)
     for (size_t curve = 0; curve < f->curves; curve++) {
         char name[48];
         name_curve(f, curve, name, sizeof name);
-        struct series *slip = chart_series(&chart->panel[0], MARK_LINE, curve, LINE_POINTS, name);
-        struct series *material = chart_series(&chart->panel[1], MARK_LINE, curve, LINE_POINTS, name);
-        for (size_t i = 0; i < LINE_POINTS; i++) {
-            const double psi = f->low + (f->high - f->low) * (double)i / (LINE_POINTS - 1);
+        struct series *slip = chart_series(&chart->panel[0], MARK_LINE, curve, SWEEP_LINE, name);
+        struct series *material = chart_series(&chart->panel[1], MARK_LINE, curve, SWEEP_LINE, name);
+        for (size_t i = 0; i < SWEEP_LINE; i++) {
+            const double psi = sweep_along(f, (double)i / (SWEEP_LINE - 1));
             const struct sweep_numbers n = sweep_numbers_at(f, curve, psi, 1);
             restitute_material *solid;
             const restitute_impact impact = sweep_impact(&n, &solid);

@@ -56,14 +56,20 @@ bool sweep_plan(struct sweep *sweep, struct reason *why);
 /* The samples as cases. */
 void sweep_cases(const struct sweep *sweep, struct cases *cases);
 
-/* The impact of these numbers; `solid` is made where they say Maxwell, and is the caller's to destroy. */
-restitute_impact sweep_impact(const struct sweep_numbers *numbers, restitute_material **solid);
+/* Solve so many numbers by the method sync at a hundredth of the tolerance: what samples are compared with. One that
+ * fails leaves NaN in its pair. */
+bool sweep_solve(const struct settings *settings, size_t count, const struct sweep_numbers *numbers,
+                 restitute_result *results, struct reason *why);
 
-/* Options for curves that samples are compared with: the method sync, a hundredth of the tolerance. */
+/* The options of that, and the impact; `solid` is made where the numbers say Maxwell, and is to be destroyed. */
 restitute_options sweep_fine_options(const struct settings *settings);
+restitute_impact sweep_impact(const struct sweep_numbers *numbers, restitute_material **solid);
 
 /* a_T of polyisobutylene at this temperature in degrees Celsius. */
 double sweep_time_shift(double temperature);
+
+/* A place on the axis, part of the way from its low to its high end. */
+double sweep_along(const struct sweep_figure *figure, double part);
 
 /* The numbers of curve `curve` at `x` along the axis. */
 struct sweep_numbers sweep_numbers_at(const struct sweep_figure *figure, size_t curve, double x, double psi);

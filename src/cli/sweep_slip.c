@@ -31,7 +31,7 @@ double sweep_critical_psi(double chi, double delta1, double gamma, const restitu
                                             .step = result->contact_time / (double)steps,
                                             .max_steps = 20 * steps,
                                             .trial_sign = 1};
-    while (high - low > 1e-7) {
+    while (high - low > 1e-9) {
         struct paper_result run;
         problem.psi = 0.5 * (low + high);
         if (paper_solve(&problem, &settings, &run) != PAPER_SEPARATED) return NAN;
