@@ -38,8 +38,8 @@ static void catch_signal(int number)
 struct batch {
     const struct settings *settings;
     const struct batch_maker *maker; /* of the cases; NULL: from the settings */
-    const char *path; /* of the result; NULL: a stream */
-    int stream;       /* where rows go at once if it is a stream; -1: JSON waits for all of them */
+    const char *path;                /* of the result; NULL: a stream */
+    int stream;                      /* where rows go at once if it is a stream; -1: JSON waits for all of them */
     struct cases cases;
     struct materials materials;
     restitute_solver *solver;
@@ -48,7 +48,7 @@ struct batch {
     size_t done, failed;
     struct partial partial;
     double begin, last_tick;
-    size_t resumed; /* rows done before this run */
+    size_t resumed;            /* rows done before this run */
     size_t chunk, least_chunk; /* rows to be solved at once */
 };
 
@@ -275,8 +275,8 @@ static int finish(struct batch *batch)
     if (batch->maker && !settings->text[TEXT_SHARD]) {
         const int status = batch->maker->finish(batch->maker->context, &batch->cases, batch->rows, make_record(batch));
         if (status != EXIT_DONE) return status;
-    } else if (settings->text[TEXT_FIGURE] &&
-        !figure_of_cases(settings->text[TEXT_FIGURE], settings, &batch->cases, &batch->materials, batch->rows, &why))
+    } else if (settings->text[TEXT_FIGURE] && !figure_of_cases(settings->text[TEXT_FIGURE], settings, &batch->cases,
+                                                               &batch->materials, batch->rows, &why))
         return complain("%s", why.text);
     if (batch->failed == 0) return EXIT_DONE;
     complain("%zu of %zu rows failed; the column status says why", batch->failed, batch->cases.rows);

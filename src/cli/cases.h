@@ -11,9 +11,9 @@ enum { CASES_MADE_COLUMNS = 32 };
 
 struct cases {
     size_t rows, columns;
-    restitute_csv *csv; /* where they were read from; NULL for a grid */
-    const char *source; /* name of the file for messages; NULL for a grid */
-    char **cells;       /* of a grid or a sweep, row by row; NULL for a file */
+    restitute_csv *csv;                    /* where they were read from; NULL for a grid */
+    const char *source;                    /* name of the file for messages; NULL for a grid */
+    char **cells;                          /* of a grid or a sweep, row by row; NULL for a file */
     const char *names[CASES_MADE_COLUMNS]; /* of these */
     size_t notes;                          /* so many first columns of a sweep are no inputs */
     size_t axes, axis[2];                  /* of a grid, and how many points they have */

@@ -149,7 +149,7 @@ static void plot_series(FILE *commands, const char *data, const struct series *s
     fprintf(commands, "%s using 1:2 with %s linecolor rgb '#%06x'", data, kinds[s->mark], colour);
     if (s->mark != MARK_POINTS)
         fprintf(commands, " linewidth %g dashtype %zu", s->mark == MARK_LIMIT ? 2.2 : 1.7,
-                s->mark == MARK_LIMIT ? 4 : s->mark == MARK_BOTH ? 1 : 1 + s->style % 5);
+                s->mark == MARK_LIMIT ? 4 : 1 + s->style % 5);
     if (s->mark == MARK_POINTS || s->mark == MARK_BOTH)
         fprintf(commands, " pointtype %d pointsize %g", s->mark == MARK_BOTH ? 7 : points[s->style % 7],
                 s->mark == MARK_BOTH ? 0.35 : 0.5);
@@ -164,7 +164,10 @@ static void range(FILE *commands, char axis, const double ends[2], bool logarith
     for (int i = 0; i < 2; i++)
         snprintf(text[i], sizeof text[i], isnan(ends[i]) ? "*" : "%g", ends[i]);
     fprintf(commands, "set %crange [%s:%s]\n%sset logscale %c\nset format %c '%s'\n", axis, text[0], text[1],
-            logarithmic ? "" : "un", axis, axis, !logarithmic ? "%h" : axis == 'y' ? "10^{%T}" : "%g");
+            logarithmic ? "" : "un", axis, axis,
+            !logarithmic  ? "%h"
+            : axis == 'y' ? "10^{%T}"
+                          : "%g");
 }
 
 static void text_setting(FILE *commands, const char *what, const char *text)
@@ -179,8 +182,10 @@ static void place(FILE *commands, size_t index, size_t panels, bool key)
 {
     static const double places[][2] = {{0.11, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
     const double *at = places[panels == 1 ? 0 : 1 + index];
-    fprintf(commands, "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen 0.14\nset tmargin at screen 0.78\n",
-            at[0], at[1]);
+    fprintf(
+        commands,
+        "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen 0.14\nset tmargin at screen 0.78\n",
+        at[0], at[1]);
     if (key)
         fprintf(commands, "set key at screen %g,0.8 left top Left reverse samplen 1.8 spacing 1.15\n", at[1] + 0.012);
 }
@@ -197,7 +202,7 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
     text_setting(commands, "title", p->title);
     text_setting(commands, "xlabel", p->xlabel);
     text_setting(commands, "ylabel", p->ylabel);
-    if (*p->key) text_setting(commands, "key title", p->key);
+    if (key && *p->key) text_setting(commands, "key title", p->key);
     range(commands, 'x', p->xrange, p->xlog);
     range(commands, 'y', p->yrange, p->ylog);
     if (p->heights.nx) {

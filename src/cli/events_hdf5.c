@@ -20,7 +20,7 @@ static bool write_group(hid_t file, const struct event_table *table, bool physic
         good = column == EVENT_KIND
                    ? hdf5_write_column(group, event_column_name(column, physical), "", word, table->kind, table->count)
                    : hdf5_write_column(group, event_column_name(column, physical), event_column_unit(column, physical),
-                                  H5T_NATIVE_DOUBLE, table->number[column], table->count);
+                                       H5T_NATIVE_DOUBLE, table->number[column], table->count);
     H5Tclose(word);
     if (group >= 0) H5Gclose(group);
     return good;

@@ -145,12 +145,18 @@ static bool is_logarithmic(const struct cases *cases, size_t column)
 
 void figure_label(enum field field, char *text, size_t size)
 {
-    static const char *const names[FIELD_COUNT] = {
-        [FIELD_CHI] = "χ",         [FIELD_PSI] = "ψ",           [FIELD_DELTA1] = "δ_1",
-        [FIELD_GAMMA] = "γ",       [FIELD_DELTA2] = "δ_2",      [FIELD_SPEED] = "speed  v",
-        [FIELD_FRICTION] = "friction  μ", [FIELD_ANGLE] = "angle from the normal  θ", [FIELD_TIME_SHIFT] = "time shift  a_T"};
+    static const char *const names[FIELD_COUNT] = {[FIELD_CHI] = "χ",
+                                                   [FIELD_PSI] = "ψ",
+                                                   [FIELD_DELTA1] = "δ_1",
+                                                   [FIELD_GAMMA] = "γ",
+                                                   [FIELD_DELTA2] = "δ_2",
+                                                   [FIELD_SPEED] = "speed  v",
+                                                   [FIELD_FRICTION] = "friction  μ",
+                                                   [FIELD_ANGLE] = "angle from the normal  θ",
+                                                   [FIELD_TIME_SHIFT] = "time shift  a_T"};
     const struct field_rule *rule = &field_rules[field];
-    const char *unit = field == FIELD_ANGLE ? "degrees" : rule->unit, *name = names[field] ? names[field] : rule->option;
+    const char *unit = field == FIELD_ANGLE ? "degrees" : rule->unit,
+               *name = names[field] ? names[field] : rule->option;
     if (strcmp(unit, "1") == 0)
         snprintf(text, size, "%s", name);
     else
@@ -192,7 +198,7 @@ static void name_curve(const struct cases *cases, size_t column, size_t row, cha
 {
     const char *cell = cases_cell(cases, row, column), *slash = strrchr(cell, '/');
     if (is_words(cases, column))
-        snprintf(text, size, "%.40s", slash ? slash + 1 : cell);
+        snprintf(text, size, "%.*s", (int)strcspn(slash ? slash + 1 : cell, "."), slash ? slash + 1 : cell);
     else
         snprintf(text, size, "%.4g", cell_number(cases, row, column));
 }
@@ -214,14 +220,15 @@ static void add_curves(struct chart *chart, const struct cases *cases, const str
 }
 
 /* ez depends on the normal speed alone: a grid of speeds and angles has one curve of it. */
-static void merge_normal_speeds(struct panel *panel, const struct cases *cases, const struct row *rows,
-                                size_t speed, size_t angle)
+static void merge_normal_speeds(struct panel *panel, const struct cases *cases, const struct row *rows, size_t speed,
+                                size_t angle)
 {
     struct point *points = allocate(cases->rows, sizeof *points);
     size_t count = 0;
     double low = INFINITY, high = 0;
     for (size_t i = 0; i < cases->rows; i++)
-        if (rows[i].solved) points[count++] = (struct point){normal_speed(cases, i, speed, angle), rows[i].number[ROW_EZ]};
+        if (rows[i].solved)
+            points[count++] = (struct point){normal_speed(cases, i, speed, angle), rows[i].number[ROW_EZ]};
     qsort(points, count, sizeof *points, by_x);
     for (size_t k = 0; k < panel->count; k++)
         panel->series[k].count = 0;
@@ -229,6 +236,7 @@ static void merge_normal_speeds(struct panel *panel, const struct cases *cases, 
         series_add(&panel->series[0], points[i].x, points[i].y);
         low = fmin(low, points[i].x), high = fmax(high, points[i].x);
     }
+    panel->series[0].style = 0;
     panel->xlog = true;
     panel->xrange[0] = 0.7 * low, panel->xrange[1] = 1.4 * high;
     snprintf(panel->xlabel, sizeof panel->xlabel, "normal speed  v cos θ  (m/s)");
@@ -399,7 +407,8 @@ static void write_history_data(FILE *commands, const restitute_history *history)
     fputs("END\n", commands);
 }
 
-static void plot_panel(FILE *commands, const struct history_panel *panel, const restitute_history *history, bool physical)
+static void plot_panel(FILE *commands, const struct history_panel *panel, const restitute_history *history,
+                       bool physical)
 {
     const double *arrays[HISTORY_ARRAYS];
     arrays_of(history, arrays);

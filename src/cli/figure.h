@@ -14,7 +14,7 @@ bool figure_check_cases(const struct cases *cases, bool contours, struct reason 
 /* ez and ex over one column with a curve for each value of a second one, or as contours over both. A grid of speed and
  * angle has ez over the normal speed. */
 bool figure_of_cases(const char *path, const struct settings *settings, const struct cases *cases,
-                    struct materials *materials, const struct row *rows, struct reason *why);
+                     struct materials *materials, const struct row *rows, struct reason *why);
 
 /* Name and unit of a field on an axis. */
 void figure_label(enum field field, char *text, size_t size);

@@ -96,8 +96,7 @@ static bool read_axis(char *text, struct grid *grid, struct reason *why)
                       "psi, or material=FILE:FILE:...",
                       text);
     grid->axes++;
-    if (grid->axes == 2 && grid->axis[0].field == axis->field)
-        return refuse(why, "--grid: %s is given twice", text);
+    if (grid->axes == 2 && grid->axis[0].field == axis->field) return refuse(why, "--grid: %s is given twice", text);
     return material ? read_files(equals + 1, axis, why) : read_numbers(text, equals + 1, axis, why);
 }
 

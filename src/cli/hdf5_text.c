@@ -17,8 +17,7 @@ bool hdf5_write_text(hid_t place, const char *name, const char *text)
     return good;
 }
 
-bool hdf5_write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values,
-                       size_t count)
+bool hdf5_write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
 {
     const hsize_t length = count;
     const hid_t space = H5Screate_simple(1, &length, NULL);

@@ -48,7 +48,8 @@ static int run_subcommand(int count, char **arguments)
              !settings.text[TEXT_GRID])
         status = complain("sweep: a figure, --grid or --input is missing; see restitute sweep --help");
     else if (reading == READING_GO_ON)
-        status = settings.text[TEXT_INPUT] || settings.text[TEXT_GRID] ? batch_run(&settings, NULL) : single_run(&settings);
+        status =
+            settings.text[TEXT_INPUT] || settings.text[TEXT_GRID] ? batch_run(&settings, NULL) : single_run(&settings);
     options_release(&settings);
     return status;
 }
@@ -71,8 +72,9 @@ int main(int count, char **arguments)
         printf("restitute %s\n%s", restitute_version(), licence);
     else
         status =
-            *word ? complain("unknown command \"%.64s\": must be pair, history, sweep, bench or table; see restitute --help",
-                             word)
+            *word ? complain(
+                        "unknown command \"%.64s\": must be pair, history, sweep, bench or table; see restitute --help",
+                        word)
                   : complain("a command is missing: pair, history, sweep, bench or table; see restitute --help");
     errno = 0;
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)

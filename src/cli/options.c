@@ -152,10 +152,12 @@ static const char sweep_footer[] =
     "fig4, fig6: ez; fig5, fig8, fig9: ex over delta1 and psi; fig7: ex without slip; fig10, fig11: psi_c and the\n"
     "error of its formula; maxwell, temperature (takes --material), tangent, friction: beyond the paper.\n"
     "Impacts are drawn at random in SI units; their scatter about the curves of the dimensionless numbers is printed.\n"
-    "The method is sync and the tolerance 1e-5, if not said otherwise. Of the options above a figure with a name takes\n"
+    "The method is sync and the tolerance 1e-5, if not said otherwise. Of the options above a figure with a name "
+    "takes\n"
     "those of the solution, --output, --threads, --resume, --shard and --join (K, or files, with one figure).\n"
     "\nOr any other, as with restitute pair --grid and --input:\n"
-    "  restitute sweep --gamma 0.1 --grid psi=0.1:5:50,delta1=0.01:100:50:log --output g.csv --figure g.svg --contours\n"
+    "  restitute sweep --gamma 0.1 --grid psi=0.1:5:50,delta1=0.01:100:50:log --output g.csv --figure g.svg "
+    "--contours\n"
     "\nExit status: 0 done, 1 some rows or checks failed, 2 bad usage or input, 130 interrupted.\n";
 
 static const char history_footer[] =
@@ -372,7 +374,8 @@ enum reading options_read(int count, char **arguments, struct settings *settings
                                GROUP(physical, "or in SI units, a sphere against a wall or a second sphere:"),
                                GROUP(solution_options, "How it is solved:"),
                                GROUP(history ? history_output_options : pair_output_options, "Input and output:"),
-                               GROUP(sweep_options, "Figures with a name:"), POPT_TABLEEND};
+                               GROUP(sweep_options, "Figures with a name:"),
+                               POPT_TABLEEND};
     memset(settings, 0, sizeof *settings);
     if (!sweep) all[4] = all[5];
     settings->command = history ? COMMAND_HISTORY : sweep ? COMMAND_SWEEP : COMMAND_PAIR;
@@ -389,6 +392,8 @@ enum reading options_read(int count, char **arguments, struct settings *settings
     bool help = false;
     const bool good = read_arguments(context, settings, &help, &why);
     if (help) {
+        static char room[1 << 14]; /* one write at the end, whose failure keeps its reason */
+        setvbuf(stdout, room, _IOFBF, sizeof room);
         poptPrintHelp(context, stdout, 0);
         fputs(footers[settings->command], stdout);
     }

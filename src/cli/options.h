@@ -48,7 +48,7 @@ struct settings {
     bool contours;
     size_t shard, shards; /* part `shard` of `shards`, from 1; 1/1: all */
     unsigned seed;
-    char *sweep; /* which figure; NULL: none is named */
+    char *sweep;              /* which figure; NULL: none is named */
     char *text[TEXT_COUNT];   /* as given; NULL: not given */
     char *field[FIELD_COUNT]; /* likewise */
     int argument_count;

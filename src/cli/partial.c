@@ -61,7 +61,8 @@ static bool read_done(const char *path, const struct cases *cases, const struct 
     for (size_t i = 0; i < found && good; i++) {
         for (size_t k = 0; k < cases->columns && good; k++)
             good = strcmp(restitute_csv_cell(csv, i, k), cases_cell(cases, first + i, k)) == 0;
-        if (good && (good = row_read(csv, i, cases->columns, settings->solver.method, &rows[first + i]))) *count = i + 1;
+        if (good && (good = row_read(csv, i, cases->columns, settings->solver.method, &rows[first + i])))
+            *count = i + 1;
     }
     restitute_csv_destroy(csv);
     return good ? true
@@ -86,11 +87,12 @@ bool partial_begin(const char *path, const struct cases *cases, const struct set
     if (!unfinished_open(path, settings->resume, &partial->rows, why)) return false;
     partial->settings_path = path_beside(path, ".partial.json");
     const bool fresh = partial->rows.empty;
-    const bool good = fresh
-                          ? begin_new(partial, cases, settings_object, why)
-                          : same_settings(partial->settings_path, "--resume", settings_object, why) && unfinished_cut(&partial->rows, why) &&
-                                (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
-                                                     : read_done(partial->rows.path, cases, settings, rows, 0, done, why));
+    const bool good =
+        fresh ? begin_new(partial, cases, settings_object, why)
+              : same_settings(partial->settings_path, "--resume", settings_object, why) &&
+                    unfinished_cut(&partial->rows, why) &&
+                    (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
+                                         : read_done(partial->rows.path, cases, settings, rows, 0, done, why));
     if (!good && fresh) partial_remove(partial);
     if (!good) partial_leave(partial);
     return good;

@@ -51,8 +51,7 @@ static bool write_numbers(hid_t file, const struct cases *cases, const struct ro
     double *numbers = allocate(cases->rows, sizeof *numbers);
     for (size_t i = 0; i < cases->rows; i++)
         numbers[i] = rows[i].solved ? rows[i].number[number] : NAN;
-    const bool good =
-        hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows);
+    const bool good = hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows);
     free(numbers);
     return good;
 }

@@ -71,8 +71,10 @@ static int finish(void *context, const struct cases *cases, const struct row *ro
     const struct sweep *sweep = context;
     struct reason why;
     struct chart *chart = sweep_chart(sweep, cases, rows);
+    printf("%s: %s\n", sweep->figure->name, sweep->figure->title);
     const bool good = write_files(sweep, cases, rows, chart, record, &why);
     const int failed = sweep_check(sweep, rows, chart);
+    fflush(stdout);
     chart_release(chart);
     json_decref(record);
     if (!good) return complain("%s", why.text);
@@ -126,8 +128,6 @@ static int run_figure(const struct settings *given, const struct sweep_figure *f
     if (given->text[TEXT_JOIN] && !settings.text[TEXT_JOIN]) {
         complain("%s", why.text);
     } else {
-        printf("%s: %s\n", figure->name, figure->title);
-        fflush(stdout);
         status = batch_run(&settings, &maker);
     }
     free(settings.text[TEXT_OUTPUT]);

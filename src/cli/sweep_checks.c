@@ -58,8 +58,8 @@ static int check_kelvin_voigt(const struct sweep *sweep, const struct chart *cha
     for (size_t i = 1; i < line->count; i++)
         rise = fmax(rise, line->y[i] - line->y[i - 1]);
     return check("largest rise of e_z between neighbours", rise, -1, 0) +
-           check("(1 - e_z)/theta at delta1 = 0.001, in the limit 1.8917", (1 - solve(sweep, numbers(0, 1e-3, 0)).ez) / small,
-                 1.87, 1.8918) +
+           check("(1 - e_z)/theta at delta1 = 0.001, in the limit 1.8917",
+                 (1 - solve(sweep, numbers(0, 1e-3, 0)).ez) / small, 1.87, 1.8918) +
            check("e_z over its asymptote (4/(5 theta))^(2/3)/theta at delta1 = 100",
                  solve(sweep, numbers(0, 100, 0)).ez * large / pow(0.8 / large, 2.0 / 3), 0.97, 1.03);
 }
@@ -108,7 +108,8 @@ static int check_contours(const struct sweep *sweep)
     const double kelvin_voigt = reach(sweep, "fig5"), weak = reach(sweep, "fig8"), strong = reach(sweep, "fig9");
     if (sweep->figure->curve[0] == 0) return check_elastic(sweep);
     if (sweep->figure->curve[0] < 1)
-        return check("e_x > 0.45 at psi = 2 up to delta1, more than Kelvin-Voigt", weak / kelvin_voigt, 1.001, INFINITY);
+        return check("e_x > 0.45 at psi = 2 up to delta1, more than Kelvin-Voigt", weak / kelvin_voigt, 1.001,
+                     INFINITY);
     return check("e_x > 0.45 at psi = 2 up to delta1, more than gamma = 0.0825", strong / weak, 1.1, INFINITY);
 }
 

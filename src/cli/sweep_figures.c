@@ -18,10 +18,31 @@ const struct sweep_figure sweep_figures[] = {
     {"fig8", "Tangential restitution, γ = 0.0825", SWEEP_CONTOURS, 76, 61, {0.0825}, 0.01, 100},
     {"fig9", "Tangential restitution, γ = 1", SWEEP_CONTOURS, 76, 61, {1}, 0.01, 100},
     {"fig10", "From which ψ on the contact slips to the end", SWEEP_PSI_C, 4, 16, {0, 0.0825, 0.3, 1}, 0.01, 30},
-    {"fig11", "The formula (31) beside simulations of growing resolution", SWEEP_PSI_C_ERROR, 4, 16, {16, 32, 64, 128}, 0.01, 10},
+    {"fig11",
+     "The formula (31) beside simulations of growing resolution",
+     SWEEP_PSI_C_ERROR,
+     4,
+     16,
+     {16, 32, 64, 128},
+     0.01,
+     10},
     {"maxwell", "Maxwell body", SWEEP_MAXWELL, 4, 48, {0.5, 1, 2, 3}, 0.1, 100},
-    {"temperature", "Polyisobutylene at six temperatures", SWEEP_TEMPERATURE, 6, 41, {-40, -20, 0, 25, 50, 80}, 1e-3, 100},
-    {"tangent", "Normal restitution over the loss tangent", SWEEP_TANGENT, 7, 40, {0, 0.01, 0.1, 0.3, 1, 10, NAN}, 0.01, 100},
+    {"temperature",
+     "Polyisobutylene at six temperatures",
+     SWEEP_TEMPERATURE,
+     6,
+     41,
+     {-40, -20, 0, 25, 50, 80},
+     1e-3,
+     100},
+    {"tangent",
+     "Normal restitution over the loss tangent",
+     SWEEP_TANGENT,
+     7,
+     40,
+     {0, 0.01, 0.1, 0.3, 1, 10, NAN},
+     0.01,
+     100},
     {"friction", "What friction does to the tangential energy", SWEEP_FRICTION, 5, 48, {0, 0.1, 0.3, 1, 3}, 0.05, 6},
 };
 const size_t sweep_figure_count = sizeof sweep_figures / sizeof *sweep_figures;
@@ -82,8 +103,7 @@ restitute_impact sweep_impact(const struct sweep_numbers *numbers, restitute_mat
     impact.psi = numbers->psi;
     impact.delta1 = numbers->delta1;
     impact.gamma = numbers->gamma;
-    if (numbers->relaxation > 0 &&
-        restitute_material_maxwell(1, numbers->relaxation, 0.5, solid, NULL) == RESTITUTE_OK)
+    if (numbers->relaxation > 0 && restitute_material_maxwell(1, numbers->relaxation, 0.5, solid, NULL) == RESTITUTE_OK)
         impact.solid = *solid;
     return impact;
 }
@@ -132,7 +152,8 @@ static void draw_sample(const struct sweep *sweep, size_t curve, size_t point, u
     const bool regular = f->kind == SWEEP_CONTOURS || f->kind == SWEEP_TEMPERATURE || f->kind == SWEEP_PSI_C_ERROR;
     const double part = regular ? (double)point / (double)(f->points - 1) : ((double)point + where) / (double)f->points;
     double x = sweep_along(f, part);
-    if (f->kind == SWEEP_MAXWELL && x > 0.3 && x < 0.345) x *= 1.16; /* sync fails close to the limit of rebound, 0.33 */
+    if (f->kind == SWEEP_MAXWELL && x > 0.3 && x < 0.345)
+        x *= 1.16; /* sync fails close to the limit of rebound, 0.33 */
     sample->curve = curve;
     sample->ez = sample->ex = NAN;
     if (f->kind == SWEEP_TEMPERATURE) {
@@ -222,8 +243,14 @@ void sweep_cases(const struct sweep *sweep, struct cases *cases)
         const struct sweep_sample *s = &sweep->samples[i];
         const struct sweep_numbers *n = &s->numbers;
         const bool maxwell = n->relaxation > 0;
-        const double notes[NOTES] = {(double)s->curve,          n->chi, n->psi, maxwell ? NAN : n->delta1,
-                                     maxwell ? NAN : n->gamma, maxwell ? n->relaxation : NAN, s->ez, s->ex};
+        const double notes[NOTES] = {(double)s->curve,
+                                     n->chi,
+                                     n->psi,
+                                     maxwell ? NAN : n->delta1,
+                                     maxwell ? NAN : n->gamma,
+                                     maxwell ? n->relaxation : NAN,
+                                     s->ez,
+                                     s->ex};
         for (size_t k = 0; k < NOTES; k++)
             set_number(cases, i, k, true, notes[k]);
         for (size_t k = NOTES; k < last; k++)
