@@ -93,6 +93,7 @@ static bool check_options(const struct settings *settings, struct reason *why)
     if (text[TEXT_INPUT] && text[TEXT_GRID]) return refuse(why, "--input and --grid are both given: use one");
     if (settings->format == FORMAT_TEXT)
         return refuse(why, "--format = \"text\": must be csv or json with --input and --grid");
+    if (text[TEXT_SEED] && !settings->sweep) return refuse(why, "--seed: needs the name of a figure");
     if (settings->contours && !text[TEXT_FIGURE]) return refuse(why, "--contours: needs --figure");
     if (text[TEXT_FIGURE] && text[TEXT_SHARD])
         return refuse(why, "--figure = %.200s: not with --shard; --join draws it", text[TEXT_FIGURE]);

@@ -180,7 +180,7 @@ static void text_setting(FILE *commands, const char *what, const char *text)
 /* Where panel `index` stands on the sheet, its key to the right of it. */
 static void place(FILE *commands, size_t index, size_t panels, bool key)
 {
-    static const double places[][2] = {{0.11, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
+    static const double places[][2] = {{0.125, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
     const double *at = places[panels == 1 ? 0 : 1 + index];
     fprintf(
         commands,

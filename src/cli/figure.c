@@ -47,26 +47,46 @@ static double cell_number(const struct cases *cases, size_t row, size_t column)
     return strtod(cases_cell(cases, row, column), NULL);
 }
 
+static bool same_cell(const struct cases *cases, size_t column, size_t one, size_t other)
+{
+    return strcmp(cases_cell(cases, one, column), cases_cell(cases, other, column)) == 0;
+}
+
 /* Different cells of a column in order of appearance, as rows in which they stand. */
 struct distinct {
     size_t count;
     size_t *row;
 };
 
-static bool same_cell(const struct cases *cases, size_t column, size_t one, size_t other)
+struct cell_at {
+    const char *cell;
+    size_t row;
+};
+
+static int by_row(const void *left, const void *right)
 {
-    return strcmp(cases_cell(cases, one, column), cases_cell(cases, other, column)) == 0;
+    const size_t a = *(const size_t *)left, b = *(const size_t *)right;
+    return (a > b) - (a < b);
+}
+
+static int by_cell(const void *left, const void *right)
+{
+    const struct cell_at *a = left, *b = right;
+    const int order = strcmp(a->cell, b->cell);
+    return order ? order : by_row(&a->row, &b->row);
 }
 
 static struct distinct distinct_of(const struct cases *cases, size_t column)
 {
     struct distinct d = {0, allocate(cases->rows, sizeof *d.row)};
-    for (size_t i = 0; i < cases->rows; i++) {
-        size_t k = d.count; /* neighbours are often alike, so from behind */
-        while (k > 0 && !same_cell(cases, column, d.row[k - 1], i))
-            k--;
-        if (k == 0) d.row[d.count++] = i;
-    }
+    struct cell_at *cells = allocate(cases->rows, sizeof *cells);
+    for (size_t i = 0; i < cases->rows; i++)
+        cells[i] = (struct cell_at){cases_cell(cases, i, column), i};
+    qsort(cells, cases->rows, sizeof *cells, by_cell);
+    for (size_t i = 0; i < cases->rows; i++)
+        if (i == 0 || strcmp(cells[i].cell, cells[i - 1].cell) != 0) d.row[d.count++] = cells[i].row;
+    qsort(d.row, d.count, sizeof *d.row, by_row);
+    free(cells);
     return d;
 }
 
@@ -243,18 +263,15 @@ static void merge_normal_speeds(struct panel *panel, const struct cases *cases, 
     free(points);
 }
 
-static size_t index_of(const double *sorted, size_t count, double value)
-{
-    size_t i = 0;
-    while (i + 1 < count && sorted[i] < value)
-        i++;
-    return i;
-}
-
 static int by_value(const void *left, const void *right)
 {
     const double a = *(const double *)left, b = *(const double *)right;
     return (a > b) - (a < b);
+}
+
+static size_t index_of(const double *sorted, size_t count, double value)
+{
+    return (size_t)((const double *)bsearch(&value, sorted, count, sizeof value, by_value) - sorted);
 }
 
 static void add_heights(struct panel *panel, const struct cases *cases, const struct row *rows,

@@ -20,52 +20,36 @@ static const char *unit_of(const json_t *record, const char *name)
     return unit ? unit : "";
 }
 
-/* Numbers if all cells that are not empty are. */
-static bool write_cells(hid_t file, const struct cases *cases, size_t column, const json_t *record)
+static bool write_words(hid_t file, const char *name, const char *const *words, size_t count)
 {
-    const char *name = cases_name(cases, column);
+    const hid_t word = H5Tcopy(H5T_C_S1);
+    H5Tset_size(word, H5T_VARIABLE);
+    const bool good = hdf5_write_column(file, name, "", word, words, count);
+    H5Tclose(word);
+    return good;
+}
+
+/* Column `column` of the cases, then the numbers of the rows, then their status. Numbers if all cells that are not
+ * empty are. */
+static bool write_column(hid_t file, const struct cases *cases, const struct row *rows, size_t column,
+                         const json_t *record)
+{
+    const size_t number = column - cases->columns;
+    const bool input = column < cases->columns, status = !input && number == ROW_NUMBERS;
+    const char *name = input ? cases_name(cases, column) : status ? "status" : row_number_name(number);
     const char **words = allocate(cases->rows, sizeof *words);
     double *numbers = allocate(cases->rows, sizeof *numbers);
-    bool numeric = true, good;
+    bool numeric = !status;
     for (size_t i = 0; i < cases->rows; i++) {
-        words[i] = cases_cell(cases, i, column);
-        numbers[i] = NAN;
-        if (*words[i] && restitute_number_read(words[i], &numbers[i]) != RESTITUTE_OK) numeric = false;
+        words[i] = input ? cases_cell(cases, i, column) : rows[i].status;
+        numbers[i] = !input && !status && rows[i].solved ? rows[i].number[number] : NAN;
+        if (input && *words[i] && restitute_number_read(words[i], &numbers[i]) != RESTITUTE_OK) numeric = false;
     }
-    const hid_t word = H5Tcopy(H5T_C_S1);
-    H5Tset_size(word, H5T_VARIABLE);
-    if (numeric)
-        good = hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows);
-    else
-        good = hdf5_write_column(file, name, "", word, words, cases->rows);
-    H5Tclose(word);
+    const bool good =
+        numeric ? hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows)
+                : write_words(file, name, words, cases->rows);
     free(words);
     free(numbers);
-    return good;
-}
-
-static bool write_numbers(hid_t file, const struct cases *cases, const struct row *rows, size_t number,
-                          const json_t *record)
-{
-    const char *name = row_number_name(number);
-    double *numbers = allocate(cases->rows, sizeof *numbers);
-    for (size_t i = 0; i < cases->rows; i++)
-        numbers[i] = rows[i].solved ? rows[i].number[number] : NAN;
-    const bool good = hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows);
-    free(numbers);
-    return good;
-}
-
-static bool write_status(hid_t file, const struct cases *cases, const struct row *rows)
-{
-    const char **words = allocate(cases->rows, sizeof *words);
-    const hid_t word = H5Tcopy(H5T_C_S1);
-    H5Tset_size(word, H5T_VARIABLE);
-    for (size_t i = 0; i < cases->rows; i++)
-        words[i] = rows[i].status;
-    const bool good = hdf5_write_column(file, "status", "", word, words, cases->rows);
-    H5Tclose(word);
-    free(words);
     return good;
 }
 
@@ -78,11 +62,8 @@ bool rows_hdf5_write(const char *path, const struct cases *cases, const struct r
     const hid_t file = rst_image_create(0);
     char *text = json_dumps(record, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
     bool good = file >= 0 && text && hdf5_write_text(file, "record", text);
-    for (size_t i = 0; i < cases->columns && good; i++)
-        good = write_cells(file, cases, i, record);
-    for (size_t i = 0; i < ROW_NUMBERS && good; i++)
-        good = write_numbers(file, cases, rows, i, record);
-    good = good && write_status(file, cases, rows);
+    for (size_t i = 0; i < cases->columns + ROW_NUMBERS + 1 && good; i++)
+        good = write_column(file, cases, rows, i, record);
     free(text);
     if (hdf5_finish(file, good, output.stream)) return output_finish(&output, why);
     outputs_abandon(&output, 1);

@@ -140,6 +140,7 @@ static int run_figure(const struct settings *given, const struct sweep_figure *f
 static bool check_options(const struct settings *settings, const struct sweep_figure *figure, struct reason *why)
 {
     const char *const *text = (const char *const *)settings->text;
+    if (settings->contours) return refuse(why, "--contours: not with a figure that has a name");
     static const enum text_option foreign[] = {TEXT_INPUT, TEXT_GRID, TEXT_FIGURE, TEXT_FORMAT, TEXT_PARTNER};
     static const char *const names[] = {"--input", "--grid", "--figure", "--format", "--partner"};
     const char *folder = text[TEXT_OUTPUT] ? text[TEXT_OUTPUT] : ".";

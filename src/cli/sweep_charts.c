@@ -244,7 +244,7 @@ static void draw_tangent(struct chart *chart, const struct sweep *sweep, const s
                 series_add(s, loss_tangent(n, result.contact_time), rows[i].number[ROW_EZ]);
         }
     }
-    chart->panel[0].xrange[0] = 0.01, chart->panel[0].xrange[1] = 20;
+    chart->panel[0].xrange[1] = 20;
 }
 
 /* Parts of the energy of the tangential motion. */
@@ -286,6 +286,8 @@ struct chart *sweep_chart(const struct sweep *sweep, const struct cases *cases, 
     const bool two = kind == SWEEP_MAXWELL || kind == SWEEP_TEMPERATURE || kind == SWEEP_FRICTION;
     struct chart *chart = chart_new(sweep->settings, two ? 2 : 1);
     struct panel *panel = &chart->panel[0];
+    for (size_t i = 0; i < chart->panels && kind != SWEEP_FRICTION; i++)
+        panel[i].xrange[0] = sweep->figure->low, panel[i].xrange[1] = sweep->figure->high;
     snprintf(chart->title, sizeof chart->title, "%s", sweep->figure->title);
     if (kind == SWEEP_TEMPERATURE)
         snprintf(chart->description, sizeof chart->description,

@@ -97,3 +97,25 @@ refused '--viscosity is missing' pair --modulus1 1e6 --modulus2 1e6 $body
 refused '--modulus2 is missing' pair --modulus1 0 --viscosity 300 $body
 refused 'must be a file without --time-shift' pair --material solid.json --partner slow.json --time-shift 2 $body
 refused 'must be in [0, 0.5]' pair --modulus1 1e6 --poisson 0.6 $body
+
+# An interrupted figure is continued, and is the same as one that was not.
+slow="sweep fig5 --method euler --tolerance 3e-4 --output two"
+expect 0 sweep fig5 --method euler --tolerance 3e-4 --output one
+"$RESTITUTE" $slow >out 2>err &
+process=$!
+tries=0
+while [ ! -f two/fig5.csv.partial ] || [ "$(wc -l <two/fig5.csv.partial)" -lt 2 ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 600 ] && kill -0 $process 2>/dev/null || break
+    sleep 0.05
+done
+kill -TERM $process 2>/dev/null
+wait $process
+[ $? -eq 130 ] || fail "the figure was not interrupted"
+has err 'continue with --resume'
+absent two/fig5.csv two/fig5.svg
+refused 'left from an interrupted run' $slow
+expect 0 $slow --resume
+cmp one/fig5.csv two/fig5.csv && cmp one/fig5.svg two/fig5.svg || fail "a resumed figure is another"
+refused '--seed: needs the name of a figure' sweep --grid psi=1:2:3 --seed 1
+refused '--contours: not with a figure' sweep fig4 --contours
