@@ -210,7 +210,7 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
         separator = ", \\\n  ";
     }
     for (size_t k = 0; k < p->count; k++, separator = ", \\\n  ") {
-        char data[32];
+        char data[48];
         snprintf(data, sizeof data, "$s%zu_%zu", index, k);
         fputs(separator, commands);
         plot_series(commands, data, &p->series[k], styles, key);

@@ -61,9 +61,10 @@ static void set_terminal(const char *path, int width, int height, FILE *commands
     if (file_form_of(path) == FORM_SVG)
         fprintf(commands, "set terminal svg size %d,%d enhanced font 'Helvetica,14' background 'white'\n", width,
                 height);
-    else if (file_form_of(path) ==
-             FORM_PDF) /* a point is 1/72 inch there; the font as large beside the axes as in SVG */
-        fprintf(commands, "set terminal pdfcairo size %g,%g enhanced font 'Sans,10' background 'white'\n",
+    else if (file_form_of(path) == FORM_PDF) /* fonts as large beside the axes as in SVG */
+        fprintf(commands,
+                "set terminal pdfcairo size %g,%g enhanced font 'Sans,14' fontscale 0.53 linewidth 1.4 background "
+                "'white'\n",
                 width / 100.0, height / 100.0);
     else
         fprintf(commands,

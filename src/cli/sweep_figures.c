@@ -64,28 +64,28 @@ double sweep_time_shift(double temperature)
 
 struct sweep_numbers sweep_numbers_at(const struct sweep_figure *figure, size_t curve, double x, double psi)
 {
-    struct sweep_numbers n = {.chi = solid_sphere, .psi = psi, .delta1 = x, .gamma = figure->curve[curve]};
+    const double value = figure->curve[figure->kind == SWEEP_CONTOURS ? 0 : curve]; /* a curve is a psi there */
+    struct sweep_numbers n = {.chi = solid_sphere, .psi = psi, .delta1 = x, .gamma = value};
     switch (figure->kind) {
     case SWEEP_NO_SLIP:
         n.psi = 0;
         break;
-    case SWEEP_CONTOURS: /* a curve is a psi there: 0 to 5 by 1/15, with the kinks at 1, 7/3 and 11/3 */
+    case SWEEP_CONTOURS: /* 0 to 5 by 1/15, with the kinks at 1, 7/3 and 11/3 */
         n.psi = (double)curve / 15;
-        n.gamma = figure->curve[0];
         break;
     case SWEEP_PSI_C_ERROR: /* a curve is a resolution */
         n.gamma = 0.3;
         break;
     case SWEEP_MAXWELL:
         n.relaxation = x;
-        n.psi = figure->curve[curve];
+        n.psi = value;
         break;
     case SWEEP_TANGENT:
         if (isnan(n.gamma)) n.relaxation = x;
         break;
     case SWEEP_FRICTION:
         n.psi = x;
-        n.delta1 = figure->curve[curve];
+        n.delta1 = value;
         n.gamma = 0.3;
         break;
     default:
