@@ -99,6 +99,8 @@ static bool check_options(const struct settings *settings, struct reason *why)
         return refuse(why, "--figure = %.200s: not with --shard; --join draws it", text[TEXT_FIGURE]);
     if (text[TEXT_JOIN] && (text[TEXT_SHARD] || output_is_stream(text[TEXT_OUTPUT])))
         return refuse(why, "--join: needs --output FILE, and no --shard");
+    if (text[TEXT_JOIN] && settings->resume)
+        return refuse(why, "--join: not with --resume; joined rows are in FILE.partial already");
     if (settings->resume && output_is_stream(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
     if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], why)) return false;
     return output_check(text[TEXT_OUTPUT], "--output", why);

@@ -125,11 +125,10 @@ static int run_figure(const struct settings *given, const struct sweep_figure *f
     settings.text[TEXT_MATERIAL] = NULL;
     settings.text[TEXT_OUTPUT] = table_of(&sweep, given->shard, given->shards);
     if (given->text[TEXT_JOIN]) settings.text[TEXT_JOIN] = shards_of(&sweep, given->text[TEXT_JOIN], &why);
-    if (given->text[TEXT_JOIN] && !settings.text[TEXT_JOIN]) {
+    if (given->text[TEXT_JOIN] && !settings.text[TEXT_JOIN])
         complain("%s", why.text);
-    } else {
+    else
         status = batch_run(&settings, &maker);
-    }
     free(settings.text[TEXT_OUTPUT]);
     if (given->text[TEXT_JOIN]) free(settings.text[TEXT_JOIN]);
     free(sweep.samples);
@@ -147,6 +146,8 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
     struct stat status;
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (text[foreign[i]]) return refuse(why, "%s: not with a figure that has a name", names[i]);
+    if (settings->values.rotation_blocked >= 0)
+        return refuse(why, "--rotation-blocked: not with a figure that has a name");
     for (enum field field = 0; field < FIELD_COUNT; field++)
         if (settings->values.given[field])
             return refuse(why, "--%s: not with a figure that has a name, whose impacts are drawn at random",

@@ -157,7 +157,7 @@ static void draw_critical(struct chart *chart, const struct sweep *sweep)
         for (size_t i = curve * f->points; i < (curve + 1) * f->points; i++) {
             const struct sweep_numbers *n = &sweep->samples[i].numbers;
             const double formula = restitute_critical_psi(n->chi, sweep->samples[i].ez);
-            const double simulated = sweep_simulated_psi_c(sweep, n, error ? (int64_t)f->curve[curve] : 128);
+            const double simulated = sweep_simulated_psi_c(sweep, n, error ? (int64_t)f->curve[curve] : 64);
             series_add(s, n->delta1, error ? fabs(simulated / formula - 1) : simulated);
         }
     }
@@ -168,7 +168,7 @@ static void draw_critical(struct chart *chart, const struct sweep *sweep)
  * zero if it is not overdamped. */
 static bool sinks_in(double tau)
 {
-    const double step = 1e-4;
+    const double step = 1e-3;
     double depth = 0, v = 1, force = 0;
     while (v > 1e-8) {
         const double d = depth + 0.5 * step * v, w = v - 0.5 * step * 15 / 8 * force;

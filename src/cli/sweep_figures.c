@@ -23,7 +23,7 @@ const struct sweep_figure sweep_figures[] = {
      SWEEP_PSI_C_ERROR,
      4,
      16,
-     {16, 32, 64, 128},
+     {8, 16, 32, 64},
      0.01,
      10},
     {"maxwell", "Maxwell body", SWEEP_MAXWELL, 4, 48, {0.5, 1, 2, 3}, 0.1, 100},
