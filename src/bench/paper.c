@@ -25,6 +25,8 @@ struct foundation {
     double *tangential;
     double *force;   /* f_x of the step before */
     double *profile; /* X^2 (8) */
+    int trial_sign;
+    int64_t sticking;
 };
 
 struct sphere {
@@ -42,7 +44,8 @@ static int foundation_make(const struct paper_problem *problem, const struct pap
                            struct foundation *f)
 {
     const size_t n = (size_t)settings->elements, terms = problem->n_terms;
-    *f = (struct foundation){.problem = problem, .n_elements = n, .stride = 1 + terms};
+    *f = (struct foundation){
+        .problem = problem, .n_elements = n, .stride = 1 + terms, .trial_sign = settings->trial_sign};
     f->kept = calloc(terms + 2 * n + 2 * n * f->stride, sizeof *f->kept);
     if (!f->kept) return 1;
     f->force = f->kept + terms;
@@ -96,7 +99,10 @@ static void step_element(struct foundation *f, size_t i, double depth, double sh
         return;
     }
     double fx = rest_x + f->stiffness * shear;
-    if (fabs(fx) > fz) fx = sign_of(f->force[i]) * fz; /* (14)-(16) */
+    if (fabs(fx) > fz)
+        fx = sign_of(f->trial_sign ? fx : f->force[i]) * fz; /* (14)-(16) */
+    else
+        f->sticking++;
     move(f, press, z);
     move(f, (fx - rest_x) / f->stiffness, x); /* the whole shear in stick, what the force allows in slip (17) */
     f->force[i] = fx;
@@ -157,6 +163,6 @@ enum paper_end paper_solve(const struct paper_problem *problem, const struct pap
     free(f.kept);
     if (end == PAPER_SEPARATED)
         *result = (struct paper_result){-s.velocity, -s.shear_velocity / problem->psi, steps,
-                                        steps * settings->elements * (int64_t)(1 + problem->n_terms)};
+                                        steps * settings->elements * (int64_t)(1 + problem->n_terms), f.sticking};
     return end;
 }

@@ -26,6 +26,7 @@ struct paper_settings {
     double spacing;   /* a_el */
     double step;      /* T */
     int64_t max_steps;
+    int trial_sign; /* nonzero: slip takes the sign of the trial force and not that of the step before, (16) */
 };
 
 enum paper_end {
@@ -37,6 +38,7 @@ enum paper_end {
 struct paper_result {
     double ez, ex;
     int64_t steps, updates;
+    int64_t sticking; /* how often an element stuck, all steps together */
 };
 
 /* The result is filled only for PAPER_SEPARATED. */

@@ -37,8 +37,9 @@ static void catch_signal(int number)
 
 struct batch {
     const struct settings *settings;
-    const char *path; /* of the result; NULL: a stream */
-    int stream;       /* where rows go at once if it is a stream; -1: JSON waits for all of them */
+    const struct batch_maker *maker; /* of the cases; NULL: from the settings */
+    const char *path;                /* of the result; NULL: a stream */
+    int stream;                      /* where rows go at once if it is a stream; -1: JSON waits for all of them */
     struct cases cases;
     struct materials materials;
     restitute_solver *solver;
@@ -46,7 +47,8 @@ struct batch {
     struct row *rows;
     size_t done, failed;
     struct partial partial;
-    double last_tick;
+    double begin, last_tick;
+    size_t resumed;            /* rows done before this run */
     size_t chunk, least_chunk; /* rows to be solved at once */
 };
 
@@ -65,7 +67,10 @@ static void tick(struct batch *batch, bool last)
     const bool first = batch->last_tick == 0;
     batch->last_tick = now;
     if (isatty(STDERR_FILENO) && !(first && last)) {
-        fprintf(stderr, "\rrestitute: %zu of %zu rows%s", batch->done, batch->cases.rows, last ? "\n" : "");
+        const double left = (double)(batch->cases.rows - batch->done) * (now - batch->begin) /
+                            (double)(batch->done > batch->resumed ? batch->done - batch->resumed : 1);
+        fprintf(stderr, "\rrestitute: %zu of %zu rows, about %.0f s left %s", batch->done, batch->cases.rows, left,
+                last ? "\n" : "");
         fflush(stderr);
     }
 }
@@ -86,11 +91,16 @@ static bool check_options(const struct settings *settings, struct reason *why)
 {
     const char *const *text = (const char *const *)settings->text;
     if (text[TEXT_INPUT] && text[TEXT_GRID]) return refuse(why, "--input and --grid are both given: use one");
-    if (text[TEXT_GRID] && values_dimensionless(&settings->values))
-        return refuse(why, "--grid varies a speed: it needs a material and SI units, not dimensionless values");
     if (settings->format == FORMAT_TEXT)
         return refuse(why, "--format = \"text\": must be csv or json with --input and --grid");
-    if (text[TEXT_FIGURE] && !text[TEXT_GRID]) return refuse(why, "--figure = %.200s: needs --grid", text[TEXT_FIGURE]);
+    if (text[TEXT_SEED] && !settings->sweep) return refuse(why, "--seed: needs the name of a figure");
+    if (settings->contours && !text[TEXT_FIGURE]) return refuse(why, "--contours: needs --figure");
+    if (text[TEXT_FIGURE] && text[TEXT_SHARD])
+        return refuse(why, "--figure = %.200s: not with --shard; --join draws it", text[TEXT_FIGURE]);
+    if (text[TEXT_JOIN] && (text[TEXT_SHARD] || output_is_stream(text[TEXT_OUTPUT])))
+        return refuse(why, "--join: needs --output FILE, and no --shard");
+    if (text[TEXT_JOIN] && settings->resume)
+        return refuse(why, "--join: not with --resume; joined rows are in FILE.partial already");
     if (settings->resume && output_is_stream(text[TEXT_OUTPUT])) return refuse(why, "--resume: needs --output FILE");
     if (text[TEXT_FIGURE] && !figure_check(text[TEXT_FIGURE], why)) return false;
     return output_check(text[TEXT_OUTPUT], "--output", why);
@@ -116,12 +126,19 @@ static bool prepare(struct batch *batch, struct reason *why)
 {
     const struct settings *settings = batch->settings;
     restitute_error error;
-    if (!check_options(settings, why) || !cases_open(settings, &batch->cases, why)) return false;
+    if (!check_options(settings, why)) return false;
+    if (batch->maker ? !batch->maker->make(batch->maker->context, &batch->cases, why)
+                     : !cases_open(settings, &batch->cases, why))
+        return false;
     if (!cases_check(&batch->cases, settings, why)) return false;
+    if (settings->text[TEXT_FIGURE] && !batch->maker && !figure_check_cases(&batch->cases, settings->contours, why))
+        return false;
     if (settings->values.material && !materials_get(&batch->materials, settings->values.material, why)) return false;
     if (restitute_solver_create(&settings->solver, &batch->solver, &error) < 0) return refuse(why, "%s", error.message);
-    batch->rows = allocate(batch->cases.rows, sizeof *batch->rows);
     batch->settings_object = provenance_settings(settings, &batch->cases, &batch->materials);
+    cases_shard(&batch->cases, settings->shard, settings->shards);
+    if (batch->cases.rows == 0) return refuse(why, "--shard = %.60s: has no rows", settings->text[TEXT_SHARD]);
+    batch->rows = allocate(batch->cases.rows, sizeof *batch->rows);
     return places_check_settings(settings, &batch->materials, why) && open_rows(batch, why);
 }
 
@@ -169,10 +186,28 @@ static bool solve_chunk(struct batch *batch, struct reason *why)
     return true;
 }
 
+/* The rows of --join, behind those that are done. */
+static bool take_shards(struct batch *batch, struct reason *why)
+{
+    char *list = batch->settings->text[TEXT_JOIN] ? copy_of(batch->settings->text[TEXT_JOIN]) : NULL, *rest = NULL;
+    bool good = true;
+    for (char *path = list ? strtok_r(list, ",", &rest) : NULL; path && good; path = strtok_r(NULL, ",", &rest)) {
+        size_t count = 0;
+        good = partial_join(path, &batch->cases, batch->settings, batch->settings_object, batch->rows, batch->done,
+                            &count, why) &&
+               write_rows(batch, count, why);
+        batch->done += good ? count : 0;
+    }
+    free(list);
+    return good;
+}
+
 /* All rows, or as many as there is time and room for. */
 static bool solve_rows(struct batch *batch, struct reason *why)
 {
-    bool good = true;
+    bool good = take_shards(batch, why);
+    batch->begin = seconds_now();
+    batch->resumed = batch->done;
     for (size_t i = 0; i < batch->done; i++)
         count_failure(batch, i);
     batch->chunk = batch->least_chunk = threads_of(batch->settings);
@@ -189,7 +224,7 @@ static json_t *make_record(struct batch *batch)
 {
     struct values values = batch->settings->values;
     bool physical = values_physical(&values);
-    for (size_t i = 0; i < batch->cases.columns; i++)
+    for (size_t i = batch->cases.notes; i < batch->cases.columns; i++)
         physical |= field_of_column(cases_name(&batch->cases, i)) > FIELD_LAST_DIMENSIONLESS;
     json_t *record =
         provenance_record(batch->settings, json_incref(batch->settings_object), row_units(&batch->cases, physical));
@@ -240,17 +275,20 @@ static int finish(struct batch *batch)
         return EXIT_INTERRUPTED;
     }
     if (!write_result(batch, &why)) return stop(batch, &why);
-    if (settings->text[TEXT_FIGURE] &&
-        !figure_of_grid(settings->text[TEXT_FIGURE], settings, &batch->cases, &batch->materials, batch->rows, &why))
+    if (batch->maker && !settings->text[TEXT_SHARD]) {
+        const int status = batch->maker->finish(batch->maker->context, &batch->cases, batch->rows, make_record(batch));
+        if (status != EXIT_DONE) return status;
+    } else if (settings->text[TEXT_FIGURE] && !figure_of_cases(settings->text[TEXT_FIGURE], settings, &batch->cases,
+                                                               &batch->materials, batch->rows, &why))
         return complain("%s", why.text);
     if (batch->failed == 0) return EXIT_DONE;
     complain("%zu of %zu rows failed; the column status says why", batch->failed, batch->cases.rows);
     return EXIT_SOME_FAILED;
 }
 
-int batch_run(const struct settings *settings)
+int batch_run(const struct settings *settings, const struct batch_maker *maker)
 {
-    struct batch batch = {.settings = settings, .stream = -1};
+    struct batch batch = {.settings = settings, .maker = maker, .stream = -1};
     struct reason why;
     int status;
     batch.path = output_is_stream(settings->text[TEXT_OUTPUT]) ? NULL : settings->text[TEXT_OUTPUT];

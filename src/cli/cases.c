@@ -8,36 +8,63 @@
 
 #include "grid.h"
 
-static const char *const grid_names[2] = {"speed_m_s", "angle_deg"};
-
 const char *cases_name(const struct cases *cases, size_t column)
 {
-    return cases->csv ? restitute_csv_name(cases->csv, column) : grid_names[column];
+    return cases->csv ? restitute_csv_name(cases->csv, column) : cases->names[column];
 }
 
 const char *cases_cell(const struct cases *cases, size_t row, size_t column)
 {
-    return cases->csv ? restitute_csv_cell(cases->csv, row, column) : cases->grid[row * 2 + column];
+    row += cases->first;
+    return cases->csv ? restitute_csv_cell(cases->csv, row, column) : cases->cells[row * cases->columns + column];
 }
 
 size_t cases_line(const struct cases *cases, size_t row)
 {
+    row += cases->first;
     return cases->csv ? restitute_csv_line(cases->csv, row) : row + 1;
+}
+
+void cases_make(struct cases *cases, size_t rows, size_t columns, const char *const *names, size_t notes)
+{
+    memset(cases, 0, sizeof *cases);
+    cases->rows = cases->all = rows;
+    cases->columns = columns;
+    cases->notes = notes;
+    memcpy(cases->names, names, columns * sizeof *names);
+    cases->cells = allocate(rows * columns, sizeof *cases->cells);
+}
+
+void cases_set(struct cases *cases, size_t row, size_t column, const char *text)
+{
+    char **cell = &cases->cells[row * cases->columns + column];
+    free(*cell);
+    *cell = copy_of(text);
+}
+
+void cases_shard(struct cases *cases, size_t shard, size_t shards)
+{
+    cases->first = cases->all * (shard - 1) / shards;
+    cases->rows = cases->all * shard / shards - cases->first;
 }
 
 static bool open_grid(const char *text, struct cases *cases, struct reason *why)
 {
     struct grid grid;
+    const char *names[2];
     if (!grid_read(text, &grid, why)) return false;
-    cases->axis[0] = grid.axis[0].count;
-    cases->axis[1] = grid.axis[1].count;
-    cases->columns = 2;
-    cases->rows = cases->axis[0] * cases->axis[1];
-    cases->grid = allocate(cases->rows * 2, sizeof *cases->grid);
-    for (size_t i = 0; i < cases->rows; i++) {
-        cases->grid[2 * i] = copy_of(number_text(grid_point(&grid.axis[0], i / cases->axis[1])).text);
-        cases->grid[2 * i + 1] = copy_of(number_text(grid_point(&grid.axis[1], i % cases->axis[1])).text);
+    for (size_t i = 0; i < grid.axes; i++)
+        names[i] = grid.axis[i].words ? "material" : field_rules[grid.axis[i].field].column;
+    cases_make(cases, grid.axis[0].count * (grid.axes > 1 ? grid.axis[1].count : 1), grid.axes, names, 0);
+    cases->axes = grid.axes;
+    for (size_t k = 0, block = cases->rows; k < grid.axes; k++) {
+        cases->axis[k] = grid.axis[k].count;
+        cases->logarithmic[k] = grid.axis[k].logarithmic;
+        block /= grid.axis[k].count;
+        for (size_t i = 0; i < cases->rows; i++)
+            cases_set(cases, i, k, grid_cell(&grid.axis[k], i / block % grid.axis[k].count).text);
     }
+    grid_release(&grid);
     return true;
 }
 
@@ -49,7 +76,7 @@ bool cases_open(const struct settings *settings, struct cases *cases, struct rea
     if (settings->text[TEXT_GRID]) return open_grid(settings->text[TEXT_GRID], cases, why);
     if (restitute_csv_read(path, &cases->csv, &error) < 0) return refuse(why, "%s", error.message);
     cases->source = strcmp(path, "-") == 0 ? "standard input" : path;
-    cases->rows = restitute_csv_rows(cases->csv);
+    cases->rows = cases->all = restitute_csv_rows(cases->csv);
     cases->columns = restitute_csv_columns(cases->csv);
     if (cases->rows == 0) {
         cases_release(cases);
@@ -62,16 +89,16 @@ void cases_release(struct cases *cases)
 {
     restitute_csv_destroy(cases->csv);
     cases->csv = NULL;
-    for (size_t i = 0; cases->grid && i < 2 * cases->rows; i++)
-        free(cases->grid[i]);
-    free(cases->grid);
-    cases->grid = NULL;
+    for (size_t i = 0; cases->cells && i < cases->columns * cases->all; i++)
+        free(cases->cells[i]);
+    free(cases->cells);
+    cases->cells = NULL;
 }
 
 static const char known_columns[] =
     "known are chi, psi, delta1, gamma, delta2, radius1_m, density1_kg_m3, mass1_kg, inertia1_kg_m2, radius2_m, "
-    "density2_kg_m3, mass2_kg, inertia2_kg_m2, speed_m_s, angle_deg, spin_rad_s, spin2_rad_s, friction, material, "
-    "partner, rotation_blocked";
+    "density2_kg_m3, mass2_kg, inertia2_kg_m2, speed_m_s, angle_deg, spin_rad_s, spin2_rad_s, friction, modulus1_Pa, "
+    "modulus2_Pa, viscosity_Pa_s, poisson_ratio, time_shift, material, partner, rotation_blocked";
 
 static const char *place_of(const struct cases *cases)
 {
@@ -111,7 +138,7 @@ bool cases_check(const struct cases *cases, const struct settings *settings, str
 {
     struct values present = settings->values;
     struct reason inner;
-    for (size_t i = 0; i < cases->columns; i++)
+    for (size_t i = cases->notes; i < cases->columns; i++)
         if (!check_column(cases, cases_name(cases, i), settings, &present, why)) return false;
     /* A file may have both a mass and a density column, of which each row fills one. */
     const enum field alternatives[][2] = {{FIELD_MASS1, FIELD_DENSITY1}, {FIELD_MASS2, FIELD_DENSITY2}};
@@ -143,7 +170,7 @@ bool cases_values(const struct cases *cases, const struct settings *settings, si
                   struct reason *why)
 {
     *values = settings->values;
-    for (size_t i = 0; i < cases->columns; i++)
+    for (size_t i = cases->notes; i < cases->columns; i++)
         if (!take_cell(cases_name(cases, i), cases_cell(cases, row, i), values, why)) return false;
     return true;
 }

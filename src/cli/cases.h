@@ -7,16 +7,29 @@
 
 #include "options.h"
 
+enum { CASES_MADE_COLUMNS = 32 };
+
 struct cases {
     size_t rows, columns;
-    restitute_csv *csv; /* where they were read from; NULL for a grid */
-    const char *source; /* name of the file for messages; NULL for a grid */
-    char **grid;        /* cells of a grid, row by row; NULL for a file */
-    size_t axis[2];     /* points of the grid's axes, speed and angle */
+    restitute_csv *csv;                    /* where they were read from; NULL for a grid */
+    const char *source;                    /* name of the file for messages; NULL for a grid */
+    char **cells;                          /* of a grid or a sweep, row by row; NULL for a file */
+    const char *names[CASES_MADE_COLUMNS]; /* of these */
+    size_t notes;                          /* so many first columns of a sweep are no inputs */
+    size_t axes, axis[2];                  /* of a grid, and how many points they have */
+    bool logarithmic[2];
+    size_t first, all; /* of --shard: rows of the file or grid that are left out before these; how many it has */
 };
 
 /* From --input or --grid. */
 bool cases_open(const struct settings *settings, struct cases *cases, struct reason *why);
+
+/* An empty table with these columns, to be filled by cases_set(). */
+void cases_make(struct cases *cases, size_t rows, size_t columns, const char *const *names, size_t notes);
+void cases_set(struct cases *cases, size_t row, size_t column, const char *text);
+
+/* Leave only part number `shard` of `shards`, rows that follow each other. */
+void cases_shard(struct cases *cases, size_t shard, size_t shards);
 void cases_release(struct cases *cases);
 
 const char *cases_name(const struct cases *cases, size_t column);

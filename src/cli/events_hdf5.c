@@ -10,18 +10,6 @@ bool events_hdf5_built(void)
     return true;
 }
 
-static bool write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
-{
-    const hsize_t length = count;
-    const hid_t space = H5Screate_simple(1, &length, NULL);
-    const hid_t set = H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    if (good && *unit) good = hdf5_write_text(set, "unit", unit);
-    if (set >= 0) H5Dclose(set);
-    H5Sclose(space);
-    return good;
-}
-
 static bool write_group(hid_t file, const struct event_table *table, bool physical)
 {
     const hid_t group = H5Gcreate2(file, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -30,9 +18,9 @@ static bool write_group(hid_t file, const struct event_table *table, bool physic
     H5Tset_size(word, H5T_VARIABLE);
     for (int column = 0; column < EVENT_COLUMNS && good; column++)
         good = column == EVENT_KIND
-                   ? write_column(group, event_column_name(column, physical), "", word, table->kind, table->count)
-                   : write_column(group, event_column_name(column, physical), event_column_unit(column, physical),
-                                  H5T_NATIVE_DOUBLE, table->number[column], table->count);
+                   ? hdf5_write_column(group, event_column_name(column, physical), "", word, table->kind, table->count)
+                   : hdf5_write_column(group, event_column_name(column, physical), event_column_unit(column, physical),
+                                       H5T_NATIVE_DOUBLE, table->number[column], table->count);
     H5Tclose(word);
     if (group >= 0) H5Gclose(group);
     return good;

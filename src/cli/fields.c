@@ -50,6 +50,18 @@ const struct field_rule field_rules[FIELD_COUNT] = {
                      "spin of the partner sphere, rad/s, of the same sign; default 0"},
     [FIELD_FRICTION] = {"friction", NULL, "friction", "1", 0.0, INFINITY, true, true, false,
                         "must be >= 0 (inf: no slip)", "coefficient of friction, >= 0; inf: no slip; required"},
+    [FIELD_MODULUS1] = {"modulus1", "modulus", "modulus1_Pa", "Pa", 0.0, INFINITY, true, false, true,
+                        "must be finite and >= 0",
+                        "instead of --material: G1 of a standard solid, Pa; 0: Maxwell; alone: elastic"},
+    [FIELD_MODULUS2] = {"modulus2", NULL, "modulus2_Pa", "Pa", POSITIVE, true, "must be finite and > 0",
+                        "G2, Pa, in series with the dashpot; without it Kelvin-Voigt"},
+    [FIELD_VISCOSITY] = {"viscosity", NULL, "viscosity_Pa_s", "Pa s", POSITIVE, true, "must be finite and > 0",
+                         "eta of the dashpot, Pa s"},
+    [FIELD_POISSON] = {"poisson", NULL, "poisson_ratio", "1", 0.0, 0.5, true, true, true, "must be in [0, 0.5]",
+                       "Poisson's ratio of that solid; default 0.5"},
+    [FIELD_TIME_SHIFT] = {"time-shift", NULL, "time_shift", "1", POSITIVE, true, "must be finite and > 0",
+                          "a_T: relaxation times and viscosity are multiplied by it, as by a change of temperature; "
+                          "default 1"},
 };
 
 static bool in_range(const struct field_rule *rule, double value)

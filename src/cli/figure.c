@@ -6,28 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chart.h"
 #include "gnuplot.h"
 
 bool figure_check(const char *path, struct reason *why)
 {
-    if (strcmp(path, "-") == 0) return refuse(why, "--figure = -: must be a file that ends in .svg or .png");
+    if (strcmp(path, "-") == 0) return refuse(why, "--figure = -: must be a file that ends in .svg, .png or .pdf");
     return output_check(path, "--figure", why) && gnuplot_check(path, why);
-}
-
-/* A colour between dark violet and light green, dark to light for slow to fast, told apart in grey print too. */
-static unsigned colour_at(double fraction)
-{
-    static const unsigned char anchors[][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139}, {44, 113, 142},
-                                               {33, 144, 141}, {39, 173, 129}, {92, 200, 99}, {170, 220, 50}};
-    const int last = sizeof anchors / sizeof anchors[0] - 1;
-    const double at = fraction * last;
-    const int cell = at >= last ? last - 1 : (int)at;
-    unsigned colour = 0;
-    for (int i = 0; i < 3; i++) {
-        const double value = anchors[cell][i] + (at - cell) * (anchors[cell + 1][i] - anchors[cell][i]);
-        colour = colour << 8 | (unsigned)lround(value);
-    }
-    return colour;
 }
 
 /* What was given besides the axes: "radius 0.005 m, density 7800 kg/m^3, friction 0.3". */
@@ -49,26 +34,160 @@ static void write_description(const struct values *values, char *text, size_t si
     if (values->rotation_blocked > 0 && used < size) snprintf(text + used, size - used, ", rotation blocked");
 }
 
-/* Title, what was given, and how it was made, around the panels. */
 static void write_frame(FILE *commands, const struct settings *settings, const char *title)
 {
     char description[600], origin[160];
     write_description(&settings->values, description, sizeof description);
-    snprintf(origin, sizeof origin, "restitute %s, method %s, tolerance %s", restitute_version(),
-             restitute_method_name(settings->solver.method), number_text(settings->solver.tolerance).text);
-    fputs("set label 1 ", commands);
-    gnuplot_string(commands, title);
-    fputs(" at screen 0.02,0.955 font ',16' noenhanced\nset label 2 ", commands);
-    gnuplot_string(commands, description);
-    fputs(" at screen 0.02,0.89 font ',12' textcolor rgb '#555555' noenhanced\nset label 3 ", commands);
-    gnuplot_string(commands, origin);
-    fputs(" at screen 0.985,0.955 right font ',10' textcolor rgb '#888888' noenhanced\n", commands);
-    fputs("set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\n"
-          "set grid linecolor rgb '#dddddd' linewidth 0.7 linetype 1\nset key noautotitle\n",
-          commands);
+    chart_origin(settings, origin, sizeof origin);
+    chart_frame(commands, title, description, origin);
 }
 
-/* One point of ez over the normal speed. */
+static double cell_number(const struct cases *cases, size_t row, size_t column)
+{
+    return strtod(cases_cell(cases, row, column), NULL);
+}
+
+static bool same_cell(const struct cases *cases, size_t column, size_t one, size_t other)
+{
+    return strcmp(cases_cell(cases, one, column), cases_cell(cases, other, column)) == 0;
+}
+
+/* Different cells of a column in order of appearance, as rows in which they stand. */
+struct distinct {
+    size_t count;
+    size_t *row;
+};
+
+struct cell_at {
+    const char *cell;
+    size_t row;
+};
+
+static int by_row(const void *left, const void *right)
+{
+    const size_t a = *(const size_t *)left, b = *(const size_t *)right;
+    return (a > b) - (a < b);
+}
+
+static int by_cell(const void *left, const void *right)
+{
+    const struct cell_at *a = left, *b = right;
+    const int order = strcmp(a->cell, b->cell);
+    return order ? order : by_row(&a->row, &b->row);
+}
+
+static struct distinct distinct_of(const struct cases *cases, size_t column)
+{
+    struct distinct d = {0, allocate(cases->rows, sizeof *d.row)};
+    struct cell_at *cells = allocate(cases->rows, sizeof *cells);
+    for (size_t i = 0; i < cases->rows; i++)
+        cells[i] = (struct cell_at){cases_cell(cases, i, column), i};
+    qsort(cells, cases->rows, sizeof *cells, by_cell);
+    for (size_t i = 0; i < cases->rows; i++)
+        if (i == 0 || strcmp(cells[i].cell, cells[i - 1].cell) != 0) d.row[d.count++] = cells[i].row;
+    qsort(d.row, d.count, sizeof *d.row, by_row);
+    free(cells);
+    return d;
+}
+
+static bool is_words(const struct cases *cases, size_t column)
+{
+    return field_of_column(cases_name(cases, column)) == FIELD_COUNT;
+}
+
+/* What a figure of cases has along x, and what its curves differ in; NO_COLUMN: there is one curve. */
+#define NO_COLUMN SIZE_MAX
+struct figure_axes {
+    size_t x, curves;
+};
+
+/* Of a file: the columns that vary, the one with fewer values for the curves. */
+static bool varying_columns(const struct cases *cases, struct figure_axes *axes, struct reason *why)
+{
+    size_t found = 0, most = 0;
+    for (size_t column = 0; column < cases->columns; column++) {
+        const struct distinct d = distinct_of(cases, column);
+        free(d.row);
+        if (d.count < 2) continue;
+        if (++found > 2) break;
+        const bool along_x = !is_words(cases, column) && d.count > most;
+        if (along_x) most = d.count;
+        if (found == 1) axes->x = column;
+        if (found == 2) axes->curves = along_x ? axes->x : column;
+        if (found == 2 && along_x) axes->x = column;
+    }
+    if (found == 1 || found == 2) return true;
+    return refuse(why, "--figure: %s columns of %.200s vary: must be one or two", found ? "more than two" : "no",
+                  cases->source);
+}
+
+static bool find_axes(const struct cases *cases, struct figure_axes *axes, struct reason *why)
+{
+    *axes = (struct figure_axes){cases->axes == 2, cases->axes == 2 ? 0 : NO_COLUMN};
+    if (!cases->axes && !varying_columns(cases, axes, why)) return false;
+    return is_words(cases, axes->x) ? refuse(why, "--figure: %s has no numbers to be an axis: vary another one too",
+                                             cases_name(cases, axes->x))
+                                    : true;
+}
+
+bool figure_check_cases(const struct cases *cases, bool contours, struct reason *why)
+{
+    struct figure_axes axes;
+    if (!find_axes(cases, &axes, why)) return false;
+    if (axes.curves == NO_COLUMN)
+        return contours ? refuse(why, "--contours: needs two columns or axes that vary") : true;
+    const struct distinct x = distinct_of(cases, axes.x), curves = distinct_of(cases, axes.curves);
+    const size_t n_x = x.count, n_curves = curves.count;
+    free(x.row);
+    free(curves.row);
+    if (!contours && n_curves >= PANEL_SERIES)
+        return refuse(why, "--figure: %zu curves of %s: must be less than %d; or take --contours", n_curves,
+                      cases_name(cases, axes.curves), PANEL_SERIES);
+    if (!contours) return true;
+    if (is_words(cases, axes.curves)) return refuse(why, "--contours: needs two columns of numbers that vary");
+    if (n_x * n_curves != cases->rows || n_x < 3 || n_curves < 3)
+        return refuse(why, "--contours: %zu rows are no full grid of %zu by %zu, both at least 3", cases->rows, n_x,
+                      n_curves);
+    return true;
+}
+
+/* Values along an axis: over more than two decades, or so asked for. */
+static bool is_logarithmic(const struct cases *cases, size_t column)
+{
+    double low = INFINITY, high = 0;
+    if (cases->axes) return cases->logarithmic[column];
+    for (size_t i = 0; i < cases->rows; i++) {
+        low = fmin(low, cell_number(cases, i, column));
+        high = fmax(high, cell_number(cases, i, column));
+    }
+    return low > 0 && high >= 100 * low;
+}
+
+void figure_label(enum field field, char *text, size_t size)
+{
+    static const char *const names[FIELD_COUNT] = {[FIELD_CHI] = "χ",
+                                                   [FIELD_PSI] = "ψ",
+                                                   [FIELD_DELTA1] = "δ_1",
+                                                   [FIELD_GAMMA] = "γ",
+                                                   [FIELD_DELTA2] = "δ_2",
+                                                   [FIELD_SPEED] = "speed  v",
+                                                   [FIELD_FRICTION] = "friction  μ",
+                                                   [FIELD_ANGLE] = "angle from the normal  θ",
+                                                   [FIELD_TIME_SHIFT] = "time shift  a_T"};
+    const struct field_rule *rule = &field_rules[field];
+    const char *unit = field == FIELD_ANGLE ? "degrees" : rule->unit,
+               *name = names[field] ? names[field] : rule->option;
+    if (strcmp(unit, "1") == 0)
+        snprintf(text, size, "%s", name);
+    else
+        snprintf(text, size, "%s  (%s)", name, unit);
+}
+
+static double normal_speed(const struct cases *cases, size_t row, size_t speed, size_t angle)
+{
+    return cell_number(cases, row, speed) * cos(cell_number(cases, row, angle) * 3.14159265358979323846 / 180.0);
+}
+
 struct point {
     double x, y;
 };
@@ -79,122 +198,171 @@ static int by_x(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-static double cell_number(const struct cases *cases, size_t row, size_t column)
-{
-    return strtod(cases_cell(cases, row, column), NULL);
-}
-
-static double normal_speed(const struct cases *cases, size_t row)
-{
-    return cell_number(cases, row, 0) * cos(cell_number(cases, row, 1) * 3.14159265358979323846 / 180.0);
-}
-
-static void write_ez_data(FILE *commands, const struct cases *cases, const struct row *rows)
+/* One curve: the rows that have this value, by x. A row that failed leaves a gap. */
+static void add_curve(const struct cases *cases, const struct row *rows, const struct figure_axes *axes, int number,
+                      size_t of_row, struct series *series)
 {
     struct point *points = allocate(cases->rows, sizeof *points);
     size_t count = 0;
     for (size_t i = 0; i < cases->rows; i++)
-        if (rows[i].solved) points[count++] = (struct point){normal_speed(cases, i), rows[i].number[ROW_EZ]};
+        if (axes->curves == NO_COLUMN || same_cell(cases, axes->curves, i, of_row))
+            points[count++] =
+                (struct point){cell_number(cases, i, axes->x), rows[i].solved ? rows[i].number[number] : NAN};
     qsort(points, count, sizeof *points, by_x);
-    fputs("$ez << END\n", commands);
     for (size_t i = 0; i < count; i++)
-        fprintf(commands, "%.17g %.17g\n", points[i].x, points[i].y);
-    fputs("END\n", commands);
+        series_add(series, points[i].x, points[i].y);
     free(points);
 }
 
-/* A block for each speed: angle, ex. A row that failed leaves a gap. */
-static void write_ex_data(FILE *commands, const struct cases *cases, const struct row *rows)
+static void name_curve(const struct cases *cases, size_t column, size_t row, char *text, size_t size)
 {
-    fputs("$ex << END\n", commands);
-    for (size_t i = 0; i < cases->rows; i++) {
-        if (i && i % cases->axis[1] == 0) fputs("\n\n", commands);
+    const char *cell = cases_cell(cases, row, column), *slash = strrchr(cell, '/');
+    if (is_words(cases, column))
+        snprintf(text, size, "%.*s", (int)strcspn(slash ? slash + 1 : cell, "."), slash ? slash + 1 : cell);
+    else
+        snprintf(text, size, "%.4g", cell_number(cases, row, column));
+}
+
+static void add_curves(struct chart *chart, const struct cases *cases, const struct row *rows,
+                       const struct figure_axes *axes)
+{
+    static const int numbers[] = {ROW_EZ, ROW_EX};
+    struct distinct d = {1, allocate(cases->rows, sizeof *d.row)};
+    if (axes->curves != NO_COLUMN) free(d.row), d = distinct_of(cases, axes->curves);
+    for (size_t remaining = d.count; remaining > 0; remaining--)
+        for (size_t panel = 0; panel < 2; panel++) {
+            char name[48] = "";
+            if (axes->curves != NO_COLUMN) name_curve(cases, axes->curves, d.row[remaining - 1], name, sizeof name);
+            struct series *s = chart_series(&chart->panel[panel], MARK_BOTH, remaining - 1, cases->rows, name);
+            add_curve(cases, rows, axes, numbers[panel], d.row[remaining - 1], s);
+        }
+    free(d.row);
+}
+
+/* ez depends on the normal speed alone: a grid of speeds and angles has one curve of it. */
+static void merge_normal_speeds(struct panel *panel, const struct cases *cases, const struct row *rows, size_t speed,
+                                size_t angle)
+{
+    struct point *points = allocate(cases->rows, sizeof *points);
+    size_t count = 0;
+    double low = INFINITY, high = 0;
+    for (size_t i = 0; i < cases->rows; i++)
         if (rows[i].solved)
-            fprintf(commands, "%s %.17g %.17g %.17g\n", cases_cell(cases, i, 1), rows[i].number[ROW_EX],
-                    normal_speed(cases, i), rows[i].number[ROW_EZ]);
+            points[count++] = (struct point){normal_speed(cases, i, speed, angle), rows[i].number[ROW_EZ]};
+    qsort(points, count, sizeof *points, by_x);
+    for (size_t k = 0; k < panel->count; k++)
+        panel->series[k].count = 0;
+    for (size_t i = 0; i < count; i++) {
+        series_add(&panel->series[0], points[i].x, points[i].y);
+        low = fmin(low, points[i].x), high = fmax(high, points[i].x);
+    }
+    panel->series[0].style = 0;
+    panel->xlog = true;
+    panel->xrange[0] = 0.7 * low, panel->xrange[1] = 1.4 * high;
+    snprintf(panel->xlabel, sizeof panel->xlabel, "normal speed  v cos θ  (m/s)");
+    free(points);
+}
+
+static int by_value(const void *left, const void *right)
+{
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static size_t index_of(const double *sorted, size_t count, double value)
+{
+    return (size_t)((const double *)bsearch(&value, sorted, count, sizeof value, by_value) - sorted);
+}
+
+static void add_heights(struct panel *panel, const struct cases *cases, const struct row *rows,
+                        const struct figure_axes *axes, int number)
+{
+    const struct distinct x = distinct_of(cases, axes->x), y = distinct_of(cases, axes->curves);
+    chart_heights(panel, x.count, y.count, 0.1);
+    struct heights *h = &panel->heights;
+    for (size_t i = 0; i < x.count; i++)
+        h->x[i] = cell_number(cases, x.row[i], axes->x);
+    for (size_t i = 0; i < y.count; i++)
+        h->y[i] = cell_number(cases, y.row[i], axes->curves);
+    qsort(h->x, h->nx, sizeof *h->x, by_value);
+    qsort(h->y, h->ny, sizeof *h->y, by_value);
+    for (size_t i = 0; i < cases->rows; i++)
+        h->z[index_of(h->y, h->ny, cell_number(cases, i, axes->curves)) * h->nx +
+             index_of(h->x, h->nx, cell_number(cases, i, axes->x))] = rows[i].solved ? rows[i].number[number] : NAN;
+    free(x.row);
+    free(y.row);
+}
+
+static void label_panels(struct chart *chart, const struct cases *cases, const struct figure_axes *axes, bool contours)
+{
+    static const char *const titles[] = {"Normal restitution", "Tangential restitution"};
+    static const char *const quantities[] = {"e_z", "e_x"};
+    for (size_t i = 0; i < 2; i++) {
+        struct panel *p = &chart->panel[i];
+        const bool words = axes->curves != NO_COLUMN && is_words(cases, axes->curves);
+        snprintf(p->title, sizeof p->title, "%s%s%s", titles[i], contours ? " " : "", contours ? quantities[i] : "");
+        snprintf(p->ylabel, sizeof p->ylabel, "%s", quantities[i]);
+        figure_label(field_of_column(cases_name(cases, axes->x)), p->xlabel, sizeof p->xlabel);
+        p->xlog = is_logarithmic(cases, axes->x);
+        if (!contours) p->yrange[0] = i ? NAN : 0;
+        if (axes->curves == NO_COLUMN || words) continue;
+        const enum field field = field_of_column(cases_name(cases, axes->curves));
+        if (contours)
+            figure_label(field, p->ylabel, sizeof p->ylabel), p->ylog = is_logarithmic(cases, axes->curves);
         else
-            fputs("NaN NaN NaN NaN\n", commands);
-    }
-    fputs("END\n", commands);
-}
-
-static double speed_fraction(const struct cases *cases, size_t curve)
-{
-    return cases->axis[0] > 1 ? (double)curve / (double)(cases->axis[0] - 1) : 0.4;
-}
-
-static void plot_ez(FILE *commands, const struct cases *cases)
-{
-    double slowest = INFINITY, fastest = 0;
-    for (size_t i = 0; i < cases->rows; i++) {
-        slowest = fmin(slowest, normal_speed(cases, i));
-        fastest = fmax(fastest, normal_speed(cases, i));
-    }
-    fputs("set lmargin at screen 0.085\nset rmargin at screen 0.45\nset bmargin at screen 0.14\n"
-          "set tmargin at screen 0.76\nset title 'Normal restitution' offset 0,-0.4\n"
-          "set xlabel 'normal speed  v cos θ  (m/s)'\nset ylabel 'e_z'\nset yrange [0:*]\n",
-          commands);
-    fprintf(commands, "set logscale x\nset format x '%%g'\nset xrange [%.3g:%.3g]\n", 0.7 * slowest, 1.4 * fastest);
-    fputs("plot $ez using 1:2 with lines linewidth 1.5 linecolor rgb '#999999'", commands);
-    for (size_t curve = 0; curve < cases->axis[0]; curve++)
-        fprintf(commands,
-                ", \\\n  $ex index %zu using 3:4 with points pointtype 7 pointsize 0.45 linecolor rgb '#%06x'", curve,
-                colour_at(speed_fraction(cases, curve)));
-    fputs("\nunset logscale x\nset xrange [*:*]\nunset label\n", commands);
-}
-
-static void plot_ex(FILE *commands, const struct cases *cases)
-{
-    const size_t most_named = 12, step = (cases->axis[0] + most_named - 1) / most_named;
-    const double last = cell_number(cases, cases->rows - 1, 1);
-    fputs("set lmargin at screen 0.56\nset rmargin at screen 0.855\n"
-          "set title 'Tangential restitution' offset 0,-0.5\nset xlabel 'angle from the normal  θ  (degrees)'\n"
-          "set ylabel 'e_x'\nset yrange [*:*]\nset xzeroaxis linetype 1 linewidth 1 linecolor rgb '#444444'\n"
-          "set key at screen 0.99,0.79 right top title 'v (m/s)' samplen 1.6 spacing 1.1\n",
-          commands);
-    if (last > 45) fputs("set xrange [0:90]\nset xtics 15\n", commands);
-    fputs("plot ", commands);
-    for (size_t remaining = cases->axis[0]; remaining > 0; remaining--) {
-        const size_t curve = remaining - 1;
-        fprintf(commands,
-                "$ex index %zu using 1:2 with linespoints pointtype 7 pointsize 0.35 linewidth 1.8 linecolor rgb "
-                "'#%06x'",
-                curve, colour_at(speed_fraction(cases, curve)));
-        if (curve % step == 0) fprintf(commands, " title '%.3g'", cell_number(cases, curve * cases->axis[1], 0));
-        fputs(curve ? ", \\\n  " : "\n", commands);
+            figure_label(field, p->key, sizeof p->key);
     }
 }
 
-bool figure_of_grid(const char *path, const struct settings *settings, const struct cases *cases,
-                    struct materials *materials, const struct row *rows, struct reason *why)
+static const char *title_of(const struct settings *settings, const struct cases *cases, struct materials *materials)
 {
-    struct gnuplot gnuplot;
-    const struct material_entry *entry = materials_get(materials, settings->values.material, why);
+    struct reason why;
+    const char *path = settings->values.material;
+    const struct material_entry *entry = path ? materials_get(materials, path, &why) : NULL;
+    if (entry) return entry->info.name;
+    for (size_t i = 0; i < cases->columns; i++)
+        if (field_of_column(cases_name(cases, i)) <= FIELD_LAST_DIMENSIONLESS)
+            return "Impacts in dimensionless numbers";
+    return values_dimensionless(&settings->values) ? "Impacts in dimensionless numbers" : "Impacts";
+}
+
+bool figure_of_cases(const char *path, const struct settings *settings, const struct cases *cases,
+                     struct materials *materials, const struct row *rows, struct reason *why)
+{
+    struct figure_axes axes;
     bool any = false;
     for (size_t i = 0; i < cases->rows; i++)
         any |= rows[i].solved;
     if (!any) return refuse(why, "%.200s: not drawn, no row was solved", path);
-    if (!entry || !gnuplot_open(path, 1080, 480, &gnuplot, why)) return false;
-    FILE *commands = gnuplot.commands;
-    write_ez_data(commands, cases, rows);
-    write_ex_data(commands, cases, rows);
-    write_frame(commands, settings, entry->info.name);
-    fputs("set multiplot\n", commands);
-    plot_ez(commands, cases);
-    plot_ex(commands, cases);
-    fputs("unset multiplot\n", commands);
-    return gnuplot_close(&gnuplot, why);
+    if (!find_axes(cases, &axes, why)) return false;
+    struct chart *chart = chart_new(settings, 2);
+    snprintf(chart->title, sizeof chart->title, "%s", title_of(settings, cases, materials));
+    write_description(&settings->values, chart->description, sizeof chart->description);
+    label_panels(chart, cases, &axes, settings->contours);
+    if (settings->contours) {
+        add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ);
+        add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX);
+    } else {
+        add_curves(chart, cases, rows, &axes);
+    }
+    const size_t speed = cases->axes == 2 ? 0 : NO_COLUMN;
+    if (!settings->contours && speed == 0 && strcmp(cases_name(cases, 0), "speed_m_s") == 0 &&
+        strcmp(cases_name(cases, 1), "angle_deg") == 0)
+        merge_normal_speeds(&chart->panel[0], cases, rows, 0, 1);
+    const bool drawn = chart_draw(chart, path, why);
+    chart_release(chart);
+    return drawn;
 }
 
 /* A panel of the history: its place, and the two arrays it shows. */
-struct panel {
+struct history_panel {
     double left, right;
     const char *title, *quantity, *unit, *dimensionless, *key;
     size_t array[2]; /* numbers in arrays_of() */
     const char *name[2];
 };
 
-static const struct panel panels[] = {
+static const struct history_panel panels[] = {
     {0.07, 0.32, "Forces", "force", "N", "F_z / F_0,  F_x / (μ F_0)", "top right", {4, 5}, {"normal", "tangential"}},
     {0.4,
      0.65,
@@ -256,7 +424,8 @@ static void write_history_data(FILE *commands, const restitute_history *history)
     fputs("END\n", commands);
 }
 
-static void plot_panel(FILE *commands, const struct panel *panel, const restitute_history *history, bool physical)
+static void plot_panel(FILE *commands, const struct history_panel *panel, const restitute_history *history,
+                       bool physical)
 {
     const double *arrays[HISTORY_ARRAYS];
     arrays_of(history, arrays);
@@ -272,7 +441,7 @@ static void plot_panel(FILE *commands, const struct panel *panel, const restitut
         fprintf(commands, "set ylabel '%s'\n", panel->dimensionless);
     for (int i = 0; i < 2; i++)
         fprintf(commands, "%s$history using ($1/%g):($%zu/%g) with lines linewidth 2 linecolor rgb '#%06x' title '%s'",
-                i ? ", " : "plot ", time.factor, panel->array[i] + 1, scale.factor, colour_at(i ? 0.75 : 0.25),
+                i ? ", " : "plot ", time.factor, panel->array[i] + 1, scale.factor, chart_colour(i ? 0.75 : 0.25),
                 panel->name[i]);
     fputs("\nunset label\n", commands);
 }

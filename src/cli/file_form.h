@@ -3,9 +3,9 @@
 #ifndef CLI_FILE_FORM_H
 #define CLI_FILE_FORM_H
 
-enum file_form { FORM_UNKNOWN, FORM_CSV, FORM_HDF5, FORM_SVG, FORM_PNG };
+enum file_form { FORM_UNKNOWN, FORM_CSV, FORM_HDF5, FORM_SVG, FORM_PNG, FORM_PDF };
 
-/* .csv, .h5 or .hdf5, .svg, .png, in capitals or not. */
+/* .csv, .h5 or .hdf5, .svg, .png, .pdf, in capitals or not. */
 enum file_form file_form_of(const char *path);
 
 #endif

@@ -41,7 +41,8 @@ static bool ended_well(pid_t process)
 bool gnuplot_check(const char *path, struct reason *why)
 {
     const enum file_form form = file_form_of(path);
-    if (form != FORM_SVG && form != FORM_PNG) return refuse(why, "--figure = %.200s: must end in .svg or .png", path);
+    if (form != FORM_SVG && form != FORM_PNG && form != FORM_PDF)
+        return refuse(why, "--figure = %.200s: must end in .svg, .png or .pdf", path);
     pid_t process;
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     const int failed = nothing < 0 ? errno : start("--version", nothing, nothing, nothing, &process);
@@ -60,6 +61,11 @@ static void set_terminal(const char *path, int width, int height, FILE *commands
     if (file_form_of(path) == FORM_SVG)
         fprintf(commands, "set terminal svg size %d,%d enhanced font 'Helvetica,14' background 'white'\n", width,
                 height);
+    else if (file_form_of(path) == FORM_PDF) /* fonts as large beside the axes as in SVG */
+        fprintf(commands,
+                "set terminal pdfcairo size %g,%g enhanced font 'Sans,14' fontscale 0.53 linewidth 1.4 background "
+                "'white'\n",
+                width / 100.0, height / 100.0);
     else
         fprintf(commands,
                 "set terminal pngcairo size %d,%d enhanced font 'Sans,12' fontscale 1.8 linewidth 2 pointscale "

@@ -11,7 +11,7 @@ struct gnuplot {
     struct output picture;
 };
 
-/* Refuse an extension other than .svg and .png, and a machine without gnuplot. */
+/* Refuse an extension other than .svg, .png and .pdf, and a machine without gnuplot. */
 bool gnuplot_check(const char *path, struct reason *why);
 
 /* Begin a picture of this size (in points; .png has twice as many pixels). */

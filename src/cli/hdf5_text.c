@@ -1,4 +1,4 @@
-/* Text attributes of fixed length; files from memory.
+/* Text attributes of fixed length; columns; files from memory.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "hdf5_text.h"
 
@@ -13,6 +13,18 @@ bool hdf5_write_text(hid_t place, const char *name, const char *text)
     const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
     if (attribute >= 0) H5Aclose(attribute);
     H5Tclose(type);
+    H5Sclose(space);
+    return good;
+}
+
+bool hdf5_write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
+{
+    const hsize_t length = count;
+    const hid_t space = H5Screate_simple(1, &length, NULL);
+    const hid_t set = H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    if (good && *unit) good = hdf5_write_text(set, "unit", unit);
+    if (set >= 0) H5Dclose(set);
     H5Sclose(space);
     return good;
 }

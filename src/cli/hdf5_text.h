@@ -11,6 +11,9 @@
 /* Give a file, a group or a dataset a text attribute. */
 bool hdf5_write_text(hid_t place, const char *name, const char *text);
 
+/* A dataset of `count` values of that type with the attribute `unit`; an empty unit: none. */
+bool hdf5_write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count);
+
 /* Close a file in memory; if `good`, send it to `stream`. False if anything fails. */
 bool hdf5_finish(hid_t file, bool good, FILE *stream);
 

@@ -11,14 +11,16 @@
 #include "bench.h"
 #include "history.h"
 #include "single.h"
+#include "sweep.h"
 #include "table.h"
 
 static const char usage[] =
     "Usage: restitute pair [OPTION...]       the restitution pair (ez, ex) of one impact or of many\n"
     "       restitute history [OPTION...]    forces, radii and velocities during one impact\n"
+    "       restitute sweep NAME|all [OPTION...]  the figures of the paper and more, remade and checked\n"
     "       restitute bench [OPTION...]      error against run time of the methods, on a fixed set of impacts\n"
     "       restitute table ACTION [OPTION...]  build tables of pairs, look up in them\n"
-    "       restitute pair --help, restitute history --help, restitute bench --help, restitute table --help,\n"
+    "       restitute pair --help, restitute history --help, and likewise for sweep, bench and table,\n"
     "       restitute --version\n"
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
@@ -40,8 +42,14 @@ static int run_subcommand(int count, char **arguments)
         status = EXIT_USAGE;
     else if (reading == READING_GO_ON && settings.command == COMMAND_HISTORY)
         status = history_run(&settings);
+    else if (reading == READING_GO_ON && settings.sweep)
+        status = sweep_run(&settings);
+    else if (reading == READING_GO_ON && settings.command == COMMAND_SWEEP && !settings.text[TEXT_INPUT] &&
+             !settings.text[TEXT_GRID])
+        status = complain("sweep: a figure, --grid or --input is missing; see restitute sweep --help");
     else if (reading == READING_GO_ON)
-        status = settings.text[TEXT_INPUT] || settings.text[TEXT_GRID] ? batch_run(&settings) : single_run(&settings);
+        status =
+            settings.text[TEXT_INPUT] || settings.text[TEXT_GRID] ? batch_run(&settings, NULL) : single_run(&settings);
     options_release(&settings);
     return status;
 }
@@ -52,7 +60,7 @@ int main(int count, char **arguments)
     const char *word = count > 1 ? arguments[1] : "";
     signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error as on a full disk */
     int status = EXIT_DONE;
-    if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0)
+    if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0 || strcmp(word, "sweep") == 0)
         status = run_subcommand(count, arguments);
     else if (strcmp(word, "bench") == 0)
         status = bench_main(count, arguments);
@@ -64,9 +72,10 @@ int main(int count, char **arguments)
         printf("restitute %s\n%s", restitute_version(), licence);
     else
         status =
-            *word ? complain("unknown command \"%.64s\": must be pair, history, bench or table; see restitute --help",
-                             word)
-                  : complain("a command is missing: pair, history, bench or table; see restitute --help");
+            *word ? complain(
+                        "unknown command \"%.64s\": must be pair, history, sweep, bench or table; see restitute --help",
+                        word)
+                  : complain("a command is missing: pair, history, sweep, bench or table; see restitute --help");
     errno = 0;
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
         status = complain("standard output cannot be written: %s", strerror(errno ? errno : EIO));

@@ -104,8 +104,63 @@ const restitute_material *materials_pair(struct materials *materials, const stru
     return pair->material;
 }
 
+static int shift_times(const struct solid_numbers *numbers, restitute_material **material, restitute_error *error)
+{
+    const restitute_material *base = numbers->base->material;
+    const size_t terms = restitute_material_terms(base);
+    double *tau = allocate(2 * terms, sizeof *tau), equilibrium, viscosity;
+    restitute_material_series(base, &equilibrium, &viscosity, tau, tau + terms);
+    for (size_t i = 0; i < terms; i++)
+        tau[i] *= numbers->shift;
+    const int status = restitute_material_prony(equilibrium, viscosity * numbers->shift, terms, tau, tau + terms,
+                                                restitute_material_poisson_ratio(base), material, error);
+    free(tau);
+    return status;
+}
+
+static int make_solid(const struct solid_numbers *n, restitute_material **material, restitute_error *error)
+{
+    const double viscosity = n->viscosity * n->shift;
+    if (n->base) return shift_times(n, material, error);
+    if (viscosity == 0) return restitute_material_elastic(n->modulus1, n->poisson, material, error);
+    if (n->modulus1 == 0) return restitute_material_maxwell(n->modulus2, viscosity, n->poisson, material, error);
+    if (n->modulus2 > 1e300)
+        return restitute_material_kelvin_voigt(n->modulus1, viscosity, n->poisson, material, error);
+    return restitute_material_standard_solid(n->modulus1, n->modulus2, viscosity, n->poisson, material, error);
+}
+
+/* Rows that follow each other often have the same solid; of those made the latest alone is looked at. */
+const struct material_entry *materials_make(struct materials *materials, const struct solid_numbers *numbers,
+                                            struct reason *why)
+{
+    restitute_error error;
+    struct material_made *made = materials->made;
+    if (made && memcmp(&made->numbers, numbers, sizeof *numbers) == 0) return &made->entry;
+    made = allocate(1, sizeof *made);
+    if (make_solid(numbers, &made->entry.material, &error) < 0) {
+        free(made);
+        refuse(why, "%s", error.message);
+        return NULL;
+    }
+    restitute_material_info_init(&made->entry.info);
+    if (numbers->base)
+        made->entry.info = numbers->base->info;
+    else
+        strcpy(made->entry.info.name, "Solid of given moduli");
+    made->numbers = *numbers;
+    made->next = materials->made;
+    materials->made = made;
+    return &made->entry;
+}
+
 void materials_release(struct materials *materials)
 {
+    while (materials->made) {
+        struct material_made *made = materials->made;
+        materials->made = made->next;
+        restitute_material_destroy(made->entry.material);
+        free(made);
+    }
     while (materials->pairs) {
         struct material_pair *pair = materials->pairs;
         materials->pairs = pair->next;

@@ -23,8 +23,22 @@ struct material_pair {
     restitute_material *material;
 };
 
+/* A solid of numbers: modulus2 infinite: Kelvin-Voigt, viscosity 0: elastic, modulus1 0: Maxwell. With a base: that
+ * solid instead, its times multiplied by `shift`. */
+struct solid_numbers {
+    const struct material_entry *base;
+    double modulus1, modulus2, viscosity, poisson, shift;
+};
+
+struct material_made {
+    struct material_made *next;
+    struct solid_numbers numbers;
+    struct material_entry entry;
+};
+
 struct materials {
     struct material_entry *first;
+    struct material_made *made; /* the latest first */
     struct material_pair *pairs;
     void *by_path, *by_members; /* the same as search trees: a case file may name another material in every row */
 };
@@ -36,6 +50,10 @@ const struct material_entry *materials_get(struct materials *materials, const ch
  * */
 const restitute_material *materials_pair(struct materials *materials, const struct material_entry *entry,
                                          const char *partner, struct reason *why);
+
+/* A solid of numbers; NULL: refused. */
+const struct material_entry *materials_make(struct materials *materials, const struct solid_numbers *numbers,
+                                            struct reason *why);
 
 void materials_release(struct materials *materials);
 

@@ -17,7 +17,7 @@
 #endif
 
 /* What popt returns for an option: a field, a text, or one of these. */
-enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
+enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED, CODE_CONTOURS };
 
 #define ENTRY(name, code, argument, help)                                                                              \
     {                                                                                                                  \
@@ -53,11 +53,14 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_THREADS] = "threads",
     [TEXT_EVENTS] = "events",
     [TEXT_FIELDS] = "fields",
+    [TEXT_SHARD] = "shard",
+    [TEXT_JOIN] = "join",
+    [TEXT_SEED] = "seed",
 };
 
 static struct poptOption more_scene_options[] = {
     ENTRY("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
-          "what deforms: a material file, .json, or .csv with tau_s,G_Pa; required"),
+          "what deforms: a material file, .json, or .csv with tau_s,G_Pa; this or --modulus1"),
     ENTRY(
         "partner", CODE_TEXT + TEXT_PARTNER, "rigid|same|FILE",
         "rigid: one of the two bodies deforms (default); same: both do, and are of the material; FILE: the material of "
@@ -89,13 +92,25 @@ static struct poptOption pair_output_options[] = {
     ENTRY("format", CODE_TEXT + TEXT_FORMAT, "text|csv|json", "default text for one impact, csv for many"),
     ENTRY("input", CODE_TEXT + TEXT_INPUT, "CASES.csv", "one impact a row, columns by name; -: standard input"),
     ENTRY("grid", CODE_TEXT + TEXT_GRID, "AXES",
-          "speed=FROM:TO:N[:log],angle=FROM:TO:N[:log] (m/s, degrees): all impacts of the grid"),
+          "one or two axes NAME=FROM:TO:N[:log], NAME of any number above, or material=FILE:FILE:...: all impacts of "
+          "the grid, for example speed=0.1:10:9:log,angle=5:85:9"),
     ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write here and not to standard output"),
-    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "with --grid: a figure of it, .svg or .png; needs gnuplot"),
+    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE",
+          "with --grid, or --input with one or two columns that vary: a figure of it, .svg, .png or .pdf; needs "
+          "gnuplot"),
+    FLAG("contours", CODE_CONTOURS, "with --figure: contours over both axes, the last one to the right"),
     ENTRY("threads", CODE_TEXT + TEXT_THREADS, "N",
           "with --input and --grid: solve by so many threads, 1 to 1024; default all processors"),
     FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
+    ENTRY("shard", CODE_TEXT + TEXT_SHARD, "I/K", "solve part I of K of the rows alone, without figure"),
+    ENTRY("join", CODE_TEXT + TEXT_JOIN, "FILE,...",
+          "finished shards in their order; rows that are in them are not solved again"),
     FLAG("help", CODE_HELP, "show this and stop"),
+    POPT_TABLEEND};
+
+static struct poptOption sweep_options[] = {
+    ENTRY("seed", CODE_TEXT + TEXT_SEED, "N",
+          "the impacts drawn for a figure with a name, 0 to 4294967295; default 2017"),
     POPT_TABLEEND};
 
 static struct poptOption history_output_options[] = {
@@ -129,6 +144,21 @@ static const char pair_footer[] =
     "error_ex, method and status, which is empty or tells why the row failed. Provenance goes into FILE.meta.json.\n"
     "\nez, ex: minus the velocity after over the velocity before, normal and tangential, of the contact point.\n"
     "Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written, 130 interrupted.\n";
+
+static const char sweep_footer[] =
+    "\nA figure by its name, into the folder --output (default: here) as NAME.csv, .h5, .svg and .pdf:\n"
+    "  restitute sweep fig4 --output figures\n"
+    "  restitute sweep all --output figures\n"
+    "fig4, fig6: ez; fig5, fig8, fig9: ex over delta1 and psi; fig7: ex without slip; fig10, fig11: psi_c and the\n"
+    "error of its formula; maxwell, temperature (takes --material), tangent, friction: beyond the paper.\n"
+    "Impacts are drawn at random in SI units; their scatter about the curves of the dimensionless numbers is printed.\n"
+    "The method is sync and the tolerance 1e-5, if not said otherwise. Of the options above a figure with a name "
+    "takes\n"
+    "those of the solution, --output, --threads, --resume, --shard and --join (K, or files, with one figure).\n"
+    "\nOr any other, as with restitute pair --grid and --input:\n"
+    "  restitute sweep --gamma 0.1 --grid psi=0.1:5:50,delta1=0.01:100:50:log --output g.csv --figure g.svg "
+    "--contours\n"
+    "\nExit status: 0 done, 1 some rows or checks failed, 2 bad usage or input, 130 interrupted.\n";
 
 static const char history_footer[] =
     "\nExample:\n"
@@ -173,6 +203,8 @@ static bool take_option(struct settings *settings, int code, poptContext context
 {
     if (code == CODE_RESUME)
         settings->resume = true;
+    else if (code == CODE_CONTOURS)
+        settings->contours = true;
     else if (code == CODE_BLOCKED)
         settings->values.rotation_blocked = 1;
     else if (code >= CODE_TEXT)
@@ -233,6 +265,25 @@ static bool read_solver(struct settings *settings, struct reason *why)
     solver->max_updates = (int64_t)updates;
     settings->samples = (size_t)samples;
     settings->threads = (int)threads;
+    return true;
+}
+
+static bool read_shard(struct settings *settings, struct reason *why)
+{
+    const char *text = settings->text[TEXT_SHARD], *slash = text ? strchr(text, '/') : NULL;
+    char first[32];
+    double shard = 1, shards = 1, seed = 2017;
+    if (!read_bounded(settings, TEXT_SEED, 0, 4294967295.0, true, &seed, why)) return false;
+    if (text) {
+        snprintf(first, sizeof first, "%.*s", slash ? (int)(slash - text) : 0, text);
+        if (restitute_number_read(first, &shard) != RESTITUTE_OK ||
+            restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
+            !(shard >= 1 && shard <= shards && shards <= 10000) || shard != floor(shard) || shards != floor(shards))
+            return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
+    }
+    settings->seed = (unsigned)seed;
+    settings->shard = (size_t)shard;
+    settings->shards = (size_t)shards;
     return true;
 }
 
@@ -303,36 +354,48 @@ static bool read_arguments(poptContext context, struct settings *settings, bool 
     }
     if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
     const char *extra = poptGetArg(context);
+    if (extra && settings->command == COMMAND_SWEEP) {
+        settings->sweep = copy_of(extra);
+        extra = poptGetArg(context);
+    }
     if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
-    return read_solver(settings, why) && read_fields(settings, why) && read_words(settings, why);
+    return read_solver(settings, why) && read_fields(settings, why) && read_words(settings, why) &&
+           read_shard(settings, why);
 }
 
 enum reading options_read(int count, char **arguments, struct settings *settings)
 {
-    const bool history = strcmp(arguments[1], "history") == 0;
+    static const char *const names[] = {"restitute pair", "restitute history", "restitute sweep"};
+    static const char *const footers[] = {pair_footer, history_footer, sweep_footer};
+    const bool history = strcmp(arguments[1], "history") == 0, sweep = strcmp(arguments[1], "sweep") == 0;
     struct poptOption *dimensionless = field_options(0, FIELD_LAST_DIMENSIONLESS, NULL);
     struct poptOption *physical = field_options(FIELD_LAST_DIMENSIONLESS + 1, FIELD_COUNT - 1, more_scene_options);
     struct poptOption all[] = {GROUP(dimensionless, "An impact in dimensionless numbers:"),
                                GROUP(physical, "or in SI units, a sphere against a wall or a second sphere:"),
                                GROUP(solution_options, "How it is solved:"),
                                GROUP(history ? history_output_options : pair_output_options, "Input and output:"),
+                               GROUP(sweep_options, "Figures with a name:"),
                                POPT_TABLEEND};
     memset(settings, 0, sizeof *settings);
-    settings->command = history ? COMMAND_HISTORY : COMMAND_PAIR;
+    if (!sweep) all[4] = all[5];
+    settings->command = history ? COMMAND_HISTORY : sweep ? COMMAND_SWEEP : COMMAND_PAIR;
     settings->values = values_none();
     settings->argument_count = count;
     settings->arguments = (const char *const *)arguments;
     /* popt shows its first word as the name of the program. */
     const char **words = allocate((size_t)count, sizeof *words);
-    words[0] = history ? "restitute history" : "restitute pair";
+    words[0] = names[settings->command];
     memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
     poptContext context = poptGetContext("restitute", count - 1, words, all, 0);
+    if (sweep) poptSetOtherOptionHelp(context, "[NAME] [OPTION...]");
     struct reason why;
     bool help = false;
     const bool good = read_arguments(context, settings, &help, &why);
     if (help) {
+        static char room[1 << 14]; /* one write at the end, whose failure keeps its reason */
+        setvbuf(stdout, room, _IOFBF, sizeof room);
         poptPrintHelp(context, stdout, 0);
-        fputs(history ? history_footer : pair_footer, stdout);
+        fputs(footers[settings->command], stdout);
     }
     if (!good) complain("%s", why.text);
     poptFreeContext(context);
@@ -344,6 +407,7 @@ enum reading options_read(int count, char **arguments, struct settings *settings
 
 void options_release(struct settings *settings)
 {
+    free(settings->sweep);
     for (int i = 0; i < TEXT_COUNT; i++)
         free(settings->text[i]);
     for (int i = 0; i < FIELD_COUNT; i++)

@@ -27,12 +27,15 @@ enum text_option {
     TEXT_THREADS,
     TEXT_EVENTS,
     TEXT_FIELDS,
+    TEXT_SHARD,
+    TEXT_JOIN,
+    TEXT_SEED,
     TEXT_COUNT
 };
 
 enum format { FORMAT_DEFAULT, FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON };
 
-enum subcommand { COMMAND_PAIR, COMMAND_HISTORY };
+enum subcommand { COMMAND_PAIR, COMMAND_HISTORY, COMMAND_SWEEP };
 
 struct settings {
     enum subcommand command;
@@ -42,6 +45,10 @@ struct settings {
     size_t samples;
     int threads; /* 0: all */
     bool resume;
+    bool contours;
+    size_t shard, shards; /* part `shard` of `shards`, from 1; 1/1: all */
+    unsigned seed;
+    char *sweep;              /* which figure; NULL: none is named */
     char *text[TEXT_COUNT];   /* as given; NULL: not given */
     char *field[FIELD_COUNT]; /* likewise */
     int argument_count;
@@ -51,7 +58,7 @@ struct settings {
 /* What to do after reading the command line. */
 enum reading { READING_GO_ON, READING_STOP, READING_FAILED };
 
-/* Read the options behind `restitute pair` or `restitute history`: arguments[1] is the subcommand. STOP: help was
+/* Read the options behind `restitute pair`, `history` or `sweep`: arguments[1] is the subcommand. STOP: help was
  * printed. */
 enum reading options_read(int count, char **arguments, struct settings *settings);
 

@@ -22,15 +22,16 @@ static bool begin_new(struct partial *partial, const struct cases *cases, const 
     return unfinished_append(&partial->rows, &header, why);
 }
 
-/* The settings of the interrupted run are those of this one. */
-static bool same_settings(const struct partial *partial, const json_t *settings_object, struct reason *why)
+/* The settings in that file are those of this run; in a record they are the member "settings". */
+static bool same_settings(const char *path, const char *option, const json_t *settings_object, struct reason *why)
 {
     json_error_t error;
-    json_t *before = json_load_file(partial->settings_path, 0, &error), *now = json_deep_copy(settings_object);
+    json_t *file = json_load_file(path, 0, &error), *now = json_deep_copy(settings_object);
+    json_t *inner = json_object_get(file, "settings"), *before = inner ? inner : file;
     const char *key;
     json_t *value;
     bool same = before != NULL;
-    if (!same) refuse(why, "%.200s: cannot be read: %.150s", partial->settings_path, error.text);
+    if (!same) refuse(why, "%.200s: cannot be read: %.150s", path, error.text);
     json_object_foreach(now, key, value)
     {
         if (!same) break;
@@ -39,33 +40,44 @@ static bool same_settings(const struct partial *partial, const json_t *settings_
         char *texts[2] = {json_dumps(value, JSON_ENCODE_ANY | JSON_SORT_KEYS | JSON_REAL_PRECISION(17)),
                           old ? json_dumps(old, JSON_ENCODE_ANY | JSON_SORT_KEYS | JSON_REAL_PRECISION(17)) : NULL};
         if (!texts[0] || !texts[1] || strcmp(texts[0], texts[1]) != 0)
-            same = refuse(why, "--resume: %s of this run differs from that of %.200s", key, partial->settings_path);
+            same = refuse(why, "%s: %s of this run differs from that of %.200s", option, key, path);
         free(texts[0]);
         free(texts[1]);
     }
-    json_decref(before);
+    json_decref(file);
     json_decref(now);
     return same;
 }
 
-/* The rows done are the first rows of these cases. */
+/* The rows done are these cases from number `first` on; `count` counts them. */
 static bool read_done(const char *path, const struct cases *cases, const struct settings *settings, struct row *rows,
-                      size_t *done, struct reason *why)
+                      size_t first, size_t *count, struct reason *why)
 {
     restitute_csv *csv;
     restitute_error error;
     if (restitute_csv_read(path, &csv, &error) < 0) return refuse(why, "%s", error.message);
-    const size_t count = restitute_csv_rows(csv);
-    bool good = count <= cases->rows && restitute_csv_columns(csv) == cases->columns + ROW_NUMBERS + 2;
-    for (size_t i = 0; i < count && good; i++) {
+    const size_t found = restitute_csv_rows(csv);
+    bool good = first + found <= cases->rows && restitute_csv_columns(csv) == cases->columns + ROW_NUMBERS + 2;
+    for (size_t i = 0; i < found && good; i++) {
         for (size_t k = 0; k < cases->columns && good; k++)
-            good = strcmp(restitute_csv_cell(csv, i, k), cases_cell(cases, i, k)) == 0;
-        if (good && (good = row_read(csv, i, cases->columns, settings->solver.method, &rows[i]))) *done = i + 1;
+            good = strcmp(restitute_csv_cell(csv, i, k), cases_cell(cases, first + i, k)) == 0;
+        if (good && (good = row_read(csv, i, cases->columns, settings->solver.method, &rows[first + i])))
+            *count = i + 1;
     }
     restitute_csv_destroy(csv);
     return good ? true
                 : refuse(why, "%.200s line %zu: does not belong to these cases; remove it to start anew", path,
-                         *done + 2);
+                         *count + 2);
+}
+
+bool partial_join(const char *path, const struct cases *cases, const struct settings *settings,
+                  const json_t *settings_object, struct row *rows, size_t first, size_t *count, struct reason *why)
+{
+    char *record = path_beside(path, ".meta.json");
+    const bool good = same_settings(record, "--join", settings_object, why) &&
+                      read_done(path, cases, settings, rows, first, count, why);
+    free(record);
+    return good;
 }
 
 bool partial_begin(const char *path, const struct cases *cases, const struct settings *settings,
@@ -75,11 +87,12 @@ bool partial_begin(const char *path, const struct cases *cases, const struct set
     if (!unfinished_open(path, settings->resume, &partial->rows, why)) return false;
     partial->settings_path = path_beside(path, ".partial.json");
     const bool fresh = partial->rows.empty;
-    const bool good = fresh
-                          ? begin_new(partial, cases, settings_object, why)
-                          : same_settings(partial, settings_object, why) && unfinished_cut(&partial->rows, why) &&
-                                (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
-                                                     : read_done(partial->rows.path, cases, settings, rows, done, why));
+    const bool good =
+        fresh ? begin_new(partial, cases, settings_object, why)
+              : same_settings(partial->settings_path, "--resume", settings_object, why) &&
+                    unfinished_cut(&partial->rows, why) &&
+                    (partial->rows.empty ? begin_new(partial, cases, settings_object, why)
+                                         : read_done(partial->rows.path, cases, settings, rows, 0, done, why));
     if (!good && fresh) partial_remove(partial);
     if (!good) partial_leave(partial);
     return good;

@@ -17,6 +17,10 @@ bool partial_begin(const char *path, const struct cases *cases, const struct set
                    const json_t *settings_object, struct partial *partial, struct row *rows, size_t *done,
                    struct reason *why);
 
+/* Read the rows of a finished shard, which are those from number `first` on; `count` counts them. */
+bool partial_join(const char *path, const struct cases *cases, const struct settings *settings,
+                  const json_t *settings_object, struct row *rows, size_t first, size_t *count, struct reason *why);
+
 /* Give the rows their final name, if they are as many. */
 bool partial_commit(struct partial *partial, const char *path, size_t rows, struct reason *why);
 

@@ -136,6 +136,10 @@ bool places_check_settings(const struct settings *settings, const struct materia
     places_read(&places, "--material", text[TEXT_MATERIAL]);
     places_read(&places, "--partner", settings->values.partner);
     places_read_materials(&places, materials);
+    char *list = text[TEXT_JOIN] ? copy_of(text[TEXT_JOIN]) : NULL, *rest = NULL;
+    for (char *path = list ? strtok_r(list, ",", &rest) : NULL; path; path = strtok_r(NULL, ",", &rest))
+        places_read(&places, "--join", path);
+    free(list);
     places_write(&places, "--output", text[TEXT_OUTPUT]);
     places_write_beside(&places, "--output", text[TEXT_OUTPUT], ".meta.json");
     if (text[TEXT_INPUT] || text[TEXT_GRID]) {

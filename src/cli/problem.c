@@ -96,9 +96,12 @@ static bool at_most_one(const struct values *values, enum field one, enum field 
 static bool check_physical(const struct values *values, enum naming naming, struct reason *why)
 {
     static const enum field required[] = {FIELD_RADIUS1, FIELD_SPEED, FIELD_FRICTION};
-    if (!values->material)
-        return refuse(why, "%s is missing: a material file, .json or .csv",
-                      naming == NAME_OPTIONS ? "--material" : "material");
+    if (!values->material && !values->given[FIELD_MODULUS1])
+        return refuse(why, "%s is missing: a material file, .json or .csv (or %s and what belongs to it)",
+                      naming == NAME_OPTIONS ? "--material" : "material", called(FIELD_MODULUS1, naming).text);
+    for (enum field field = FIELD_MODULUS1; field <= FIELD_POISSON && values->material; field++)
+        if (values->given[field])
+            return refuse(why, "a material file and %s are both given: use one", called(field, naming).text);
     for (size_t i = 0; i < sizeof required / sizeof required[0]; i++)
         if (!values->given[required[i]]) return missing(required[i], naming, why);
     return at_most_one(values, FIELD_DENSITY1, FIELD_MASS1, naming, why) &&
@@ -200,12 +203,40 @@ static bool build_bodies(const struct values *values, enum naming naming, struct
     return true;
 }
 
+/* Of a file, or of numbers; with its times shifted. */
+static const struct material_entry *find_material(const struct values *values, enum naming naming,
+                                                  struct materials *materials, struct reason *why)
+{
+    const double *number = values->number;
+    const bool *given = values->given;
+    struct solid_numbers solid = {.base = NULL,
+                                  .modulus1 = number[FIELD_MODULUS1],
+                                  .modulus2 = given[FIELD_MODULUS2] ? number[FIELD_MODULUS2] : INFINITY,
+                                  .viscosity = number[FIELD_VISCOSITY],
+                                  .poisson = given[FIELD_POISSON] ? number[FIELD_POISSON] : 0.5,
+                                  .shift = given[FIELD_TIME_SHIFT] ? number[FIELD_TIME_SHIFT] : 1};
+    if (values->material && !(solid.base = materials_get(materials, values->material, why))) return NULL;
+    if (solid.base && solid.shift == 1) return solid.base;
+    if (values->partner) {
+        refuse(why, "partner = %.200s: the material must be a file without %s", values->partner,
+               called(FIELD_TIME_SHIFT, naming).text);
+        return NULL;
+    }
+    const bool no_dashpot = given[FIELD_MODULUS2] && !given[FIELD_VISCOSITY];
+    const bool no_spring = solid.modulus1 == 0 && !given[FIELD_MODULUS2];
+    if (!solid.base && (no_dashpot || no_spring)) {
+        missing(no_dashpot ? FIELD_VISCOSITY : FIELD_MODULUS2, naming, why);
+        return NULL;
+    }
+    return materials_make(materials, &solid, why);
+}
+
 static bool build_scene(const struct values *values, enum naming naming, struct materials *materials,
                         struct problem *problem, struct reason *why)
 {
     restitute_scene *scene = &problem->scene;
     const double *number = values->number, angle = number[FIELD_ANGLE] * pi / 180.0;
-    const struct material_entry *entry = materials_get(materials, values->material, why);
+    const struct material_entry *entry = find_material(values, naming, materials, why);
     if (!entry) return false;
     restitute_scene_init(scene);
     problem->info = &entry->info;

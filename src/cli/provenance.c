@@ -70,8 +70,11 @@ static json_t *given_material(const char *option, const char *name, const struct
 static json_t *given_input(const struct settings *settings, const struct cases *cases)
 {
     if (!cases) return json_null();
+    if (settings->sweep)
+        return json_pack("{s:s, s:I, s:I}", "figure", settings->sweep, "seed", (json_int_t)settings->seed, "rows",
+                         (json_int_t)cases->all);
     if (!cases->csv) return json_pack("{s:s}", "grid", settings->text[TEXT_GRID]);
-    return json_pack("{s:s, s:I, s:o}", "file", cases->source, "rows", (json_int_t)cases->rows, "fingerprint",
+    return json_pack("{s:s, s:I, s:o}", "file", cases->source, "rows", (json_int_t)cases->all, "fingerprint",
                      json_of_fingerprint(restitute_csv_fingerprint(cases->csv)));
 }
 

@@ -10,6 +10,11 @@
 static const char *const result_names[ROW_NUMBERS] = {"ez",       "ex",      "contact_time", "max_indentation",
                                                       "error_ez", "error_ex"};
 
+const char *row_number_name(size_t number)
+{
+    return result_names[number];
+}
+
 void rows_release(struct row *rows, size_t count)
 {
     for (size_t i = 0; i < count; i++)

@@ -41,6 +41,9 @@ void cell_write(FILE *stream, const char *cell);
 /* Read back a written row: cells `first` and on of a table. */
 bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row);
 
+/* Name of one of the numbers. */
+const char *row_number_name(size_t number);
+
 /* A row as a JSON object, inputs included, and the units of all columns. */
 json_t *row_json(const struct cases *cases, size_t index, const struct row *row);
 json_t *row_units(const struct cases *cases, bool physical);

@@ -25,6 +25,9 @@ static bool check_options(const struct settings *settings, struct reason *why)
 {
     if (settings->text[TEXT_FIGURE]) return refuse(why, "--figure = %.200s: needs --grid", settings->text[TEXT_FIGURE]);
     if (settings->resume) return refuse(why, "--resume: needs --input or --grid");
+    if (settings->contours) return refuse(why, "--contours: needs --grid or --input, and --figure");
+    if (settings->text[TEXT_SHARD] || settings->text[TEXT_JOIN])
+        return refuse(why, "--shard, --join: need --input or --grid");
     if (settings->text[TEXT_THREADS])
         return refuse(why, "--threads = %s: needs --input or --grid", settings->text[TEXT_THREADS]);
     return output_check(settings->text[TEXT_OUTPUT], "--output", why);

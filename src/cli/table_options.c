@@ -91,8 +91,8 @@ static const char *const footers[TABLE_ACTIONS] = {
 /* Fields of a contact: all of the scene but its speeds. */
 static bool of_contact(enum field field)
 {
-    return field > FIELD_LAST_DIMENSIONLESS && field != FIELD_SPEED && field != FIELD_ANGLE && field != FIELD_SPIN1 &&
-           field != FIELD_SPIN2;
+    return field > FIELD_LAST_DIMENSIONLESS && field <= FIELD_FRICTION && field != FIELD_SPEED &&
+           field != FIELD_ANGLE && field != FIELD_SPIN1 && field != FIELD_SPIN2;
 }
 
 static struct poptOption *option_table(enum table_action action)

@@ -78,22 +78,22 @@ echo psi,delta1 >cases.csv
 echo 1,0 >>cases.csv
 grid=speed=1:2:2,angle=0:10:2
 refused 'use one' pair --input cases.csv $scene --grid $grid
-refused 'needs a material' pair --psi 1 --grid $grid
+refused 'use one kind' pair --psi 1 --grid $grid
 refused 'needs --grid' pair --psi 1 --figure a.svg
 refused 'needs --output' pair --input cases.csv --resume
 refused 'must be csv or json' pair --input cases.csv --format text
 refused 'both give the value' pair --input cases.csv --psi 2
 refused 'both give the value' pair $scene --grid $grid --velocity 1
-for bad in speed=1:2:2 speed=1:2:2,speed=1:2:2 speed=1:2,angle=0:10:2 speed=0:2:2,angle=0:10:2 speed=2:1:2,angle=0:10:2 \
+for bad in speed=1:2:2,speed=1:2:2 speed=1:2:2,angle=0:10:2,friction=0:1:2 friction=0:inf:2 material= speed speed=1:2,angle=0:10:2 speed=0:2:2,angle=0:10:2 speed=2:1:2,angle=0:10:2 \
     speed=1:2:0,angle=0:10:2 speed=1:2:2,angle=0:90:2 speed=1:2:2,angle=0:80:3:log speed=1:2:2x,angle=0:10:2 \
     speed=1:2:2:lin,angle=0:10:2 height=1:2:2,angle=0:10:2 ''; do
     refused '--grid' pair $scene --grid "$bad"
 done
-refused 'must end in .svg or .png' pair $scene --grid $grid --figure a.pdf
+refused 'must end in .svg, .png or .pdf' pair $scene --grid $grid --figure a.gif
 (PATH=/nowhere; export PATH; "$RESTITUTE" pair $scene --grid $grid --figure a.svg --output a.csv >out 2>err)
 [ $? -eq 2 ] || fail "a missing gnuplot is not refused"
 has err gnuplot
-absent a.pdf a.svg a.csv a.csv.partial a.csv.partial.json a.csv.meta.json
+absent a.gif a.svg a.csv a.csv.partial a.csv.partial.json a.csv.meta.json
 
 # Inputs are never replaced by outputs, by whatever name.
 cp "$materials/steel.json" steel.json

@@ -75,7 +75,7 @@ refused '--quiet' bench --quiet
 refused 'unexpected argument' bench fast
 refused 'beginning of file names' bench --quick --output -
 refused 'cannot be written' bench --quick --output none/report
-refused 'must end in .svg or .png' bench --quick --figure report.pdf
+refused 'must end in .svg, .png or .pdf' bench --quick --figure report.gif
 refused 'leaves nothing out' bench --omissions --methods paper-euler
 
 expect 0 bench --help

@@ -49,3 +49,43 @@ has err 'gnuplot failed: out of ink'
 [ -f t.csv ] || fail "the table is lost with the figure"
 absent t.svg
 [ "$(ls | grep -c '^t\.svg')" -eq 0 ] || fail "a temporary figure was left behind"
+
+# Axes of any number, one or two, and of materials.
+expect 0 pair --gamma 0.1 --delta1 1 --grid psi=0.1:5:20 --output one.csv --figure one.svg
+has one.svg ψ
+expect 0 sweep --gamma 0.1 --grid psi=0.1:5:12,delta1=0.01:10:9:log --output two.csv --figure two.svg --contours
+[ "$(sed -n '2p;3p' two.csv | cut -d, -f1,2 | tr '\n' ' ')" = "0.1,0.01 0.1,0.02371373706 " ] || fail "other points"
+cp "$materials/steel.json" "$materials/aluminium.json" .
+expect 0 pair --radius 0.01 --density 7800 --friction 0.3 --velocity 0.01 --method sync \
+    --grid angle=0:80:5,material=steel.json:aluminium.json --output metals.csv --figure metals.pdf
+[ "$(head -1 metals.csv | cut -d, -f1,2)" = "material,angle_deg" ] || fail "materials are not the curves"
+[ "$(head -c 5 metals.pdf)" = "%PDF-" ] || fail "no PDF"
+
+# A file with one or two columns that vary; whatever its order.
+{ echo delta1,psi,gamma; for d in 2 0.5 1; do for p in 3 1 2 4; do echo $d,$p,1; done; done; } >cases.csv
+expect 0 pair --input cases.csv --output rows.csv --figure rows.svg
+has rows.svg ψ
+expect 0 pair --input cases.csv --output rows.csv --figure rows.svg --contours
+{ cat cases.csv; echo 1,2,2; } >three.csv
+refused 'more than two columns' pair --input three.csv --figure rows.svg
+{ echo psi; echo 1; } >none.csv
+refused 'no columns' pair --input none.csv --figure rows.svg
+sed '$d' cases.csv >hole.csv
+refused 'no full grid' pair --input hole.csv --figure rows.svg --contours
+refused 'needs two columns or axes' pair --grid psi=1:2:3 --figure rows.svg --contours
+refused 'no numbers to be an axis' pair --radius 0.01 --density 7800 --friction 0.3 --velocity 1 \
+    --grid material=steel.json:aluminium.json --figure rows.svg
+refused '--contours: needs --figure' pair --grid psi=1:2:3 --contours
+refused 'curves of psi: must be less than' pair --delta1 1 --gamma 1 --grid psi=0:5:60,chi=1:2:2 --figure rows.svg
+
+# Shards of a file, joined, are the whole, byte by byte; in another order they are refused.
+expect 0 pair --input cases.csv --output whole.csv
+for i in 1 2 3; do expect 0 pair --input cases.csv --shard $i/3 --output part$i.csv; done
+[ "$(wc -l <part2.csv)" -eq 5 ] || fail "not a third of the rows"
+expect 0 pair --input cases.csv --join part1.csv,part2.csv,part3.csv --output joined.csv --figure joined.svg
+cmp whole.csv joined.csv || fail "joined shards differ from the whole"
+refused 'does not belong to these cases' pair --input cases.csv --join part2.csv --output again.csv
+rm -f again.csv.partial*
+refused 'is an input of this run' pair --input cases.csv --join part1.csv --output part1.csv
+refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --figure a.svg
+refused 'has no rows' pair --input cases.csv --shard 1/20
