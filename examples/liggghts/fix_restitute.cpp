@@ -12,6 +12,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_gran.h"
+#include "tri_mesh.h"
 #include "update.h"
 #include "variable.h"
 
@@ -202,6 +203,29 @@ double FixRestitute::density(int i) const
     return atom->rmass[i] / (4.18879020478639098 * r * r * r);
 }
 
+/* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS computes a second
+ * contact with the edge behind which a convex mesh turns away. It is none: its point is on the first triangle, too. */
+static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
+{
+    TriMesh *mesh = met.mesh;
+    double face[3], point[3], unused[3], bary[3];
+    int sign;
+    mesh->surfaceNorm(met.j, face);
+    if (std::fabs(dot(face, now.normal)) > 1 - 1e-12) return true; /* not on an edge */
+    for (int k = 0; k < 3; k++)
+        point[k] = center[k] + (met.radi - now.overlap) * now.normal[k];
+    const double rounding = 1e-12 * met.radi;
+    for (int k = 0; k < mesh->nNeighs(met.j); k++) {
+        const int other = mesh->map(mesh->neighFaces(met.j, k), 0);
+        const auto distance = [&](double *from) {
+            return mesh->resolveTriSphereContactBary(met.i, other, 0, from, unused, bary, sign, false);
+        };
+        if (other >= 0 && distance(point) < rounding && distance(center) < met.radi - now.overlap - rounding)
+            return false;
+    }
+    return true;
+}
+
 /* Body 1 is the sphere at a wall, or that with the smaller tag: in every list, on every process. */
 void FixRestitute::compute(const Meeting &met, int offset, double f[3])
 {
@@ -215,6 +239,7 @@ void FixRestitute::compute(const Meeting &met, int offset, double f[3])
         point[k] = atom->x[i][k] - met.delta[k];
     const Body other = met.is_wall ? Body{point, met.v_j, still, 0, 0} : sphere(j);
     if (!(swapped ? touching(other, sphere(i), now) : touching(sphere(i), other, now))) return;
+    if (met.is_wall && met.mesh && !is_nearest(met, atom->x[i], now)) return;
     const bool moves = met.computeflag && met.shearupdate;
     const bool on_record = met.is_wall || j < atom->nlocal || !swapped; /* the owner of j computes the contact, too */
     const char *problem = moves ? advance(met, now, on_record, offset, f)

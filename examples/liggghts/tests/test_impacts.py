@@ -16,7 +16,7 @@ WORDS = {polymer: "terms 8 window 1e-5 1e-2"}
 
 # material, speed (m/s), angle (degrees), partner of the same material or a rigid one
 CASES = [
-    (glass, 0.05, 0, "same"), (glass, 0.2, 20, "same"), (glass, 0.1, 40, "rigid"), (glass, 0.3, 60, "rigid"),
+    (glass, 0.05, 0, "same"), (glass, 0.2, 20, "same"), (glass, 0.1, 40, "rigid"), (glass, 0.03, 60, "rigid"),
     (glass, 0.005, 80, "same"), (rubber, 0.01, 10, "same"), (rubber, 0.03, 35, "same"), (rubber, 0.1, 50, "rigid"),
     (rubber, 0.05, 25, "rigid"), (rubber, 0.02, 70, "same"), (gel, 0.01, 15, "same"), (gel, 0.05, 30, "same"),
     (gel, 0.1, 45, "rigid"), (gel, 0.03, 5, "rigid"), (putty, 0.02, 20, "same"), (putty, 0.08, 55, "rigid"),
@@ -86,5 +86,5 @@ def compare(answers, steps, elements):
 found = library_pairs([its for case in CASES for its in library_cases(*case)])
 (largest, coarse), (_, finer), (_, fine) = (compare(found, *n) for n in ((50, 8), (200, 16), (800, 32)))
 check(largest <= 0.01, "LIGGGHTS is off by more than the law's 0.01")
-# First order would be a quarter each time; what the half-space leaves out remains, overlaps up to 5e-4 of the radius.
-check(finer <= 0.4 * coarse and fine <= 0.7 * finer and fine <= 5e-4, "LIGGGHTS does not converge to the library")
+# First order would be a quarter each time. What remains: the normal of a pair turns while it slides, by up to 2e-3.
+check(finer <= 0.4 * coarse and fine <= 0.8 * finer and fine <= 3e-4, "LIGGGHTS does not converge to the library")
