@@ -63,7 +63,9 @@ const FixRestitute::Model &FixRestitute::model(int i, int j) const
 
 void FixRestitute::refuse(const std::string &what) const
 {
-    error->all(FLERR, ("model restitute: " + what).c_str());
+    static std::string text; /* LIGGGHTS prints it when this function has been left */
+    text = "model restitute: " + what;
+    error->all(FLERR, text.c_str());
     throw; /* never: error->all ends the run */
 }
 
@@ -307,7 +309,10 @@ void FixRestitute::end_of_step()
     char text[200];
     snprintf(text, sizeof text, "restitute: a contact began at step " BIGINT_FORMAT
              " that needs a time step %.3g times as short", update->ntimestep, own.largest[restitute_dem::STEP]);
-    error->warningAll(FLERR, text);
+    if (comm->me == 0)
+        error->warning(FLERR, text);
+    else
+        fprintf(stderr, "WARNING: %s\n", text); /* LIGGGHTS gives other processes no screen */
 }
 
 /* ------------------------------------------------------------------------------------- what a run met, and restarts */
@@ -332,9 +337,13 @@ Record FixRestitute::record() const
     return all;
 }
 
-/* The limits shown are those of the first law. */
+/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS takes each run for the first
+ * with it, makes new neighbor lists and loses the histories in the old ones. Said again they are known to it. */
 void FixRestitute::post_run()
 {
+    std::string page = std::to_string(neighbor->pgsize), one = std::to_string(neighbor->oneatom);
+    char page_word[] = "page", one_word[] = "one", *words[] = {page_word, &page[0], one_word, &one[0]};
+    neighbor->modify_params(4, words);
     print(record().text(models[0]->limits));
 }
 
