@@ -247,10 +247,11 @@ void FixRestitute::compute(const Meeting &met, int offset, double f[3])
     const char *problem = moves ? advance(met, now, on_record, offset, f)
                                 : model(met.itype, met.jtype)->repeat(now, history, f);
     if (problem) {
-        const std::string its = met.is_wall ? " and a wall of type " + std::to_string(met.jtype)
-                                            : " and " + std::to_string(tag[j]);
-        error->one(FLERR, ("restitute: sphere " + std::to_string(tag[i]) + its + " at step " +
-                           std::to_string(update->ntimestep) + ": " + problem).c_str());
+        const std::string its = met.is_wall ? "a wall of type " + std::to_string(met.jtype) : std::to_string(tag[j]);
+        const std::string text = "restitute: sphere " + std::to_string(tag[i]) + " and " + its + " at step " +
+                                 std::to_string(update->ntimestep) + ": " + problem;
+        fprintf(stderr, "ERROR: %s\n", text.c_str()); /* what LIGGGHTS prints is lost when it aborts */
+        error->one(FLERR, text.c_str());
     }
     if (met.computeflag) extra[LAST_STEP] = update->ntimestep;
     if (met.computeflag && met.is_wall) std::copy_n(now.normal, 3, extra + NORMAL);
