@@ -95,8 +95,7 @@ std::string FixRestitute::words_of(int i, int j) const
     const char *found = input->variable->find(&name[0]) < 0 ? nullptr : input->variable->retrieve(&name[0]);
     if (!found) return "";
     int size = (int)strlen(found) + 1, work_size = size;
-    char *line = (char *)memory->smalloc(size, "restitute:line");
-    char *work = (char *)memory->smalloc(size, "restitute:work");
+    auto line = (char *)memory->smalloc(size, "restitute:line"), work = (char *)memory->smalloc(size, "restitute:work");
     strcpy(line, found);
     input->substitute(line, work, size, work_size, 0);
     const std::string words = line;
@@ -199,12 +198,6 @@ Body FixRestitute::sphere(int i) const
     return {atom->x[i], atom->v[i], atom->omega[i], atom->radius[i], atom->mask[i] & frozen ? 0 : 1 / atom->rmass[i]};
 }
 
-double FixRestitute::density(int i) const
-{
-    const double r = atom->radius[i];
-    return atom->rmass[i] / (4.18879020478639098 * r * r * r);
-}
-
 /* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS computes a second
  * contact with the edge behind which a convex mesh turns away. It is none: its point is on the first triangle, too. */
 static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
@@ -270,8 +263,9 @@ const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool o
         const bool jumped = dot(before, now.normal) < 0.999; /* 2.6 degrees. What is less the law follows by itself */
         if (const char *problem = jumped ? its.turn(before, now.normal, history) : nullptr) return problem;
     }
-    double denser = 0;
-    if (history[0] == 0) denser = met.is_wall ? density(met.i) : std::max(density(met.i), density(met.j));
+    const auto density = [this](int i) { return atom->rmass[i] / (4.1887902047863910 * std::pow(atom->radius[i], 3)); };
+    const double first = history[0] == 0 ? density(met.i) : 0;
+    const double denser = first == 0 || met.is_wall ? first : std::max(first, density(met.j));
     return its.advance(now, denser, on_record, history, f);
 }
 
@@ -307,9 +301,10 @@ void FixRestitute::end_of_step()
     const Record own = warned ? Record() : own_record();
     if (own.beyond[restitute_dem::STEP] == 0) return;
     warned = true;
-    char text[200];
-    snprintf(text, sizeof text, "restitute: a contact began at step " BIGINT_FORMAT
-             " that needs a time step %.3g times as short", update->ntimestep, own.largest[restitute_dem::STEP]);
+    char text[150];
+    snprintf(text, sizeof text,
+             "restitute: a contact began at step " BIGINT_FORMAT " that needs a time step %.3g times as short",
+             update->ntimestep, own.largest[restitute_dem::STEP]);
     if (comm->me == 0)
         error->warning(FLERR, text);
     else

@@ -49,7 +49,6 @@ class FixRestitute : public Fix
     std::string words_of(int i, int j) const;
     const Model &model(int i, int j) const;
     restitute_dem::Body sphere(int i) const;
-    double density(int i) const;
     const char *advance(const Meeting &met, const restitute_dem::Contact &now, bool on_record, int offset, double f[3]);
     bool follow_mesh(const Meeting &met, const restitute_dem::Contact &now, int offset, double *history);
     restitute_dem::Record own_record() const;

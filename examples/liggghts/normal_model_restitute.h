@@ -8,13 +8,13 @@ NORMAL_MODEL(RESTITUTE, restitute, 42)
 
 #include "contact_models.h"
 #include "error.h"
+#include "force.h"
+#include "modify.h"
 #include "normal_model_base.h"
 
 #include "fix_restitute.h"
 
-namespace LIGGGHTS
-{
-namespace ContactModels
+namespace LIGGGHTS::ContactModels
 {
 
 template <> class NormalModel<RESTITUTE> : public NormalModelBase
@@ -23,10 +23,6 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
     NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *c) : NormalModelBase(lmp, hsetup, c)
     {
         c->add_history_offset("restitute", 0);
-    }
-
-    void registerSettings(Settings &)
-    {
     }
 
     void postSettings(IContactHistorySetup *host, ContactModelBase *c)
@@ -61,11 +57,6 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
         if (force->cg_active()) error->cg(FLERR, "model restitute");
     }
 
-    double stressStrainExponent()
-    {
-        return 1.5;
-    }
-
     void surfacesIntersect(SurfacesIntersectData &contact, ForceData &i, ForceData &j)
     {
         double f[3];
@@ -81,15 +72,13 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
         }
     }
 
-    void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &)
-    {
-    }
-    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &)
-    {
-    }
-    void endPass(SurfacesIntersectData &, ForceData &, ForceData &)
-    {
-    }
+    /* clang-format off */
+    void registerSettings(Settings &) {}
+    double stressStrainExponent() { return 1.5; }
+    void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &) {}
+    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+    void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+    /* clang-format on */
 
   private:
     FixRestitute *laws = nullptr;
@@ -97,8 +86,7 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
     bool is_wall = false;
 };
 
-} // namespace ContactModels
-} // namespace LIGGGHTS
+} // namespace LIGGGHTS::ContactModels
 
 #endif
 #endif

@@ -12,9 +12,7 @@ TANGENTIAL_MODEL(TANGENTIAL_RESTITUTE, restitute, 42)
 
 #include "fix_restitute.h"
 
-namespace LIGGGHTS
-{
-namespace ContactModels
+namespace LIGGGHTS::ContactModels
 {
 
 template <> class TangentialModel<TANGENTIAL_RESTITUTE> : public TangentialModelBase
@@ -24,13 +22,6 @@ template <> class TangentialModel<TANGENTIAL_RESTITUTE> : public TangentialModel
     {
         if (c->get_history_offset("restitute") < 0) error->all(FLERR, "tangential restitute: needs model restitute");
         c->add_history_offset("restitute tangential", 0);
-    }
-
-    void registerSettings(Settings &)
-    {
-    }
-    void postSettings(IContactHistorySetup *, ContactModelBase *)
-    {
     }
 
     void connectToProperties(PropertyRegistry &)
@@ -51,22 +42,19 @@ template <> class TangentialModel<TANGENTIAL_RESTITUTE> : public TangentialModel
         }
     }
 
-    void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &)
-    {
-    }
-    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &)
-    {
-    }
-    void endPass(SurfacesIntersectData &, ForceData &, ForceData &)
-    {
-    }
+    /* clang-format off */
+    void registerSettings(Settings &) {}
+    void postSettings(IContactHistorySetup *, ContactModelBase *) {}
+    void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &) {}
+    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+    void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+    /* clang-format on */
 
   private:
     FixRestitute *laws = nullptr;
 };
 
-} // namespace ContactModels
-} // namespace LIGGGHTS
+} // namespace LIGGGHTS::ContactModels
 
 #endif
 #endif
