@@ -63,7 +63,7 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
         if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
         laws->compute(contact, offset, f);
         contact.Fn = f[0] * contact.en[0] + f[1] * contact.en[1] + f[2] * contact.en[2];
-        contact.kn = contact.Fn / contact.deltan; /* for models of rolling friction */
+        contact.kn = contact.deltan > 0 ? contact.Fn / contact.deltan : 0; /* for rolling friction */
         contact.kt = contact.gamman = contact.gammat = 0;
         for (int k = 0; k < 3; k++) {
             laws->tangential[k] = f[k] - contact.Fn * contact.en[k];
