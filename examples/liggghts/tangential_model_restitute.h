@@ -18,7 +18,7 @@ namespace LIGGGHTS::ContactModels
 template <> class TangentialModel<TANGENTIAL_RESTITUTE> : public TangentialModelBase
 {
   public:
-    TangentialModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *c) : TangentialModelBase(lmp, hsetup, c)
+    TangentialModel(LAMMPS *lmp, IContactHistorySetup *host, ContactModelBase *c) : TangentialModelBase(lmp, host, c)
     {
         if (c->get_history_offset("restitute") < 0) error->all(FLERR, "tangential restitute: needs model restitute");
         c->add_history_offset("restitute tangential", 0);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Twenty impacts, each of a pair, on a wall and on a mesh: LIGGGHTS gives the library's (ez, ex) and converges to it."""
+"""Twenty impacts, each of a pair, on a wall and on a mesh: LIGGGHTS gives the library's (ez, ex) and converges."""
 import math
 import os
 from statistics import mean

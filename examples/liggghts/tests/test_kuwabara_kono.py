@@ -40,15 +40,15 @@ def viscosity(delta1):
 
 solids = {delta1: material(f"voigt{delta1}", model="kelvin_voigt", modulus1_pa=G, viscosity_pa_s=viscosity(delta1),
                            poisson_ratio=NU) for delta1 in EXPECTED}
-answers = library_pairs([dict(material=solid, partner="same", radius1_m=RADIUS, radius2_m=RADIUS,
-                              density1_kg_m3=DENSITY, density2_kg_m3=DENSITY, speed_m_s=SPEED, angle_deg=0, friction=0.3)
+answers = library_pairs([dict(material=solid, partner="same", radius1_m=RADIUS, radius2_m=RADIUS, angle_deg=0,
+                              density1_kg_m3=DENSITY, density2_kg_m3=DENSITY, speed_m_s=SPEED, friction=0.3)
                          for solid in solids.values()])
 print("delta1   hertz/stiffness   model restitute   library")
 for (delta1, (host, ours)), answer in zip(EXPECTED.items(), answers):
     time = answer["contact_time"]
     ez = impact(kuwabara_kono(viscosity(delta1)), time, 4000)
     own = impact(law(f"{solids[delta1]} friction 0.3") + STYLE, time, 200)
-    print(f"{delta1:<8} {ez:.4f}            {own:.4f}            {answer['ez']:.4f}")
+    print(f"{delta1:<8} {ez:.4f} {own:17.4f} {answer['ez']:17.4f}")
     check(abs(ez - host) <= 3e-4, f"hertz/stiffness at delta1 = {delta1}: {ez:.4f} is not {host}")  # first order in dt
     check(abs(answer["ez"] - ours) <= 1e-4, f"the library at delta1 = {delta1}: {answer['ez']:.4f} is not {ours}")
     check(abs(own - ours) <= 0.01, f"model restitute at delta1 = {delta1}: {own:.4f} is not {ours}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed ends the run with a message that names it; a missing preload, too; a long step is reported."""
+"""What cannot be computed, or no preload, ends the run with a message that names it; a long step is reported."""
 import re
 
 from scenes import MATERIALS, STYLE, WALL, box, check, law, liggghts, material, sphere
@@ -25,7 +25,8 @@ def refused_law(what, words, line):
 
 refused("a missing preload", ["Invalid model"], box() + BALLS + LAW + STYLE + RUN, plugin="")
 refused("no tangential model", ["Unknown normal model"], box() + LAW + "pair_style gran model restitute")
-refused("another normal model", ["Unknown tangential model"], box() + LAW + "pair_style gran model hertz tangential restitute")
+refused("another normal model", ["Unknown tangential model"],
+        box() + LAW + "pair_style gran model hertz tangential restitute")
 refused("another tangential model", ["Unknown normal model"],
         box() + LAW + "pair_style gran model restitute tangential history")
 refused("no law", ["variable restitute string"], box() + BALLS + STYLE)

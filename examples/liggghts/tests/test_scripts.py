@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The drum, short: on one rank and on two the same contacts; its balls do not leave it; LIGGGHTS's own law runs, too."""
+"""The drum, short: on one rank and on two the same contacts; LIGGGHTS's own law and rolling friction run, too."""
 import os
 import re
 import subprocess
 
-from scenes import check, liggghts
+from scenes import STYLE, WALL, box, check, dump, law, liggghts, motions, sphere
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 
@@ -36,3 +36,21 @@ check(numbers[1] == other[1] == 2947, "balls were lost")
 check(all(abs(a - b) <= 1e-6 * a for a, b in zip(numbers[2:], other[2:])), "two ranks move otherwise")
 own, numbers = drum(model="hertz")
 check("restitute:" not in own and numbers[1] == 2947, "LIGGGHTS's own law does not run")
+
+# A ball that rolls on a plane, which it just touches at first.
+left = {}
+for rolling in ("", " rolling_friction cdt"):
+    liggghts(box() + law(f"{SCRIPTS}/rubber.json friction 0.4") + """
+        fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
+        """ + sphere(1, (0, 0, 0.005), (0.1, 0, 0), (0, 20, 0)) + 
+             STYLE.replace("\n    pair_coeff", rolling + "\npair_coeff") + f"""
+        fix floor all {WALL}{rolling} primitive type 2 zplane 0
+        fix down all gravity 9.81 vector 0 0 -1
+        fix move all nve/sphere
+        timestep 5e-6
+        """ + dump("ball", 10000) + "run 10000")
+    left[rolling] = motions("ball")[-1][1]["vx"]
+# Decelerated by mu_r g 5/7 for 0.05 s; the ball sinks in first.
+lost = 0.1 * 9.81 * 5 / 7 * 0.05
+print(f"a rolling ball loses {0.1 - left['']:.1e} m/s, with friction {0.1 - left[rolling]:.4f}, wanted {lost:.4f}")
+check(abs(0.1 - left[""]) < 1e-3 * lost and abs(0.1 - left[rolling] - lost) < 0.05 * lost, "rolling friction is off")
