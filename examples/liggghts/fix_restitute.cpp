@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+#include "fix_restitute.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_contact_history_mesh.h"
+#include "fix_mesh_surface.h"
+#include "force.h"
+#include "input.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_gran.h"
+#include "tri_mesh.h"
+#include "update.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using restitute_dem::Body;
+using restitute_dem::Contact;
+using restitute_dem::ContactModel;
+using restitute_dem::Record;
+
+/* Behind the state of a contact: the step that computed it last, and at a wall the normal then. */
+enum { LAST_STEP = 0, NORMAL = 1, NUMBERS_OF_PAIRS = 1, NUMBERS_OF_WALLS = 4 };
+
+FixRestitute::FixRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+    nevery = restart_global = vector_flag = extvector = global_freq = 1;
+    size_vector = 4;
+    read_laws();
+}
+
+FixRestitute *FixRestitute::of(LAMMPS *lmp)
+{
+    return static_cast<FixRestitute *>(lmp->modify->find_fix_style_strict("restitute", 0));
+}
+
+int FixRestitute::setmask()
+{
+    return END_OF_STEP | POST_RUN;
+}
+
+int FixRestitute::history_size(bool is_wall) const
+{
+    return states + (is_wall ? NUMBERS_OF_WALLS : NUMBERS_OF_PAIRS);
+}
+
+const FixRestitute::Model &FixRestitute::model(int i, int j) const
+{
+    return table[std::min(i, j) * (atom->ntypes + 1) + std::max(i, j)];
+}
+
+void FixRestitute::refuse(const std::string &what) const
+{
+    static std::string text; /* LIGGGHTS prints it when this function has been left */
+    text = "model restitute: " + what;
+    error->all(FLERR, text.c_str());
+    throw; /* never: error->all ends the run */
+}
+
+void FixRestitute::print(const std::string &text) const
+{
+    for (FILE *file : {screen, logfile})
+        if (comm->me == 0 && file) fputs(text.c_str(), file);
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* ------------------------------------------------------------------------------------------------- input script */
+
+static std::string types(int i, int j)
+{
+    return "types " + std::to_string(i) + " " + std::to_string(j);
+}
+
+/* Of the variable restitute_I_J or else restitute; variables in it are replaced. "": there is neither. */
+std::string FixRestitute::words_of(int i, int j) const
+{
+    std::string name = "restitute_" + std::to_string(i) + "_" + std::to_string(j);
+    if (input->variable->find(&name[0]) < 0) name = "restitute";
+    const char *found = input->variable->find(&name[0]) < 0 ? nullptr : input->variable->retrieve(&name[0]);
+    if (!found) return "";
+    int size = (int)strlen(found) + 1, work_size = size;
+    auto line = (char *)memory->smalloc(size, "restitute:line"), work = (char *)memory->smalloc(size, "restitute:work");
+    strcpy(line, found);
+    input->substitute(line, work, size, work_size, 0);
+    const std::string words = line;
+    memory->sfree(line);
+    memory->sfree(work);
+    return words;
+}
+
+void FixRestitute::read_laws()
+{
+    const std::string units = update->unit_style;
+    if (units != "si" && units != "cgs")
+        refuse("units " + units + ": must be si or cgs, since files of materials are in Pa, s and kg/m^3");
+    const restitute_dem::Units in_si = units == "si" ? restitute_dem::Units{1, 1} : restitute_dem::Units{0.1, 1000};
+    const int width = atom->ntypes + 1;
+    std::map<std::string, Model> made;
+    table.assign(width * width, nullptr);
+    models.clear();
+    for (int i = 1; i < width; i++)
+        for (int j = i; j < width; j++) {
+            const std::string line = words_of(i, j);
+            if (line == "") continue;
+            std::istringstream stream(line);
+            const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+            Model &its = made[line];
+            try {
+                if (!its) models.push_back(its = std::make_shared<ContactModel>(words, in_si));
+            } catch (const std::invalid_argument &problem) {
+                refuse(types(i, j) + ": " + problem.what());
+            }
+            table[i * width + j] = its;
+        }
+    if (models.empty())
+        refuse("no law: before the pair_style comes, for example, variable restitute string \"bead.json friction 0.5\" "
+               "for all types, restitute_1_2 for types 1 and 2");
+    states = 0;
+    for (const Model &its : models) {
+        states = std::max(states, its->history_size());
+        print(its->about());
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- before a run */
+
+/* PairGran keeps its fix to itself. An explicit instantiation may name what is private. */
+template <FixContactHistory *PairGran::*member> struct Open {
+    friend void give_history(PairGran *pair, FixContactHistory *history)
+    {
+        pair->*member = history;
+    }
+};
+template struct Open<&PairGran::fix_history>;
+void give_history(PairGran *pair, FixContactHistory *history);
+
+/* PairGran makes the fix with its contacts' histories itself, but writes their length into three characters. */
+void FixRestitute::make_long_history(PairGran *pair)
+{
+    const int size = pair->dnum_pair();
+    if (size < 100) return;
+    const std::string length = std::to_string(size);
+    std::vector<const char *> words = {"contacthistory", "all", "contacthistory", length.c_str()};
+    for (int k = 0; k < size; k++)
+        words.insert(words.end(), {"restitute", "0"});
+    modify->add_fix((int)words.size(), const_cast<char **>(words.data()));
+    give_history(pair, static_cast<FixContactHistory *>(modify->find_fix_style_strict("contacthistory", 0)));
+}
+
+void FixRestitute::init()
+{
+    if (update->whichflag == 2) refuse("its contacts need time steps, not a minimizer");
+    if (strcmp(update->integrate_style, "verlet")) refuse("needs run_style verlet");
+    for (int k = 0; k < modify->nfix; k++)
+        if (modify->fix[k]->rigid_flag || !strncmp(modify->fix[k]->style, "multisphere", 11))
+            refuse("spheres of rigid bodies are not supported");
+    for (int i = 1; i <= atom->ntypes; i++)
+        for (int j = i; j <= atom->ntypes; j++)
+            if (!model(i, j)) refuse("no law for " + types(i, j) + "; two materials take 'partner FILE'");
+    const long page = (long)neighbor->oneatom * history_size(true);
+    if (page > neighbor->pgsize)
+        refuse("neigh_modify one " + std::to_string(neighbor->oneatom) + " needs page " + std::to_string(page) +
+               " or more, for " + std::to_string(history_size(true)) + " numbers a contact");
+    const PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
+    frozen = pair ? pair->freeze_group_bit() : 0;
+    warned = false;
+    for (const Model &its : models)
+        its->record = Record();
+    reset_dt();
+}
+
+void FixRestitute::reset_dt()
+{
+    for (const Model &its : models)
+        if (const char *problem = its->set_step(update->dt)) refuse(problem);
+}
+
+/* --------------------------------------------------------------------------------------------------- a time step */
+
+Body FixRestitute::sphere(int i) const
+{
+    return {atom->x[i], atom->v[i], atom->omega[i], atom->radius[i], atom->mask[i] & frozen ? 0 : 1 / atom->rmass[i]};
+}
+
+/* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS computes a second
+ * contact with the edge behind which a convex mesh turns away. It is none: its point is on the first triangle, too. */
+static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
+{
+    TriMesh *mesh = met.mesh;
+    double face[3], point[3], unused[3], bary[3];
+    int sign;
+    mesh->surfaceNorm(met.j, face);
+    if (std::fabs(dot(face, now.normal)) > 1 - 1e-12) return true; /* not on an edge */
+    for (int k = 0; k < 3; k++)
+        point[k] = center[k] + (met.radi - now.overlap) * now.normal[k];
+    const double rounding = 1e-12 * met.radi;
+    for (int k = 0; k < mesh->nNeighs(met.j); k++) {
+        const int other = mesh->map(mesh->neighFaces(met.j, k), 0);
+        const auto distance = [&](double *from) {
+            return mesh->resolveTriSphereContactBary(met.i, other, 0, from, unused, bary, sign, false);
+        };
+        if (other >= 0 && distance(point) < rounding && distance(center) < met.radi - now.overlap - rounding)
+            return false;
+    }
+    return true;
+}
+
+/* Body 1 is the sphere at a wall, or that with the smaller tag: in every list, on every process. */
+void FixRestitute::compute(const Meeting &met, int offset, double f[3])
+{
+    static const double still[3] = {};
+    const int i = met.i, j = met.j, *tag = atom->tag;
+    const bool swapped = !met.is_wall && tag[j] < tag[i];
+    double point[3], *history = met.contact_history + offset, *extra = history + states;
+    Contact now;
+    std::fill_n(f, 3, 0.0);
+    for (int k = 0; k < 3; k++)
+        point[k] = atom->x[i][k] - met.delta[k];
+    const Body other = met.is_wall ? Body{point, met.v_j, still, 0, 0} : sphere(j);
+    if (!(swapped ? touching(other, sphere(i), now) : touching(sphere(i), other, now))) return;
+    if (met.is_wall && met.mesh && !is_nearest(met, atom->x[i], now)) return;
+    const bool moves = met.computeflag && met.shearupdate;
+    const bool on_record = met.is_wall || j < atom->nlocal || !swapped; /* the owner of j computes the contact, too */
+    const char *problem = moves ? advance(met, now, on_record, offset, f)
+                                : model(met.itype, met.jtype)->repeat(now, history, f);
+    if (problem) {
+        const std::string its = met.is_wall ? "a wall of type " + std::to_string(met.jtype) : std::to_string(tag[j]);
+        const std::string text = "restitute: sphere " + std::to_string(tag[i]) + " and " + its + " at step " +
+                                 std::to_string(update->ntimestep) + ": " + problem;
+        fprintf(stderr, "ERROR: %s\n", text.c_str()); /* what LIGGGHTS prints is lost when it aborts */
+        error->one(FLERR, text.c_str());
+    }
+    if (met.computeflag) extra[LAST_STEP] = update->ntimestep;
+    if (met.computeflag && met.is_wall) std::copy_n(now.normal, 3, extra + NORMAL);
+    if (swapped) std::transform(f, f + 3, f, std::negate<double>());
+}
+
+/* LIGGGHTS does not say when two spheres part and keeps the history while they are neighbors. The step in it tells. */
+const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool on_record, int offset, double f[3])
+{
+    ContactModel &its = *model(met.itype, met.jtype);
+    double *history = met.contact_history + offset;
+    if (history[states + LAST_STEP] != update->ntimestep - 1) std::fill_n(history, states, 0.0);
+    if (met.is_wall && met.mesh && !follow_mesh(met, now, offset, history)) return nullptr;
+    if (met.is_wall && history[0] != 0) {
+        const double *before = history + states + NORMAL;
+        const bool jumped = dot(before, now.normal) < 0.999; /* 2.6 degrees. What is less the law follows by itself */
+        if (const char *problem = jumped ? its.turn(before, now.normal, history) : nullptr) return problem;
+    }
+    const auto density = [this](int i) { return atom->rmass[i] / (4.1887902047863910 * std::pow(atom->radius[i], 3)); };
+    const double first = history[0] == 0 ? density(met.i) : 0;
+    const double denser = first == 0 || met.is_wall ? first : std::max(first, density(met.j));
+    return its.advance(now, denser, on_record, history, f);
+}
+
+/* What the contacts of a sphere with the triangles of a mesh do to that with one of them:
+ * - On an edge both triangles may claim the sphere, with one normal. The first that is computed takes the contact.
+ * - A sphere that slides over an edge finds its memory at the triangle that it leaves: a contact that begins deeper
+ *   than a step can bring it takes the memory of that one of the last step whose normal is nearest. LIGGGHTS itself
+ *   passes it on between triangles of one plane.
+ * Returns false if another triangle has the contact. */
+bool FixRestitute::follow_mesh(const Meeting &met, const Contact &now, int offset, double *history)
+{
+    FixContactHistoryMesh *contacts = met.fix_mesh->contactHistory();
+    const double in_a_step = update->dt * std::max(0.0, dot(now.velocity, now.normal));
+    const bool begins_deep = history[0] == 0 && now.overlap > 2 * in_a_step;
+    double nearest = 0.5; /* 60 degrees */
+    for (int k = 0; k < contacts->nneighs(met.i); k++) {
+        const double *other = contacts->contacthistory(met.i, k) + offset;
+        if (contacts->partner(met.i, k) < 0 || other == history || other[0] == 0) continue;
+        const double along = dot(other + states + NORMAL, now.normal), last = other[states + LAST_STEP];
+        if (last == update->ntimestep && along > 1 - 1e-10) {
+            std::fill_n(history, states, 0.0);
+            return false;
+        }
+        if (!begins_deep || last != update->ntimestep - 1 || along < nearest) continue;
+        nearest = along;
+        std::copy_n(other, states + NUMBERS_OF_WALLS, history);
+    }
+    return true;
+}
+
+void FixRestitute::end_of_step()
+{
+    const Record own = warned ? Record() : own_record();
+    if (own.beyond[restitute_dem::STEP] == 0) return;
+    warned = true;
+    char text[150];
+    snprintf(text, sizeof text,
+             "restitute: a contact began at step " BIGINT_FORMAT " that needs a time step %.3g times as short",
+             update->ntimestep, own.largest[restitute_dem::STEP]);
+    if (comm->me == 0)
+        error->warning(FLERR, text);
+    else
+        fprintf(stderr, "WARNING: %s\n", text); /* LIGGGHTS gives other processes no screen */
+}
+
+/* ------------------------------------------------------------------------------------- what a run met, and restarts */
+
+Record FixRestitute::own_record() const
+{
+    Record own;
+    for (const Model &its : models)
+        own.add(its->record);
+    return own;
+}
+
+Record FixRestitute::record() const
+{
+    using restitute_dem::RATIOS;
+    const Record own = own_record();
+    Record all;
+    MPI_Allreduce(&own.steps, &all.steps, 1, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(&own.contacts, &all.contacts, 1, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(own.beyond, all.beyond, RATIOS, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(own.largest, all.largest, RATIOS, MPI_DOUBLE, MPI_MAX, world);
+    return all;
+}
+
+/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS takes each run for the first
+ * with it, makes new neighbor lists and loses the histories in the old ones. Said again they are known to it. */
+void FixRestitute::post_run()
+{
+    std::string page = std::to_string(neighbor->pgsize), one = std::to_string(neighbor->oneatom);
+    char page_word[] = "page", one_word[] = "one", *words[] = {page_word, &page[0], one_word, &one[0]};
+    neighbor->modify_params(4, words);
+    print(record().text(models[0]->limits));
+}
+
+/* Steps of contacts, first touches, contacts beyond a/R and beyond v/c_s. */
+double FixRestitute::compute_vector(int n)
+{
+    const Record all = record();
+    const double values[] = {all.steps, all.contacts, all.beyond[restitute_dem::RADIUS],
+                             all.beyond[restitute_dem::SPEED]};
+    return values[n];
+}
+
+/* The hashes of the laws of all pairs of types; LIGGGHTS writes the states of contacts. */
+void FixRestitute::write_restart(FILE *file)
+{
+    std::vector<uint64_t> hashes;
+    for (const Model &its : table)
+        hashes.push_back(its ? its->hash() : 0);
+    const int size = (int)(hashes.size() * sizeof hashes[0]);
+    if (comm->me) return;
+    fwrite(&size, sizeof size, 1, file);
+    fwrite(hashes.data(), 1, size, file);
+}
+
+void FixRestitute::restart(char *buffer)
+{
+    for (int i = 1; i <= atom->ntypes; i++)
+        for (int j = i; j <= atom->ntypes; j++) {
+            uint64_t hash;
+            memcpy(&hash, buffer + (i * (atom->ntypes + 1) + j) * sizeof hash, sizeof hash);
+            if (model(i, j) && hash != model(i, j)->hash())
+                refuse(types(i, j) + ": the restart file was written with another law than this one of '" +
+                       model(i, j)->words[0] + "'");
+        }
+}

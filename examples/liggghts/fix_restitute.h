@@ -1,0 +1,67 @@
+/* fix restitute: the contact laws of a run of LIGGGHTS, the contacts of spheres and walls, the report at the end.
+ * `pair_style gran model restitute` makes it; scripts read its numbers as f_restitute.
+ * SPDX-License-Identifier: GPL-2.0-or-later */
+#ifdef FIX_CLASS
+FixStyle(restitute, FixRestitute)
+#else
+#ifndef LMP_FIX_RESTITUTE_H
+#define LMP_FIX_RESTITUTE_H
+
+#include "contact_interface.h"
+#include "fix.h"
+
+#include "contact_model.h"
+
+#include <memory>
+
+namespace LAMMPS_NS
+{
+
+class FixRestitute : public Fix
+{
+  public:
+    using Meeting = LIGGGHTS::ContactModels::SurfacesIntersectData; /* of sphere i with sphere j or a wall */
+
+    FixRestitute(LAMMPS *lmp, int narg, char **arg);
+    static FixRestitute *of(LAMMPS *lmp); /* NULL: there is none */
+    int setmask() override;
+    void init() override;
+    void reset_dt() override;
+    void end_of_step() override;
+    void post_run() override;
+    double compute_vector(int n) override;
+    void write_restart(FILE *file) override;
+    void restart(char *buffer) override;
+
+    void read_laws();
+    int history_size(bool is_wall) const; /* doubles of a contact */
+    void make_long_history(class PairGran *pair);
+
+    /* The force on sphere i. `history`: our doubles of the contact, `offset` behind the first ones of the host. */
+    void compute(const Meeting &met, int offset, double force[3]);
+
+    double tangential[3] = {}; /* of the contact at hand: the normal model leaves it to the tangential one */
+
+  private:
+    using Model = std::shared_ptr<restitute_dem::ContactModel>; /* shared by types with the same words */
+
+    [[noreturn]] void refuse(const std::string &what) const;
+    std::string words_of(int i, int j) const;
+    const Model &model(int i, int j) const;
+    restitute_dem::Body sphere(int i) const;
+    const char *advance(const Meeting &met, const restitute_dem::Contact &now, bool on_record, int offset, double f[3]);
+    bool follow_mesh(const Meeting &met, const restitute_dem::Contact &now, int offset, double *history);
+    restitute_dem::Record own_record() const;
+    restitute_dem::Record record() const; /* of all processes */
+    void print(const std::string &text) const;
+
+    std::vector<Model> table, models; /* of pairs of types; those that differ */
+    int states = 0;                   /* doubles of a contact that are the law's */
+    int frozen = 0;
+    bool warned = false;
+};
+
+} // namespace LAMMPS_NS
+
+#endif
+#endif
