@@ -127,7 +127,7 @@ static int counts_for_speed(const struct bench_scene *scene)
 }
 
 /* Median over the scenes that count of the time of the fastest run with a setting (NULL: any of the method) and, if
- * `error` is finite, a true error that small; NaN: not in most of them. `count`: scenes with such a run. */
+ * `error` is finite, a true error that small; NaN: not in more than half of them. `count`: scenes with such a run. */
 static double median_time(const struct bench_scenes *scenes, const struct bench_runs *runs, int method,
                           const struct bench_summary *setting, double error, size_t *count)
 {
@@ -173,7 +173,7 @@ static void ask_paper(const struct bench_scenes *scenes, const struct bench_runs
         const double seconds = median_time(scenes, runs, speed->method, &pairs[i], INFINITY, &solved);
         if (isnan(seconds) || seconds >= speed->seconds_asked) continue;
         median_time(scenes, runs, speed->method, &pairs[i], speed->error, &within);
-        if (2 * within <= speed->scenes) continue;
+        if (2 * within < speed->scenes) continue;
         speed->seconds_asked = seconds;
         speed->within = within;
         speed->elements = pairs[i].elements;

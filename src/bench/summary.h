@@ -43,7 +43,7 @@ struct bench_speed {
     double error;
     size_t scenes;
     /* Asked for: one setting for all scenes, the error as tolerance. The paper's algorithm has none and gets the
-     * fastest pair of elements and steps that keeps the error in most of the scenes. */
+     * fastest pair of elements and steps that keeps the error in half of the scenes. */
     int64_t elements, steps; /* that pair; else 0 */
     double seconds_asked;
     size_t within; /* scenes in which the true error then is that small */

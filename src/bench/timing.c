@@ -23,12 +23,17 @@ double bench_clock(void)
     return seconds_of(CLOCK_MONOTONIC);
 }
 
+double bench_processor_time(void)
+{
+    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+
 static double time_once(void (*work)(void *context), void (*between)(void *context), void *context)
 {
     if (between) between(context);
-    const double start = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    const double start = bench_processor_time();
     work(context);
-    return seconds_of(CLOCK_THREAD_CPUTIME_ID) - start;
+    return bench_processor_time() - start;
 }
 
 static int by_value(const void *left, const void *right)
