@@ -24,7 +24,7 @@ struct bench_run {
     double tolerance;       /* asked for; NaN for the paper's algorithm */
     int64_t elements_asked; /* over the contact radius; 0 for the methods of the library */
     int64_t steps_asked;    /* in the contact time; likewise */
-    double seconds; /* median */
+    double seconds;         /* median */
     int repeats;
     double ez, ex, error_ez, error_ex; /* errors against the reference */
     double estimate;                   /* larger of the two; NaN if the method makes none */

@@ -191,7 +191,7 @@ void bench_print_precision(const struct bench_scenes *scenes, const struct bench
     print_summary(scenes, runs, stream);
     bench_print_work(runs, methods, stream);
     fputs("\nTime for an error, us, median over the standard solids with 0 < psi < psi_c\n"
-          "asked for: as tolerance; of the paper's algorithm the fastest (elements x steps) that keeps it in half of them\n"
+          "asked for: as tolerance; of the paper's algorithm the fastest (elements x steps) with it in half of them\n"
           "got: in each scene the fastest run with a true error that small; within, reached: scenes where it is\n"
           "not reached: in at most half of them by any run made; ratio: paper-euler's time over this one\n"
           "method         error   asked for  within   ratio         got reached   ratio\n",
