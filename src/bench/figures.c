@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-enum { most_summaries = 128 };
-
 /* Told apart in colour blindness; in the order of the methods. */
 static unsigned colour_of(int method)
 {
@@ -26,25 +24,19 @@ static void write_style(FILE *commands)
           commands);
 }
 
-/* Medians mean something where nearly all scenes were solved: a sweep that ran out of time leaves the easy ones. */
-static int complete(const struct bench_summary *s, size_t scenes)
-{
-    return s->solved > 0 && 5 * s->solved >= 4 * scenes;
-}
-
 /* An error of rounding or none at all is drawn here. */
 static const double least_error = 1e-10;
 
 void bench_draw_precision(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *commands)
 {
-    struct bench_summary list[most_summaries];
-    const size_t n = bench_summarise(scenes, runs, BENCH_TRUTH | BENCH_STIFF | BENCH_PRONY, list, most_summaries);
+    struct bench_summary list[BENCH_SUMMARIES];
+    const size_t n = bench_summarise(scenes, runs, BENCH_TRUTH | BENCH_STIFF | BENCH_PRONY, list);
     int blocks[BENCH_METHODS], drawn = 0;
     fputs("$runs << END\n", commands);
     for (int m = 0; m < BENCH_METHODS; m++) {
         int points = 0;
         for (size_t i = 0; i < n; i++)
-            if (list[i].method == m && complete(&list[i], scenes->count) && ++points)
+            if (list[i].method == m && bench_summary_complete(&list[i]) && ++points)
                 fprintf(commands, "%.4g %.4g %.4g %.4g\n", list[i].seconds.median, fmax(least_error, list[i].error.min),
                         fmax(least_error, list[i].error.median), fmax(least_error, list[i].error.max));
         blocks[m] = points ? drawn++ : -1;

@@ -1,5 +1,6 @@
-/* The runs behind the work-precision tables. A sweep goes from coarse to fine and ends before a run that would
- * take longer than the budget, as the growth of the two before it tells.
+/* The runs behind the work-precision tables. A sweep over tolerances goes from coarse to fine and ends before a run
+ * that would take longer than the budget, as the growth of the two before it tells. The paper's algorithm is swept over
+ * elements and steps, which are both free: what ratio of them is best depends on scene and error.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "precision.h"
 
@@ -11,26 +12,17 @@
 #include "work.h"
 
 /* Work longer than this (s) is timed once. */
-static const double long_work = 0.05;
+static const double long_work = 0.01;
 
 /* No method does more element updates in a second, so this bounds the time of a call from below. */
 static const double updates_per_second = 1e9;
 
-/* A tenth of the tolerance, or twice the elements at a quarter of the step's square root, costs at most this much more
- * by a method of first order; taken where there is no earlier run to tell. */
-static const double growth_tolerance = 100, growth_level = 4;
+/* A tenth of the tolerance costs at most this much more by a method of first order; taken where there is no earlier run
+ * to tell. */
+static const double growth_tolerance = 100;
 
-/* Elements of the paper's algorithm at a level. */
-static int64_t paper_elements(int level)
-{
-    return (int64_t)16 << level;
-}
-
-/* Its steps in a contact time: 32 an element makes errors of like size in space and time. */
-static int64_t paper_steps(int64_t elements)
-{
-    return 32 * elements;
-}
+/* The coarsest run of the paper's algorithm, 8 elements and 128 steps: its median error is 6e-3 (docs/bench.md). */
+static const int64_t fewest_elements = 8, fewest_steps_per_element = 16;
 
 struct paper_settings bench_paper_settings(const struct bench_scene *scene, enum paper_motion motion, int64_t elements,
                                            int64_t steps)
@@ -137,14 +129,14 @@ static void solve_by_paper(void *context)
 
 static int run_paper(const struct bench_scene *scene, struct bench_run *run)
 {
+    const enum paper_motion motion = bench_methods[run->method].motion;
     struct paper_run work = {.problem = bench_scene_paper(scene),
-                             .settings = bench_paper_settings(scene, bench_methods[run->method].motion, run->resolution,
-                                                              paper_steps(run->resolution))};
+                             .settings = bench_paper_settings(scene, motion, run->elements_asked, run->steps_asked)};
     const struct bench_time time = bench_time_work(solve_by_paper, NULL, &work, long_work);
     if (work.end == PAPER_NO_MEMORY) return 1;
     run->seconds = time.seconds;
     run->repeats = time.repeats;
-    run->elements = run->resolution;
+    run->elements = run->elements_asked;
     run->status = work.end == PAPER_SEPARATED ? RESTITUTE_OK : RESTITUTE_ERROR_UNSTABLE_STEP;
     if (run->status) return 0;
     run->ez = work.result.ez;
@@ -156,11 +148,11 @@ static int run_paper(const struct bench_scene *scene, struct bench_run *run)
 }
 
 /* How long the next run may be expected to take. */
-static double expected(const double *seconds, int done, double growth)
+static double expected(const double *seconds, int done)
 {
     if (done == 0) return 0;
-    if (done == 1) return seconds[0] * growth;
-    return seconds[done - 1] * fmin(growth, fmax(1, seconds[done - 1] / seconds[done - 2]));
+    if (done == 1) return seconds[0] * growth_tolerance;
+    return seconds[done - 1] * fmin(growth_tolerance, fmax(1, seconds[done - 1] / seconds[done - 2]));
 }
 
 /* Whether a run would be compared with itself, or with a coarser one of the same method. */
@@ -171,27 +163,54 @@ static int proves_nothing(const struct bench_scene *scene, const struct bench_ru
            run->tolerance <= scene->reference_tolerance;
 }
 
-int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
-                    struct bench_runs *runs)
+/* A run to be made: its setting is still to be filled in. */
+static struct bench_run new_run(size_t scene, int method)
 {
-    const int library = bench_methods[method].handle != NULL;
-    const int levels = library ? plan->n_tolerances : plan->finest_level + 1;
-    double seconds[64];
-    for (int i = 0; i < levels; i++) {
-        struct bench_run run = {.scene = number,
-                                .method = method,
-                                .tolerance = library ? plan->tolerances[i] : NAN,
-                                .resolution = library ? 0 : paper_elements(i),
-                                .ez = NAN,
-                                .ex = NAN,
-                                .error_ez = NAN,
-                                .error_ex = NAN,
-                                .estimate = NAN};
-        if (proves_nothing(scene, &run)) break;
-        if (expected(seconds, i, library ? growth_tolerance : growth_level) > plan->budget) break;
-        const int failed = library ? run_library(plan, scene, &run) : run_paper(scene, &run);
-        if (failed || append(&run, runs)) return 1;
+    return (struct bench_run){.scene = scene,
+                              .method = method,
+                              .tolerance = NAN,
+                              .ez = NAN,
+                              .ex = NAN,
+                              .error_ez = NAN,
+                              .error_ex = NAN,
+                              .estimate = NAN};
+}
+
+static int sweep_tolerances(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
+                            struct bench_runs *runs)
+{
+    double seconds[BENCH_SETTINGS];
+    for (int i = 0; i < plan->n_tolerances; i++) {
+        struct bench_run run = new_run(number, method);
+        run.tolerance = plan->tolerances[i];
+        if (proves_nothing(scene, &run) || expected(seconds, i) > plan->budget) break;
+        if (run_library(plan, scene, &run) || append(&run, runs)) return 1;
         seconds[i] = run.seconds;
     }
     return 0;
+}
+
+/* Every pair of elements and steps within the budget; the time goes with their product. */
+static int sweep_pairs(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
+                       struct bench_runs *runs)
+{
+    double seconds = 0, product = 1; /* of the run before */
+    for (int i = 0; i < plan->doublings; i++)
+        for (int j = 0; j < plan->doublings; j++) {
+            struct bench_run run = new_run(number, method);
+            run.elements_asked = fewest_elements << i;
+            run.steps_asked = run.elements_asked * (fewest_steps_per_element << j);
+            const double this_product = (double)run.elements_asked * (double)run.steps_asked;
+            if (seconds * this_product / product > plan->budget) break;
+            if (run_paper(scene, &run) || append(&run, runs)) return 1;
+            seconds = run.seconds;
+            product = this_product;
+        }
+    return 0;
+}
+
+int bench_run_scene(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,
+                    struct bench_runs *runs)
+{
+    return (bench_methods[method].handle ? sweep_tolerances : sweep_pairs)(plan, scene, number, method, runs);
 }

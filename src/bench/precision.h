@@ -13,17 +13,18 @@ struct bench_plan {
     unsigned methods; /* bits of indices of bench_methods */
     double tolerances[BENCH_SETTINGS];
     int n_tolerances;
-    double budget;    /* s: no run that is expected to take longer is started */
-    int finest_level; /* of the paper's algorithm, 0: 16 elements, doubled by each */
+    double budget; /* s: no run that is expected to take longer is started */
+    int doublings; /* of the paper's algorithm: of its elements and of its steps an element, the coarsest included */
 };
 
 /* One run: a method, how finely, a scene. */
 struct bench_run {
     size_t scene;
     int method;
-    double tolerance;   /* asked for; NaN for the paper's algorithm */
-    int64_t resolution; /* elements asked for; 0 for the methods of the library */
-    double seconds;     /* median */
+    double tolerance;       /* asked for; NaN for the paper's algorithm */
+    int64_t elements_asked; /* over the contact radius; 0 for the methods of the library */
+    int64_t steps_asked;    /* in the contact time; likewise */
+    double seconds;         /* median */
     int repeats;
     double ez, ex, error_ez, error_ex; /* errors against the reference */
     double estimate;                   /* larger of the two; NaN if the method makes none */

@@ -8,8 +8,6 @@
 
 #include "work.h"
 
-enum { most_summaries = 128 };
-
 /* Text of a status for a cell: nothing for OK. */
 static const char *status_cell(int status)
 {
@@ -43,7 +41,8 @@ static void write_whole(FILE *stream, int64_t value, char after)
 
 void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *stream)
 {
-    fputs("set,scene,chi,psi,delta1,gamma,method,tolerance,resolution,seconds,repeats,ez,ex,error_ez,error_ex,estimate,"
+    fputs("set,scene,chi,psi,delta1,gamma,method,tolerance,elements_asked,steps_asked,seconds,"
+          "repeats,ez,ex,error_ez,error_ex,estimate,"
           "reference_error,reference,elements,steps,updates,restarts,events,status\n",
           stream);
     for (size_t i = 0; i < runs->count; i++) {
@@ -54,7 +53,8 @@ void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs
         write_number(stream, "%.17g", s->gamma, ',');
         fprintf(stream, "%s,", bench_methods[r->method].name);
         write_number(stream, "%g", r->tolerance, ',');
-        write_whole(stream, r->resolution, ',');
+        write_whole(stream, r->elements_asked, ',');
+        write_whole(stream, r->steps_asked, ',');
         fprintf(stream, "%.4g,%d,", r->seconds, r->repeats);
         write_number(stream, "%.12f", r->ez, ',');
         write_number(stream, "%.12f", r->ex, ',');
@@ -80,13 +80,14 @@ static void write_range(FILE *stream, const struct bench_range *range)
 
 static void write_set(const struct bench_scenes *scenes, const struct bench_runs *runs, unsigned sets, FILE *stream)
 {
-    struct bench_summary list[most_summaries];
-    const size_t n = bench_summarise(scenes, runs, sets, list, most_summaries);
+    struct bench_summary list[BENCH_SUMMARIES];
+    const size_t n = bench_summarise(scenes, runs, sets, list);
     for (size_t i = 0; i < n; i++) {
         const struct bench_summary *s = &list[i];
         fprintf(stream, "%s,%s,", set_name(sets), bench_methods[s->method].name);
         write_number(stream, "%g", s->tolerance, ',');
-        write_whole(stream, s->resolution, ',');
+        write_whole(stream, s->elements, ',');
+        write_whole(stream, s->steps, ',');
         fprintf(stream, "%zu,%zu,%zu,", s->runs, s->solved, s->met);
         write_range(stream, &s->seconds);
         write_range(stream, &s->error);
@@ -98,8 +99,8 @@ static void write_set(const struct bench_scenes *scenes, const struct bench_runs
 
 void bench_write_summary(const struct bench_scenes *scenes, const struct bench_runs *runs, unsigned sets, FILE *stream)
 {
-    fputs("set,method,tolerance,resolution,runs,solved,tolerance_met,seconds_min,seconds_median,seconds_max,error_min,"
-          "error_median,error_max,estimate_over_error_median,honest_part,error_over_estimate_max\n",
+    fputs("set,method,tolerance,elements,steps,runs,solved,tolerance_met,seconds_min,seconds_median,seconds_max,"
+          "error_min,error_median,error_max,estimate_over_error_median,honest_part,error_over_estimate_max\n",
           stream);
     for (int i = 0; i < BENCH_SETS; i++)
         if (sets & 1u << i) write_set(scenes, runs, 1u << i, stream);
@@ -108,16 +109,22 @@ void bench_write_summary(const struct bench_scenes *scenes, const struct bench_r
 
 void bench_write_speed(const struct bench_scenes *scenes, const struct bench_runs *runs, unsigned methods, FILE *stream)
 {
-    fputs("method,verified_error,scenes,reached,seconds_median,ratio_to_paper_euler_median,ratios_extrapolated\n",
+    fputs("method,error,scenes,elements_asked,steps_asked,seconds_asked,within,seconds_got,reached,ratio_asked,"
+          "ratio_got\n",
           stream);
     for (int m = 0; m < BENCH_METHODS; m++)
         for (int i = 0; i < BENCH_SPEED_ERRORS; i++) {
             if (!(methods & 1u << m)) continue;
             const struct bench_speed s = bench_speed_of(scenes, runs, m, bench_speed_errors[i]);
-            fprintf(stream, "%s,%g,%zu,%zu,", bench_methods[m].name, s.error, s.scenes, s.reached);
-            write_number(stream, "%.4g", s.seconds, ',');
-            write_number(stream, "%.4g", s.ratio, ',');
-            fprintf(stream, "%zu\n", s.extrapolated);
+            fprintf(stream, "%s,%g,%zu,", bench_methods[m].name, s.error, s.scenes);
+            write_whole(stream, s.elements, ',');
+            write_whole(stream, s.steps, ',');
+            write_number(stream, "%.4g", s.seconds_asked, ',');
+            fprintf(stream, "%zu,", s.within);
+            write_number(stream, "%.4g", s.seconds_got, ',');
+            fprintf(stream, "%zu,", s.reached);
+            write_number(stream, "%.4g", s.ratio_asked, ',');
+            write_number(stream, "%.4g", s.ratio_got, '\n');
         }
 }
 
@@ -130,19 +137,19 @@ static void print_number(FILE *stream, int width, const char *format, double val
 
 static void print_summary(const struct bench_scenes *scenes, const struct bench_runs *runs, FILE *stream)
 {
-    struct bench_summary list[most_summaries];
-    const size_t n = bench_summarise(scenes, runs, BENCH_TRUTH | BENCH_STIFF | BENCH_PRONY, list, most_summaries);
+    struct bench_summary list[BENCH_SUMMARIES];
+    const size_t n = bench_summarise(scenes, runs, BENCH_TRUTH | BENCH_STIFF | BENCH_PRONY, list);
     fputs("Error against run time over all scenes\n"
-          "method        tolerance elements runs solved   us min median    max  error min median    max  estimate/true"
-          "  honest  worst\n",
+          "method        tolerance elements    steps runs solved   us min median    max  error min median    max"
+          "  estimate/true  honest  worst\n",
           stream);
     for (size_t i = 0; i < n; i++) {
         const struct bench_summary *s = &list[i];
-        char elements[24] = "-";
-        if (s->resolution) snprintf(elements, sizeof elements, "%lld", (long long)s->resolution);
         fprintf(stream, "%-13s", bench_methods[s->method].name);
         print_number(stream, 9, "%.0e", s->tolerance);
-        fprintf(stream, " %8s %4zu %6zu  ", elements, s->runs, s->solved);
+        print_number(stream, 8, "%.0f", s->elements ? (double)s->elements : NAN);
+        print_number(stream, 8, "%.0f", s->steps ? (double)s->steps : NAN);
+        fprintf(stream, " %4zu %6zu  ", s->runs, s->solved);
         print_number(stream, 6, "%.3g", 1e6 * s->seconds.min);
         print_number(stream, 6, "%.3g", 1e6 * s->seconds.median);
         print_number(stream, 7, "%.3g", 1e6 * s->seconds.max);
@@ -156,23 +163,45 @@ static void print_summary(const struct bench_scenes *scenes, const struct bench_
     }
 }
 
+static void print_time(FILE *stream, double seconds)
+{
+    if (isnan(seconds))
+        fputs(" not reached", stream);
+    else
+        print_number(stream, 11, "%.4g", 1e6 * seconds);
+}
+
+static void print_speed(const struct bench_speed *s, FILE *stream)
+{
+    char pair[48] = "";
+    if (s->elements) snprintf(pair, sizeof pair, "  (%lld x %lld)", (long long)s->elements, (long long)s->steps);
+    fprintf(stream, "%-13s %6.0e ", bench_methods[s->method].name, s->error);
+    print_time(stream, s->seconds_asked);
+    fprintf(stream, " %3zu/%-3zu", s->within, s->scenes);
+    print_number(stream, 7, "%.3g", s->ratio_asked);
+    print_time(stream, s->seconds_got);
+    fprintf(stream, " %3zu/%-3zu", s->reached, s->scenes);
+    print_number(stream, 7, "%.3g", s->ratio_got);
+    fprintf(stream, "%s\n", pair);
+}
+
 void bench_print_precision(const struct bench_scenes *scenes, const struct bench_runs *runs, unsigned methods,
                            FILE *stream)
 {
     print_summary(scenes, runs, stream);
     bench_print_work(runs, methods, stream);
-    fputs("\nTime for a verified error, standard solids, 0 < psi < psi_c; ratio: paper-euler's time at that error\n"
-          "method           error  reached    us median      ratio  extrapolated\n",
+    fputs("\nTime for an error, us, median over the standard solids with 0 < psi < psi_c\n"
+          "asked for: as tolerance; of the paper's algorithm the fastest (elements x steps) with it in half of them\n"
+          "got: in each scene the fastest run with a true error that small; within, reached: scenes where it is\n"
+          "not reached: in at most half of them by any run made; ratio: paper-euler's time over this one\n"
+          "method         error   asked for  within   ratio         got reached   ratio\n",
           stream);
     for (int m = 0; m < BENCH_METHODS; m++)
-        for (int i = 0; i < BENCH_SPEED_ERRORS; i++) {
-            if (!(methods & 1u << m)) continue;
-            const struct bench_speed s = bench_speed_of(scenes, runs, m, bench_speed_errors[i]);
-            fprintf(stream, "%-13s %8.0e %4zu/%-4zu", bench_methods[m].name, s.error, s.reached, s.scenes);
-            print_number(stream, 11, "%.4g", 1e6 * s.seconds);
-            print_number(stream, 10, "%.3g", s.ratio);
-            fprintf(stream, " %13zu\n", s.extrapolated);
-        }
+        for (int i = 0; i < BENCH_SPEED_ERRORS; i++)
+            if (methods & 1u << m) {
+                const struct bench_speed s = bench_speed_of(scenes, runs, m, bench_speed_errors[i]);
+                print_speed(&s, stream);
+            }
 }
 
 void bench_write_omissions(const struct bench_omission *rows, size_t n, FILE *stream)

@@ -8,14 +8,18 @@
 /* Seconds of a clock that is never set back. */
 double bench_clock(void);
 
+/* Seconds that the processor gave to this thread, so that what other programs take does not count. A call takes half a
+ * microsecond, which a difference of two includes. */
+double bench_processor_time(void);
+
 struct bench_time {
     double seconds; /* median */
     int repeats;
 };
 
-/* Time `work`: once to warm up, then at least five times and until a millisecond is full. Work that takes longer
- * than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it. `between`, if
- * not NULL, is called before each and not timed. */
+/* Processor time of `work`: once to warm up, then at least five times and until a millisecond is full. Work that takes
+ * longer than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it.
+ * `between`, if not NULL, is called before each and not timed. */
 struct bench_time bench_time_work(void (*work)(void *context), void (*between)(void *context), void *context,
                                   double long_work);
 

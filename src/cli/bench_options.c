@@ -49,7 +49,7 @@ static const struct poptOption table[] = {
     ENTRY("sets", TEXT_SETS, "A,B,...", "some of truth, stiff, prony; default all"),
     ENTRY("tolerances", TEXT_TOLERANCES, "T,T,...", "from large to small, in [1e-8, 0.1]; default 1e-2,1e-3,...,1e-8"),
     ENTRY("budget", TEXT_BUDGET, "S",
-          "longest time of one run, or of a cell of the map, s, in [1e-3, 3600]; default 2"),
+          "longest time of one run, or of a cell of the map, s, in [1e-3, 3600]; default 0.4"),
     ENTRY("bem-campaign", TEXT_CAMPAIGN, "N",
           "instead: boundary elements against sync on N impacts drawn at random, 1 to 100000"),
     ENTRY("grid", TEXT_GRID, "CELLS", "with --bem-campaign: cells along a side, even, 16 to 1024; default 128"),
@@ -212,8 +212,8 @@ static void set_defaults(bool quick, struct bench_settings *settings)
 {
     struct bench_plan *plan = &settings->plan;
     plan->methods = (1u << BENCH_METHODS) - 1;
-    plan->budget = quick ? 0.1 : 2;
-    plan->finest_level = quick ? 3 : 10;
+    plan->budget = quick ? 0.1 : 0.4;
+    plan->doublings = quick ? 4 : 9;
     plan->n_tolerances = quick ? 3 : 7;
     for (int i = 0; i < plan->n_tolerances; i++) {
         static const double decades[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};

@@ -6,38 +6,54 @@
 
 # A budget that no run here exhausts, however slow the machine.
 expect 0 bench --quick --budget 60 --output report
-has out 'paper-euler' 'Time for a verified error'
+has out 'paper-euler' 'Time for an error' 'not reached'
 has report-runs.csv.meta.json '"version"' '"command"' '"tolerances"' '"paper-verlet"'
-[ "$(head -1 report-runs.csv)" = "set,scene,chi,psi,delta1,gamma,method,tolerance,resolution,seconds,repeats,ez,ex,\
-error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,restarts,events,status" ] || fail "columns of the runs"
+[ "$(head -1 report-runs.csv)" = "set,scene,chi,psi,delta1,gamma,method,tolerance,elements_asked,steps_asked,seconds,\
+repeats,ez,ex,error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,restarts,events,status" ] || fail "columns of the runs"
 [ -s report-speed.csv ] && [ -s report-summary.csv ] || fail "a table is missing"
 
-# Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it promises at 1e-3.
-awk -F, 'NR > 1 { if (NF != 24 || !($10 > 0) || $12 < -1e-6 || $12 > 1 + 1e-6 || $14 < 0 || $15 < 0) { print; exit 1 } }
-    $7 == "euler" && $8 == 0.001 && ($14 > 0.001 || $15 > 0.001) { print; exit 1 }
-    END { exit NR < 50 }' report-runs.csv >bad || fail "a run: $(cat bad)"
+# Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it promises at 1e-3. The paper's
+# algorithm may gain energy by its error in time: with 128 steps, the fewest here, paper-forward returns e_z = 1.045 for 1.
+awk -F, 'NR > 1 { gain = $7 ~ /^paper/ ? 0.05 : 1e-6
+        if (NF != 25 || !($11 > 0) || $13 < -1e-6 || $13 > 1 + gain || $15 < 0 || $16 < 0) { print; bad = 1 } }
+    $7 == "euler" && $8 == 0.001 && ($15 > 0.001 || $16 > 0.001) { print; bad = 1 }
+    END { exit bad || NR < 50 }' report-runs.csv >bad || fail "a run: $(cat bad)"
 for set in truth stiff prony all; do
     grep -q "^$set,euler,0.001," report-summary.csv || fail "no summary of euler over $set"
-    grep -q "^$set,paper-euler,,128," report-summary.csv || fail "no summary of paper-euler over $set"
+    # Elements and steps are both free; of their pairs the front is left, on which more time is less error, as far as four digits tell.
+    awk -F, -v set="$set" '$1 == set && $2 == "paper-euler" {
+        if ($3 != "" || !($5 >= 16 * $4) || n++ && !($10 >= time && $13 <= error)) bad = 1
+        time = $10; error = $13 } END { exit bad || n < 3 }' report-summary.csv || fail "no front of paper-euler over $set"
 done
 
-# error METHOD ELEMENTS: of ex on an elastic scene in partial slip, psi = 0.9.
+# Asked for and got: nothing is told of what was not reached in half of the scenes, and ratios are those of the times told.
+awk -F, 'NR == 1 { next }
+    $1 == "paper-euler" { asked[$2] = $6; got[$2] = $8; if (($6 == "") != ($4 == "") || ($4 == "") != ($5 == "")) bad = 1 }
+    { method[++n] = $1; error[n] = $2; a[n] = $6; g[n] = $8; ra[n] = $10; rg[n] = $11 }
+    $8 == "" ? 2 * $9 > $3 : 2 * $9 < $3 { bad = 1 }
+    $7 > $9 || $9 > $3 { bad = 1 }
+    function off(ratio, paper, time) { return paper == "" || time == "" ? ratio != "" : (ratio * time / paper - 1) ^ 2 > 1e-5 }
+    END { for (i = 1; i <= n; i++) if (off(ra[i], asked[error[i]], a[i]) || off(rg[i], got[error[i]], g[i])) bad = 1
+        exit bad || n != 5 * methods }' methods="$(cut -d, -f1 report-speed.csv | sed 1d | sort -u | wc -l)" report-speed.csv ||
+    fail "report-speed.csv"
+
+# error METHOD ELEMENTS STEPS: of ex on an elastic scene in partial slip, psi = 0.9.
 error() {
-    awk -F, -v m="$1" -v n="$2" '$2 == "truth-10" && $7 == m && $9 == n { print $15 }' report-runs.csv
+    awk -F, -v m="$1" -v n="$2" -v s="$3" '$2 == "truth-10" && $7 == m && $9 == n && $10 == s { print $16 }' report-runs.csv
 }
-# First order, a half a doubling, in the limit; the paper's grid is coarse, so from 32 to 128 a factor of 4 within a third.
-awk -v a="$(error paper-euler 32)" -v b="$(error paper-euler 128)" 'BEGIN { exit !(a / b > 3 && a / b < 5.3) }' ||
-    fail "paper-euler: errors $(error paper-euler 32) with 32 elements, $(error paper-euler 128) with 128"
+# First order in the limit where both are doubled; the grids are coarse, so for a factor of 4 one within a third.
+awk -v a="$(error paper-euler 16 1024)" -v b="$(error paper-euler 64 4096)" 'BEGIN { exit !(a / b > 3 && a / b < 5.3) }' ||
+    fail "paper-euler: errors $(error paper-euler 16 1024) with 16 elements, $(error paper-euler 64 4096) with 64"
 # Velocity Verlet goes through the same positions as Euler with positions first (docs/bench.md): the pairs differ by rounding.
-awk -F, '$7 == "paper-euler" { ez[$2 $9] = $12; ex[$2 $9] = $13 }
-    $7 == "paper-verlet" { n++; d = ez[$2 $9] - $12; e = ex[$2 $9] - $13; if (d * d > 1e-20 || e * e > 1e-20) exit 1 }
+awk -F, '$7 == "paper-euler" { ez[$2, $9, $10] = $13; ex[$2, $9, $10] = $14 }
+    $7 == "paper-verlet" { n++; d = ez[$2, $9, $10] - $13; e = ex[$2, $9, $10] - $14; if (d * d > 1e-20 || e * e > 1e-20) exit 1 }
     END { if (n < 20) exit 1 }' report-runs.csv || fail "paper-verlet differs from paper-euler"
 # That order is worth something: Euler from the state before the step is far worse.
-awk -v a="$(error paper-euler 128)" -v b="$(error paper-forward 128)" 'BEGIN { exit !(b > 3 * a) }' ||
+awk -v a="$(error paper-euler 64 4096)" -v b="$(error paper-forward 64 4096)" 'BEGIN { exit !(b > 3 * a) }' ||
     fail "paper-forward is as good as paper-euler"
 
 expect 0 bench --quick --sets prony --methods euler --tolerances 1e-2,1e-3 --budget 20
-[ "$(grep -c '^euler  *1e-0[23] ' out)" -eq 2 ] || fail "not two tolerances of one method"
+[ "$(grep -c '^euler  *1e-0[23]  *-  *- ' out)" -eq 2 ] || fail "not two tolerances of one method"
 
 expect 0 bench --omissions --quick --output report
 has report-omissions.csv 'merged Prony terms' 'energy ledger' 'frictionless'
