@@ -82,11 +82,11 @@ void series_add(struct series *series, double x, double y)
     series->y[series->count++] = y;
 }
 
-void chart_heights(struct panel *panel, size_t nx, size_t ny, double interval)
+void chart_heights(struct panel *panel, const char *name, size_t nx, size_t ny, double noise)
 {
     double *values = allocate(nx + ny + nx * ny, sizeof *values);
     panel->heights = (struct heights){
-        .nx = nx, .ny = ny, .x = values, .y = values + nx, .z = values + nx + ny, .interval = interval};
+        .name = name, .nx = nx, .ny = ny, .x = values, .y = values + nx, .z = values + nx + ny, .noise = noise};
 }
 
 static void write_series(FILE *commands, size_t panel, const struct panel *p)
@@ -100,44 +100,64 @@ static void write_series(FILE *commands, size_t panel, const struct panel *p)
     }
 }
 
+struct levels {
+    double low, high, interval; /* 0: the heights are all the same */
+};
+
+/* The interval is 1, 2 or 5 times a power of ten, and there are 5 to 13 levels. gnuplot writes them with six digits. */
+static struct levels levels_of(const struct heights *h)
+{
+    static const double factors[] = {10, 5, 2, 1};
+    struct levels l = {INFINITY, -INFINITY, 0};
+    for (size_t i = 0; i < h->nx * h->ny; i++)
+        l.low = fmin(l.low, h->z[i]), l.high = fmax(l.high, h->z[i]);
+    const double range = l.high - l.low, power = pow(10, floor(log10(range / 13)));
+    if (range > fmax(h->noise, 1e-4))
+        for (size_t i = 0; i < 4 && range <= 13 * factors[i] * power; i++)
+            l.interval = factors[i] * power;
+    return l;
+}
+
 /* The lines come from gnuplot as a block of text, in which a level is a column. */
 static void write_contours(FILE *commands, size_t panel, const struct heights *h)
 {
-    if (!h->nx) return;
-    double low = INFINITY, high = -INFINITY;
+    const struct levels l = levels_of(h);
+    if (l.interval == 0) return;
     fprintf(commands, "$h%zu << END\n", panel);
     for (size_t j = 0; j < h->ny; j++) {
-        for (size_t i = 0; i < h->nx; i++) {
-            const double z = h->z[j * h->nx + i];
-            low = fmin(low, z), high = fmax(high, z);
-            fprintf(commands, "%.8g %.8g %.6g\n", h->x[i], h->y[j], z);
-        }
+        for (size_t i = 0; i < h->nx; i++)
+            fprintf(commands, "%.8g %.8g %.8g\n", h->x[i], h->y[j], h->z[j * h->nx + i]);
         fputc('\n', commands);
     }
-    const double from = ceil(low / h->interval) * h->interval;
     fprintf(commands,
             "END\nset contour base\nunset surface\nset cntrparam linear\nset cntrparam levels incremental %g,%g,%g\n"
             "set table $c%zu\nsplot $h%zu using 1:2:3\nunset table\nunset contour\nset surface\n",
-            from, h->interval, high, panel, panel);
+            ceil(l.low / l.interval) * l.interval, l.interval, l.high, panel, panel);
 }
 
-/* Solid above zero, thick at zero, dashed below; the level stands on the line. */
+/* Solid above zero, thick at zero, dashed below; the level stands on the line. NaN: something to plot without lines. */
 static void plot_contours(FILE *commands, size_t panel, const struct heights *h)
 {
-    const double zero = 1e-3 * h->interval;
-    fprintf(commands,
-            "plot $c%zu using 1:($3>%g?$2:NaN) with lines linewidth 1.1 linecolor rgb '#3b518b', \\\n"
-            "  '' using 1:(abs($3)<=%g?$2:NaN) with lines linewidth 2.4 linecolor rgb '#222222', \\\n"
-            "  '' using 1:($3<-%g?$2:NaN) with lines linewidth 1.1 dashtype 2 linecolor rgb '#777777'",
-            panel, zero, zero, zero);
+    const struct levels l = levels_of(h);
+    const double zero = 1e-3 * l.interval;
+    if (l.interval == 0)
+        fprintf(commands, "set label '%s = %.4g everywhere' at graph 0.5,0.5 center\nplot NaN", h->name,
+                0.5 * (l.low + l.high));
+    else
+        fprintf(commands,
+                "plot NaN, $c%zu using 1:($3>%g?$2:NaN) with lines linewidth 1.1 linecolor rgb '#3b518b', \\\n"
+                "  '' using 1:(abs($3)<=%g?$2:NaN) with lines linewidth 2.4 linecolor rgb '#222222', \\\n"
+                "  '' using 1:($3<-%g?$2:NaN) with lines linewidth 1.1 dashtype 2 linecolor rgb '#777777'",
+                panel, zero, zero, zero);
 }
 
 static void plot_levels(FILE *commands, size_t panel, const struct heights *h)
 {
-    if (h->nx)
+    const double interval = levels_of(h).interval;
+    if (interval > 0)
         fprintf(commands,
                 ", \\\n  $c%zu using 1:2:(sprintf('%%g',abs($3)<%g?0:$3)) every ::14::14 with labels font ',10' boxed",
-                panel, 1e-3 * h->interval);
+                panel, 1e-3 * interval);
 }
 
 static void plot_series(FILE *commands, const char *data, const struct series *s, size_t styles, bool named)
@@ -193,6 +213,7 @@ static void place(FILE *commands, size_t index, size_t panels, bool key)
 static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
 {
     const struct panel *p = &chart->panel[index];
+    const struct heights *h = &p->heights;
     const bool key = index + 1 == chart->panels;
     size_t styles = 1;
     const char *separator = "plot ";
@@ -205,8 +226,11 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
     if (key && *p->key) text_setting(commands, "key title", p->key);
     range(commands, 'x', p->xrange, p->xlog);
     range(commands, 'y', p->yrange, p->ylog);
-    if (p->heights.nx) {
-        plot_contours(commands, index, &p->heights);
+    if (h->nx) {
+        const double x[] = {h->x[0], h->x[h->nx - 1]}, y[] = {h->y[0], h->y[h->ny - 1]};
+        range(commands, 'x', x, p->xlog);
+        range(commands, 'y', y, p->ylog);
+        plot_contours(commands, index, h);
         separator = ", \\\n  ";
     }
     for (size_t k = 0; k < p->count; k++, separator = ", \\\n  ") {
@@ -215,7 +239,7 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
         fputs(separator, commands);
         plot_series(commands, data, &p->series[k], styles, key);
     }
-    plot_levels(commands, index, &p->heights);
+    plot_levels(commands, index, h);
     fputs("\nunset label\nset key notitle\n", commands);
 }
 

@@ -275,10 +275,10 @@ static size_t index_of(const double *sorted, size_t count, double value)
 }
 
 static void add_heights(struct panel *panel, const struct cases *cases, const struct row *rows,
-                        const struct figure_axes *axes, int number)
+                        const struct figure_axes *axes, int number, double noise)
 {
     const struct distinct x = distinct_of(cases, axes->x), y = distinct_of(cases, axes->curves);
-    chart_heights(panel, x.count, y.count, 0.1);
+    chart_heights(panel, number == ROW_EZ ? "e_z" : "e_x", x.count, y.count, noise);
     struct heights *h = &panel->heights;
     for (size_t i = 0; i < x.count; i++)
         h->x[i] = cell_number(cases, x.row[i], axes->x);
@@ -340,8 +340,9 @@ bool figure_of_cases(const char *path, const struct settings *settings, const st
     write_description(&settings->values, chart->description, sizeof chart->description);
     label_panels(chart, cases, &axes, settings->contours);
     if (settings->contours) {
-        add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ);
-        add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX);
+        const double noise = 10 * settings->solver.tolerance;
+        add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ, noise);
+        add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX, noise);
     } else {
         add_curves(chart, cases, rows, &axes);
     }

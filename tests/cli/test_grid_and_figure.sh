@@ -89,3 +89,10 @@ rm -f again.csv.partial*
 refused 'is an input of this run' pair --input cases.csv --join part1.csv --output part1.csv
 refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --figure a.svg
 refused 'has no rows' pair --input cases.csv --shard 1/20
+
+# Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi does not change.
+for numbers in '--delta1 0 --gamma 0 --grid chi=1:2:6,psi=1:5:6' '--gamma 1 --grid delta1=2:3:6,psi=1.5:2:6' \
+    '--gamma 1 --delta1 1 --grid chi=1:2:6,psi=1:5:6'; do
+    expect 0 pair $numbers --method sync --output narrow.csv --figure narrow.svg --contours
+done
+has narrow.svg ' = 0.7792 everywhere'
