@@ -118,6 +118,17 @@ static struct levels levels_of(const struct heights *h)
     return l;
 }
 
+/* A point of every line, about its middle: the third, half and two thirds by turns, so that labels seldom meet. */
+static void write_label_places(FILE *commands, size_t panel)
+{
+    fprintf(commands,
+            "set print $l%zu\nn = 0\nturn = 0\ndo for [i=1:|$c%zu|] {\n"
+            "  if (words($c%zu[i]) == 3 && word($c%zu[i],1) ne '#') {\n    n = n + 1\n  } else {\n"
+            "    if (n > 0) { print $c%zu[i - 1 - n * (2 + turn) / 6]; turn = (turn + 1) %% 3 }\n    n = 0\n  }\n}\n"
+            "unset print\n",
+            panel, panel, panel, panel, panel);
+}
+
 /* The lines come from gnuplot as a block of text, in which a level is a column. */
 static void write_contours(FILE *commands, size_t panel, const struct heights *h)
 {
@@ -133,6 +144,7 @@ static void write_contours(FILE *commands, size_t panel, const struct heights *h
             "END\nset contour base\nunset surface\nset cntrparam linear\nset cntrparam levels incremental %g,%g,%g\n"
             "set table $c%zu\nsplot $h%zu using 1:2:3\nunset table\nunset contour\nset surface\n",
             ceil(l.low / l.interval) * l.interval, l.interval, l.high, panel, panel);
+    write_label_places(commands, panel);
 }
 
 /* Solid above zero, thick at zero, dashed below; the level stands on the line. NaN: something to plot without lines. */
@@ -155,8 +167,7 @@ static void plot_levels(FILE *commands, size_t panel, const struct heights *h)
 {
     const double interval = levels_of(h).interval;
     if (interval > 0)
-        fprintf(commands,
-                ", \\\n  $c%zu using 1:2:(sprintf('%%g',abs($3)<%g?0:$3)) every ::14::14 with labels font ',10' boxed",
+        fprintf(commands, ", \\\n  $l%zu using 1:2:(sprintf('%%g',abs($3)<%g?0:$3)) with labels font ',10' boxed",
                 panel, 1e-3 * interval);
 }
 

@@ -340,7 +340,7 @@ bool figure_of_cases(const char *path, const struct settings *settings, const st
     write_description(&settings->values, chart->description, sizeof chart->description);
     label_panels(chart, cases, &axes, settings->contours);
     if (settings->contours) {
-        const double noise = 10 * settings->solver.tolerance;
+        const double noise = 2 * settings->solver.tolerance;
         add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ, noise);
         add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX, noise);
     } else {

@@ -91,8 +91,12 @@ refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --f
 refused 'has no rows' pair --input cases.csv --shard 1/20
 
 # Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi does not change.
-for numbers in '--delta1 0 --gamma 0 --grid chi=1:2:6,psi=1:5:6' '--gamma 1 --grid delta1=2:3:6,psi=1.5:2:6' \
-    '--gamma 1 --delta1 1 --grid chi=1:2:6,psi=1:5:6'; do
-    expect 0 pair $numbers --method sync --output narrow.csv --figure narrow.svg --contours
-done
-has narrow.svg ' = 0.7792 everywhere'
+contours() { # TEXT ARGUMENT...: the text stands in the figure
+    text=$1
+    shift
+    expect 0 pair "$@" --method sync --output narrow.csv --figure narrow.svg --contours
+    has narrow.svg "$text"
+}
+contours ' = 1 everywhere' --delta1 0 --gamma 0 --grid chi=1:2:6,psi=1:5:6
+contours '>0.555<' --gamma 1 --grid delta1=2:3:6,psi=1.5:2:6
+contours ' = 0.7792 everywhere' --gamma 1 --delta1 1 --grid chi=1:2:6,psi=1:5:6
