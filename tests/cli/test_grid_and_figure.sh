@@ -72,6 +72,10 @@ refused 'more than two columns' pair --input three.csv --figure rows.svg
 refused 'no columns' pair --input none.csv --figure rows.svg
 sed '$d' cases.csv >hole.csv
 refused 'no full grid' pair --input hole.csv --figure rows.svg --contours
+sed '$s/4,1$/2.0,1/' cases.csv >twice.csv # as many rows as nodes: one twice, one never
+refused 'no full grid' pair --input twice.csv --figure rows.svg --contours
+sed '$s/^1,4/1.0,4e0/' cases.csv >written.csv
+expect 0 pair --input written.csv --figure rows.svg --contours
 refused 'needs two columns or axes' pair --grid psi=1:2:3 --figure rows.svg --contours
 refused 'no numbers to be an axis' pair --radius 0.01 --density 7800 --friction 0.3 --velocity 1 \
     --grid material=steel.json:aluminium.json --figure rows.svg
