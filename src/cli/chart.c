@@ -208,8 +208,8 @@ static void text_setting(FILE *commands, const char *what, const char *text)
     fputc('\n', commands);
 }
 
-/* Where panel `index` stands on the sheet, its key to the right of it. */
-static void place(FILE *commands, size_t index, size_t panels, bool key)
+/* Where panel `index` stands on the sheet, its key of so many lines to the right of it: smaller if they are many. */
+static void place(FILE *commands, size_t index, size_t panels, size_t lines)
 {
     static const double places[][2] = {{0.125, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
     const double *at = places[panels == 1 ? 0 : 1 + index];
@@ -217,8 +217,9 @@ static void place(FILE *commands, size_t index, size_t panels, bool key)
         commands,
         "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen 0.14\nset tmargin at screen 0.78\n",
         at[0], at[1]);
-    if (key)
-        fprintf(commands, "set key at screen %g,0.8 left top Left reverse samplen 1.8 spacing 1.15\n", at[1] + 0.012);
+    if (lines)
+        fprintf(commands, "set key at screen %g,0.8 left top Left reverse samplen %g font ',%d' spacing %g\n",
+                at[1] + 0.012, lines > 8 ? 1.2 : 1.8, lines > 8 ? 9 : 14, lines > 8 ? 0.9 : 1.15);
 }
 
 static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
@@ -226,11 +227,11 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
     const struct panel *p = &chart->panel[index];
     const struct heights *h = &p->heights;
     const bool key = index + 1 == chart->panels;
-    size_t styles = 1;
+    size_t styles = 1, named = 0;
     const char *separator = "plot ";
     for (size_t k = 0; k < p->count; k++)
-        styles = p->series[k].style > styles ? p->series[k].style : styles;
-    place(commands, index, chart->panels, key);
+        styles = p->series[k].style > styles ? p->series[k].style : styles, named += *p->series[k].name != '\0';
+    place(commands, index, chart->panels, key ? named : 0);
     text_setting(commands, "title", p->title);
     text_setting(commands, "xlabel", p->xlabel);
     text_setting(commands, "ylabel", p->ylabel);

@@ -27,7 +27,7 @@ struct heights {
     double noise; /* heights that differ by less are the same */
 };
 
-enum { PANEL_SERIES = 40, CHART_PANELS = 2 };
+enum { PANEL_SERIES = 40, KEY_LINES = 15 /* at most, in one column */, CHART_PANELS = 2 };
 
 struct panel {
     char title[64], xlabel[96], ylabel[96], key[48];

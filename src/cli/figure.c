@@ -179,9 +179,9 @@ bool figure_check_cases(const struct cases *cases, bool contours, struct reason 
     const size_t n_x = x.count, n_curves = curves.count;
     free(x.row);
     free(curves.row);
-    if (!contours && n_curves >= PANEL_SERIES)
-        return refuse(why, "--figure: %zu curves of %s: must be less than %d; or take --contours", n_curves,
-                      cases_name(cases, axes.curves), PANEL_SERIES);
+    if (!contours && n_curves > KEY_LINES)
+        return refuse(why, "--figure: %zu curves of %s: must be at most %d; or take --contours", n_curves,
+                      cases_name(cases, axes.curves), KEY_LINES);
     if (!contours) return true;
     if (is_words(cases, axes.curves)) return refuse(why, "--contours: needs two columns of numbers that vary");
     if (n_x * n_curves != cases->rows || n_x < 3 || n_curves < 3 || !all_differ(cases, &axes))

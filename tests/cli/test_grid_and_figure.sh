@@ -80,7 +80,7 @@ refused 'needs two columns or axes' pair --grid psi=1:2:3 --figure rows.svg --co
 refused 'no numbers to be an axis' pair --radius 0.01 --density 7800 --friction 0.3 --velocity 1 \
     --grid material=steel.json:aluminium.json --figure rows.svg
 refused '--contours: needs --figure' pair --grid psi=1:2:3 --contours
-refused 'curves of psi: must be less than' pair --delta1 1 --gamma 1 --grid psi=0:5:60,chi=1:2:2 --figure rows.svg
+refused 'curves of psi: must be at most 15' pair --delta1 1 --gamma 1 --grid psi=0:5:16,chi=1:2:16 --figure rows.svg
 
 # Shards of a file, joined, are the whole, byte by byte; in another order they are refused.
 expect 0 pair --input cases.csv --output whole.csv
