@@ -185,8 +185,8 @@ bool figure_check_cases(const struct cases *cases, bool contours, struct reason 
     if (!contours) return true;
     if (is_words(cases, axes.curves)) return refuse(why, "--contours: needs two columns of numbers that vary");
     if (n_x * n_curves != cases->rows || n_x < 3 || n_curves < 3 || !all_differ(cases, &axes))
-        return refuse(why, "--contours: %zu rows are no full grid of %zu by %zu different ones, both at least 3", cases->rows, n_x,
-                      n_curves);
+        return refuse(why, "--contours: %zu rows are no full grid of %zu by %zu, each node once and both at least 3",
+                      cases->rows, n_x, n_curves);
     return true;
 }
 
