@@ -82,11 +82,11 @@ void series_add(struct series *series, double x, double y)
     series->y[series->count++] = y;
 }
 
-void chart_heights(struct panel *panel, size_t nx, size_t ny, double interval)
+void chart_heights(struct panel *panel, const char *name, size_t nx, size_t ny, double noise)
 {
     double *values = allocate(nx + ny + nx * ny, sizeof *values);
     panel->heights = (struct heights){
-        .nx = nx, .ny = ny, .x = values, .y = values + nx, .z = values + nx + ny, .interval = interval};
+        .name = name, .nx = nx, .ny = ny, .x = values, .y = values + nx, .z = values + nx + ny, .noise = noise};
 }
 
 static void write_series(FILE *commands, size_t panel, const struct panel *p)
@@ -100,44 +100,75 @@ static void write_series(FILE *commands, size_t panel, const struct panel *p)
     }
 }
 
+struct levels {
+    double low, high, interval; /* 0: the heights are all the same */
+};
+
+/* The interval is 1, 2 or 5 times a power of ten, and there are 5 to 13 levels. gnuplot writes them with six digits. */
+static struct levels levels_of(const struct heights *h)
+{
+    static const double factors[] = {10, 5, 2, 1};
+    struct levels l = {INFINITY, -INFINITY, 0};
+    for (size_t i = 0; i < h->nx * h->ny; i++)
+        l.low = fmin(l.low, h->z[i]), l.high = fmax(l.high, h->z[i]);
+    const double range = l.high - l.low, power = pow(10, floor(log10(range / 13)));
+    if (range > fmax(h->noise, 1e-4))
+        for (size_t i = 0; i < 4 && range <= 13 * factors[i] * power; i++)
+            l.interval = factors[i] * power;
+    return l;
+}
+
+/* A point of every line, about its middle: the third, half and two thirds by turns, so that labels seldom meet. */
+static void write_label_places(FILE *commands, size_t panel)
+{
+    fprintf(commands,
+            "set print $l%zu\nn = 0\nturn = 0\ndo for [i=1:|$c%zu|] {\n"
+            "  if (words($c%zu[i]) == 3 && word($c%zu[i],1) ne '#') {\n    n = n + 1\n  } else {\n"
+            "    if (n > 0) { print $c%zu[i - 1 - n * (2 + turn) / 6]; turn = (turn + 1) %% 3 }\n    n = 0\n  }\n}\n"
+            "unset print\n",
+            panel, panel, panel, panel, panel);
+}
+
 /* The lines come from gnuplot as a block of text, in which a level is a column. */
 static void write_contours(FILE *commands, size_t panel, const struct heights *h)
 {
-    if (!h->nx) return;
-    double low = INFINITY, high = -INFINITY;
+    const struct levels l = levels_of(h);
+    if (l.interval == 0) return;
     fprintf(commands, "$h%zu << END\n", panel);
     for (size_t j = 0; j < h->ny; j++) {
-        for (size_t i = 0; i < h->nx; i++) {
-            const double z = h->z[j * h->nx + i];
-            low = fmin(low, z), high = fmax(high, z);
-            fprintf(commands, "%.8g %.8g %.6g\n", h->x[i], h->y[j], z);
-        }
+        for (size_t i = 0; i < h->nx; i++)
+            fprintf(commands, "%.8g %.8g %.8g\n", h->x[i], h->y[j], h->z[j * h->nx + i]);
         fputc('\n', commands);
     }
-    const double from = ceil(low / h->interval) * h->interval;
     fprintf(commands,
             "END\nset contour base\nunset surface\nset cntrparam linear\nset cntrparam levels incremental %g,%g,%g\n"
             "set table $c%zu\nsplot $h%zu using 1:2:3\nunset table\nunset contour\nset surface\n",
-            from, h->interval, high, panel, panel);
+            ceil(l.low / l.interval) * l.interval, l.interval, l.high, panel, panel);
+    write_label_places(commands, panel);
 }
 
-/* Solid above zero, thick at zero, dashed below; the level stands on the line. */
+/* Solid above zero, thick at zero, dashed below; the level stands on the line. NaN: something to plot without lines. */
 static void plot_contours(FILE *commands, size_t panel, const struct heights *h)
 {
-    const double zero = 1e-3 * h->interval;
-    fprintf(commands,
-            "plot $c%zu using 1:($3>%g?$2:NaN) with lines linewidth 1.1 linecolor rgb '#3b518b', \\\n"
-            "  '' using 1:(abs($3)<=%g?$2:NaN) with lines linewidth 2.4 linecolor rgb '#222222', \\\n"
-            "  '' using 1:($3<-%g?$2:NaN) with lines linewidth 1.1 dashtype 2 linecolor rgb '#777777'",
-            panel, zero, zero, zero);
+    const struct levels l = levels_of(h);
+    const double zero = 1e-3 * l.interval;
+    if (l.interval == 0)
+        fprintf(commands, "set label '%s = %.4g everywhere' at graph 0.5,0.5 center\nplot NaN", h->name,
+                0.5 * (l.low + l.high));
+    else
+        fprintf(commands,
+                "plot NaN, $c%zu using 1:($3>%g?$2:NaN) with lines linewidth 1.1 linecolor rgb '#3b518b', \\\n"
+                "  '' using 1:(abs($3)<=%g?$2:NaN) with lines linewidth 2.4 linecolor rgb '#222222', \\\n"
+                "  '' using 1:($3<-%g?$2:NaN) with lines linewidth 1.1 dashtype 2 linecolor rgb '#777777'",
+                panel, zero, zero, zero);
 }
 
 static void plot_levels(FILE *commands, size_t panel, const struct heights *h)
 {
-    if (h->nx)
-        fprintf(commands,
-                ", \\\n  $c%zu using 1:2:(sprintf('%%g',abs($3)<%g?0:$3)) every ::14::14 with labels font ',10' boxed",
-                panel, 1e-3 * h->interval);
+    const double interval = levels_of(h).interval;
+    if (interval > 0)
+        fprintf(commands, ", \\\n  $l%zu using 1:2:(sprintf('%%g',abs($3)<%g?0:$3)) with labels font ',10' boxed",
+                panel, 1e-3 * interval);
 }
 
 static void plot_series(FILE *commands, const char *data, const struct series *s, size_t styles, bool named)
@@ -177,8 +208,8 @@ static void text_setting(FILE *commands, const char *what, const char *text)
     fputc('\n', commands);
 }
 
-/* Where panel `index` stands on the sheet, its key to the right of it. */
-static void place(FILE *commands, size_t index, size_t panels, bool key)
+/* Where panel `index` stands on the sheet, its key of so many lines to the right of it: smaller if they are many. */
+static void place(FILE *commands, size_t index, size_t panels, size_t lines)
 {
     static const double places[][2] = {{0.125, 0.78}, {0.085, 0.42}, {0.53, 0.85}};
     const double *at = places[panels == 1 ? 0 : 1 + index];
@@ -186,27 +217,32 @@ static void place(FILE *commands, size_t index, size_t panels, bool key)
         commands,
         "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen 0.14\nset tmargin at screen 0.78\n",
         at[0], at[1]);
-    if (key)
-        fprintf(commands, "set key at screen %g,0.8 left top Left reverse samplen 1.8 spacing 1.15\n", at[1] + 0.012);
+    if (lines)
+        fprintf(commands, "set key at screen %g,0.8 left top Left reverse samplen %g font ',%d' spacing %g\n",
+                at[1] + 0.012, lines > 8 ? 1.2 : 1.8, lines > 8 ? 9 : 14, lines > 8 ? 0.9 : 1.15);
 }
 
 static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
 {
     const struct panel *p = &chart->panel[index];
+    const struct heights *h = &p->heights;
     const bool key = index + 1 == chart->panels;
-    size_t styles = 1;
+    size_t styles = 1, named = 0;
     const char *separator = "plot ";
     for (size_t k = 0; k < p->count; k++)
-        styles = p->series[k].style > styles ? p->series[k].style : styles;
-    place(commands, index, chart->panels, key);
+        styles = p->series[k].style > styles ? p->series[k].style : styles, named += *p->series[k].name != '\0';
+    place(commands, index, chart->panels, key ? named : 0);
     text_setting(commands, "title", p->title);
     text_setting(commands, "xlabel", p->xlabel);
     text_setting(commands, "ylabel", p->ylabel);
     if (key && *p->key) text_setting(commands, "key title", p->key);
     range(commands, 'x', p->xrange, p->xlog);
     range(commands, 'y', p->yrange, p->ylog);
-    if (p->heights.nx) {
-        plot_contours(commands, index, &p->heights);
+    if (h->nx) {
+        const double x[] = {h->x[0], h->x[h->nx - 1]}, y[] = {h->y[0], h->y[h->ny - 1]};
+        range(commands, 'x', x, p->xlog);
+        range(commands, 'y', y, p->ylog);
+        plot_contours(commands, index, h);
         separator = ", \\\n  ";
     }
     for (size_t k = 0; k < p->count; k++, separator = ", \\\n  ") {
@@ -215,7 +251,7 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
         fputs(separator, commands);
         plot_series(commands, data, &p->series[k], styles, key);
     }
-    plot_levels(commands, index, &p->heights);
+    plot_levels(commands, index, h);
     fputs("\nunset label\nset key notitle\n", commands);
 }
 

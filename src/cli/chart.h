@@ -21,12 +21,13 @@ struct series {
 
 /* Heights over a rectangular grid, z[j * nx + i] at (x[i], y[j]). */
 struct heights {
+    const char *name;
     size_t nx, ny;
     double *x, *y, *z;
-    double interval; /* between contours */
+    double noise; /* heights that differ by less are the same */
 };
 
-enum { PANEL_SERIES = 40, CHART_PANELS = 2 };
+enum { PANEL_SERIES = 40, KEY_LINES = 15 /* at most, in one column */, CHART_PANELS = 2 };
 
 struct panel {
     char title[64], xlabel[96], ylabel[96], key[48];
@@ -50,7 +51,9 @@ void chart_release(struct chart *chart);
 /* Room for a curve of `count` points at most, to be filled. NULL: the panel has no room for it. */
 struct series *chart_series(struct panel *panel, enum mark mark, size_t style, size_t count, const char *name);
 void series_add(struct series *series, double x, double y);
-void chart_heights(struct panel *panel, size_t nx, size_t ny, double interval);
+
+/* Room for heights to be filled; x and y ascend and are the ends of the axes. */
+void chart_heights(struct panel *panel, const char *name, size_t nx, size_t ny, double noise);
 
 /* Draw it; several endings, several files. */
 bool chart_draw(const struct chart *chart, const char *path, struct reason *why);

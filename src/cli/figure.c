@@ -47,21 +47,29 @@ static double cell_number(const struct cases *cases, size_t row, size_t column)
     return strtod(cases_cell(cases, row, column), NULL);
 }
 
-static bool same_cell(const struct cases *cases, size_t column, size_t one, size_t other)
+static bool is_words(const struct cases *cases, size_t column)
 {
-    return strcmp(cases_cell(cases, one, column), cases_cell(cases, other, column)) == 0;
+    return field_of_column(cases_name(cases, column)) == FIELD_COUNT;
 }
 
-/* Different cells of a column in order of appearance, as rows in which they stand. */
-struct distinct {
-    size_t count;
-    size_t *row;
-};
-
+/* Numbers are compared as such: 1 and 1.0 are the same. */
 struct cell_at {
-    const char *cell;
+    const char *words;
+    double number;
     size_t row;
 };
+
+static struct cell_at cell_at(const struct cases *cases, size_t column, size_t row)
+{
+    return is_words(cases, column) ? (struct cell_at){cases_cell(cases, row, column), 0, row}
+                                   : (struct cell_at){"", cell_number(cases, row, column), row};
+}
+
+static int cell_order(const struct cell_at *a, const struct cell_at *b)
+{
+    const int order = (a->number > b->number) - (a->number < b->number);
+    return order ? order : strcmp(a->words, b->words);
+}
 
 static int by_row(const void *left, const void *right)
 {
@@ -72,27 +80,28 @@ static int by_row(const void *left, const void *right)
 static int by_cell(const void *left, const void *right)
 {
     const struct cell_at *a = left, *b = right;
-    const int order = strcmp(a->cell, b->cell);
+    const int order = cell_order(a, b);
     return order ? order : by_row(&a->row, &b->row);
 }
+
+/* Different cells of a column in order of appearance, as rows in which they stand. */
+struct distinct {
+    size_t count;
+    size_t *row;
+};
 
 static struct distinct distinct_of(const struct cases *cases, size_t column)
 {
     struct distinct d = {0, allocate(cases->rows, sizeof *d.row)};
     struct cell_at *cells = allocate(cases->rows, sizeof *cells);
     for (size_t i = 0; i < cases->rows; i++)
-        cells[i] = (struct cell_at){cases_cell(cases, i, column), i};
+        cells[i] = cell_at(cases, column, i);
     qsort(cells, cases->rows, sizeof *cells, by_cell);
     for (size_t i = 0; i < cases->rows; i++)
-        if (i == 0 || strcmp(cells[i].cell, cells[i - 1].cell) != 0) d.row[d.count++] = cells[i].row;
+        if (i == 0 || cell_order(&cells[i], &cells[i - 1]) != 0) d.row[d.count++] = cells[i].row;
     qsort(d.row, d.count, sizeof *d.row, by_row);
     free(cells);
     return d;
-}
-
-static bool is_words(const struct cases *cases, size_t column)
-{
-    return field_of_column(cases_name(cases, column)) == FIELD_COUNT;
 }
 
 /* What a figure of cases has along x, and what its curves differ in; NO_COLUMN: there is one curve. */
@@ -130,6 +139,36 @@ static bool find_axes(const struct cases *cases, struct figure_axes *axes, struc
                                     : true;
 }
 
+struct point {
+    double x, y;
+};
+
+static int by_x(const void *left, const void *right)
+{
+    const double a = ((const struct point *)left)->x, b = ((const struct point *)right)->x;
+    return (a > b) - (a < b);
+}
+
+static int by_point(const void *left, const void *right)
+{
+    const double a = ((const struct point *)left)->y, b = ((const struct point *)right)->y;
+    const int order = by_x(left, right);
+    return order ? order : (a > b) - (a < b);
+}
+
+static bool all_differ(const struct cases *cases, const struct figure_axes *axes)
+{
+    struct point *points = allocate(cases->rows, sizeof *points);
+    bool differ = true;
+    for (size_t i = 0; i < cases->rows; i++)
+        points[i] = (struct point){cell_number(cases, i, axes->x), cell_number(cases, i, axes->curves)};
+    qsort(points, cases->rows, sizeof *points, by_point);
+    for (size_t i = 1; i < cases->rows; i++)
+        differ &= by_point(&points[i], &points[i - 1]) != 0;
+    free(points);
+    return differ;
+}
+
 bool figure_check_cases(const struct cases *cases, bool contours, struct reason *why)
 {
     struct figure_axes axes;
@@ -140,14 +179,14 @@ bool figure_check_cases(const struct cases *cases, bool contours, struct reason 
     const size_t n_x = x.count, n_curves = curves.count;
     free(x.row);
     free(curves.row);
-    if (!contours && n_curves >= PANEL_SERIES)
-        return refuse(why, "--figure: %zu curves of %s: must be less than %d; or take --contours", n_curves,
-                      cases_name(cases, axes.curves), PANEL_SERIES);
+    if (!contours && n_curves > KEY_LINES)
+        return refuse(why, "--figure: %zu curves of %s: must be at most %d; or take --contours", n_curves,
+                      cases_name(cases, axes.curves), KEY_LINES);
     if (!contours) return true;
     if (is_words(cases, axes.curves)) return refuse(why, "--contours: needs two columns of numbers that vary");
-    if (n_x * n_curves != cases->rows || n_x < 3 || n_curves < 3)
-        return refuse(why, "--contours: %zu rows are no full grid of %zu by %zu, both at least 3", cases->rows, n_x,
-                      n_curves);
+    if (n_x * n_curves != cases->rows || n_x < 3 || n_curves < 3 || !all_differ(cases, &axes))
+        return refuse(why, "--contours: %zu rows are no full grid of %zu by %zu, each node once and both at least 3",
+                      cases->rows, n_x, n_curves);
     return true;
 }
 
@@ -188,26 +227,20 @@ static double normal_speed(const struct cases *cases, size_t row, size_t speed, 
     return cell_number(cases, row, speed) * cos(cell_number(cases, row, angle) * 3.14159265358979323846 / 180.0);
 }
 
-struct point {
-    double x, y;
-};
-
-static int by_x(const void *left, const void *right)
-{
-    const double a = ((const struct point *)left)->x, b = ((const struct point *)right)->x;
-    return (a > b) - (a < b);
-}
-
 /* One curve: the rows that have this value, by x. A row that failed leaves a gap. */
 static void add_curve(const struct cases *cases, const struct row *rows, const struct figure_axes *axes, int number,
                       size_t of_row, struct series *series)
 {
     struct point *points = allocate(cases->rows, sizeof *points);
     size_t count = 0;
-    for (size_t i = 0; i < cases->rows; i++)
-        if (axes->curves == NO_COLUMN || same_cell(cases, axes->curves, i, of_row))
+    const bool all = axes->curves == NO_COLUMN;
+    const struct cell_at of = all ? (struct cell_at){"", 0, 0} : cell_at(cases, axes->curves, of_row);
+    for (size_t i = 0; i < cases->rows; i++) {
+        const struct cell_at cell = all ? of : cell_at(cases, axes->curves, i);
+        if (cell_order(&cell, &of) == 0)
             points[count++] =
                 (struct point){cell_number(cases, i, axes->x), rows[i].solved ? rows[i].number[number] : NAN};
+    }
     qsort(points, count, sizeof *points, by_x);
     for (size_t i = 0; i < count; i++)
         series_add(series, points[i].x, points[i].y);
@@ -275,10 +308,10 @@ static size_t index_of(const double *sorted, size_t count, double value)
 }
 
 static void add_heights(struct panel *panel, const struct cases *cases, const struct row *rows,
-                        const struct figure_axes *axes, int number)
+                        const struct figure_axes *axes, int number, double noise)
 {
     const struct distinct x = distinct_of(cases, axes->x), y = distinct_of(cases, axes->curves);
-    chart_heights(panel, x.count, y.count, 0.1);
+    chart_heights(panel, number == ROW_EZ ? "e_z" : "e_x", x.count, y.count, noise);
     struct heights *h = &panel->heights;
     for (size_t i = 0; i < x.count; i++)
         h->x[i] = cell_number(cases, x.row[i], axes->x);
@@ -340,8 +373,9 @@ bool figure_of_cases(const char *path, const struct settings *settings, const st
     write_description(&settings->values, chart->description, sizeof chart->description);
     label_panels(chart, cases, &axes, settings->contours);
     if (settings->contours) {
-        add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ);
-        add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX);
+        const double noise = 2 * settings->solver.tolerance;
+        add_heights(&chart->panel[0], cases, rows, &axes, ROW_EZ, noise);
+        add_heights(&chart->panel[1], cases, rows, &axes, ROW_EX, noise);
     } else {
         add_curves(chart, cases, rows, &axes);
     }

@@ -119,7 +119,7 @@ static void draw_contours(struct chart *chart, const struct sweep *sweep, const 
     const struct sweep_figure *f = sweep->figure;
     struct panel *panel = &chart->panel[0];
     axes(panel, "", "δ_1", "ψ", true);
-    chart_heights(panel, f->points, f->curves, 0.1);
+    chart_heights(panel, "e_x", f->points, f->curves, 0);
     for (size_t j = 0; j < f->curves; j++) {
         panel->heights.y[j] = sweep->samples[j * f->points].numbers.psi;
         for (size_t i = 0; i < f->points; i++) {

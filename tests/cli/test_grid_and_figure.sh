@@ -72,11 +72,15 @@ refused 'more than two columns' pair --input three.csv --figure rows.svg
 refused 'no columns' pair --input none.csv --figure rows.svg
 sed '$d' cases.csv >hole.csv
 refused 'no full grid' pair --input hole.csv --figure rows.svg --contours
+sed '$s/4,1$/2.0,1/' cases.csv >twice.csv # as many rows as nodes: one twice, one never
+refused 'no full grid' pair --input twice.csv --figure rows.svg --contours
+sed '$s/^1,4/1.0,4e0/' cases.csv >written.csv
+expect 0 pair --input written.csv --figure rows.svg --contours
 refused 'needs two columns or axes' pair --grid psi=1:2:3 --figure rows.svg --contours
 refused 'no numbers to be an axis' pair --radius 0.01 --density 7800 --friction 0.3 --velocity 1 \
     --grid material=steel.json:aluminium.json --figure rows.svg
 refused '--contours: needs --figure' pair --grid psi=1:2:3 --contours
-refused 'curves of psi: must be less than' pair --delta1 1 --gamma 1 --grid psi=0:5:60,chi=1:2:2 --figure rows.svg
+refused 'curves of psi: must be at most 15' pair --delta1 1 --gamma 1 --grid psi=0:5:16,chi=1:2:16 --figure rows.svg
 
 # Shards of a file, joined, are the whole, byte by byte; in another order they are refused.
 expect 0 pair --input cases.csv --output whole.csv
@@ -89,3 +93,14 @@ rm -f again.csv.partial*
 refused 'is an input of this run' pair --input cases.csv --join part1.csv --output part1.csv
 refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --figure a.svg
 refused 'has no rows' pair --input cases.csv --shard 1/20
+
+# Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi does not change.
+contours() { # TEXT ARGUMENT...: the text stands in the figure
+    text=$1
+    shift
+    expect 0 pair "$@" --method sync --output narrow.csv --figure narrow.svg --contours
+    has narrow.svg "$text"
+}
+contours ' = 1 everywhere' --delta1 0 --gamma 0 --grid chi=1:2:6,psi=1:5:6
+contours '>0.555<' --gamma 1 --grid delta1=2:3:6,psi=1.5:2:6
+contours ' = 0.7792 everywhere' --gamma 1 --delta1 1 --grid chi=1:2:6,psi=1:5:6
