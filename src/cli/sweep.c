@@ -9,6 +9,7 @@
 #include "batch.h"
 #include "gnuplot.h"
 #include "output.h"
+#include "places.h"
 #include "rows_hdf5.h"
 #include "sweep_charts.h"
 
@@ -135,6 +136,32 @@ static int run_figure(const struct settings *given, const struct sweep_figure *f
     return status;
 }
 
+/* The material can be read, and neither it nor its series is a file that a figure writes. */
+static bool check_material(const struct settings *settings, const struct sweep_figure *figure, struct reason *why)
+{
+    static const char *const endings[] = {".csv", ".csv.meta.json", ".csv.partial", ".csv.partial.json",
+                                          "-curves.csv", ".h5", ".svg", ".pdf"};
+    const char *folder = settings->text[TEXT_OUTPUT];
+    struct materials materials = {0};
+    struct places places = {0};
+    if (!settings->values.material) return true;
+    if (figure && figure->kind != SWEEP_TEMPERATURE)
+        return refuse(why, "--material: only with the figure temperature, or all");
+    bool good = materials_get(&materials, settings->values.material, why);
+    places_read_materials(&places, &materials);
+    for (size_t i = 0; i < sweep_figure_count; i++)
+        for (size_t k = 0; k < sizeof endings / sizeof *endings && (!figure || figure == &sweep_figures[i]); k++) {
+            const struct sweep sweep = {.figure = &sweep_figures[i], .folder = folder ? folder : "."};
+            char *path = file_of(&sweep, endings[k]);
+            places_write(&places, "--output", path);
+            free(path);
+        }
+    struct reason other;
+    good = places_check(&places, good ? why : &other) && good;
+    materials_release(&materials);
+    return good;
+}
+
 /* An impact of the user has no place in a figure whose impacts are drawn. */
 static bool check_options(const struct settings *settings, const struct sweep_figure *figure, struct reason *why)
 {
@@ -157,6 +184,7 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
                            "examples/materials/polyisobutylene.json");
     if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
         return refuse(why, "--output = %.200s: must be a folder, for the files of the figure", folder);
+    if (!check_material(settings, figure, why)) return false;
     return settings->text[TEXT_SHARD] || gnuplot_check("figure.svg", why);
 }
 

@@ -77,6 +77,18 @@ refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
 refused 'is missing' sweep
 
+# A figure does not write over the material that it reads.
+mkdir own
+cp "$materials/polyisobutylene.json" own/m.json
+for ending in -curves.csv .svg .csv; do
+    cp "$materials/polyisobutylene.csv" own/temperature$ending
+    sed -i 's/"prony_csv": ".*"/"prony_csv": "temperature'$ending'"/' own/m.json
+    refused 'would be overwritten' sweep temperature --material own/m.json --output own
+    cmp -s "$materials/polyisobutylene.csv" own/temperature$ending || fail "an input is lost"
+done
+refused 'none.json' sweep all --material none.json --output one
+refused 'only with the figure temperature' sweep fig4 --material own/m.json --output one
+
 # A solid of numbers is the same as its file; a shift of times as a file with other times.
 cat >solid.json <<'END'
 {"name": "s", "poisson_ratio": 0.4, "model": "standard_solid", "modulus1_pa": 1e6, "modulus2_pa": 3e6, "viscosity_pa_s": 300}
