@@ -270,7 +270,8 @@ static void draw_friction(struct chart *chart, const struct sweep *sweep)
             restitute_ledger ledger;
             restitute_result_init(&result);
             restitute_ledger_init(&ledger);
-            if (restitute_solve(solver, &impact, &result, &ledger, NULL, NULL) < 0) continue;
+            if (restitute_solve(solver, &impact, &result, &ledger, NULL, NULL) < 0)
+                ledger.friction_x = ledger.viscous_x = NAN;
             series_add(slip, psi, ledger.friction_x);
             series_add(material, psi, ledger.viscous_x + ledger.left_x);
         }
