@@ -77,6 +77,9 @@ refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
 refused 'is missing' sweep
 
+# Seeds that put Maxwell impacts close to the limit of rebound.
+for seed in 3 6 13; do expect 0 sweep tangent --seed $seed --output one; done
+
 # A figure does not write over the material that it reads.
 mkdir own
 cp "$materials/polyisobutylene.json" own/m.json
