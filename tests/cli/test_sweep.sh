@@ -64,10 +64,9 @@ expect 0 sweep fig4 --output two --join 2
 cmp one/fig4.csv two/fig4.csv && cmp one/fig4.svg two/fig4.svg || fail "joined shards give another figure"
 (cd two && sed 's/,sync,/,euler,/' fig4-2of2.csv >other && mv other fig4-2of2.csv)
 rm -f two/fig4.csv
-refused 'does not belong to these cases' sweep fig4 --output two --join 2
-rm -f two/fig4.csv.partial*
+refused 'is not the next shard' sweep fig4 --output two --join 2
 refused 'tolerance of this run differs' sweep fig4 --output two --join 2 --tolerance 1e-4
-rm -f two/fig4.csv.partial*
+absent two/fig4.csv.partial two/fig4.csv.partial.json
 
 # Without rows no figure is lost, and what is wrong is said before anything is drawn.
 refused 'must be fig4 to fig11' sweep fig3
