@@ -185,6 +185,12 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
                            "examples/materials/polyisobutylene.json");
     if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
         return refuse(why, "--output = %.200s: must be a folder, for the files of the figure", folder);
+    for (size_t i = 0; i < sweep_figure_count; i++) {
+        const struct sweep_figure *f = &sweep_figures[i];
+        if ((!figure || figure == f) && settings->shards > f->curves * f->points)
+            return refuse(why, "--shard = %.60s: K is at most %zu, the rows of %s", text[TEXT_SHARD],
+                          f->curves * f->points, f->name);
+    }
     if (!check_material(settings, figure, why)) return false;
     return settings->text[TEXT_SHARD] || gnuplot_check("figure.svg", why);
 }

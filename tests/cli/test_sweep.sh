@@ -74,6 +74,7 @@ refused 'must be a folder' sweep fig4 --output none
 refused '--material is missing' sweep temperature
 refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
+refused 'K is at most 64, the rows of fig10' sweep all --shard 1/65 --output one
 refused 'is missing' sweep
 
 # Seeds that put Maxwell impacts close to the limit of rebound.
