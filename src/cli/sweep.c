@@ -174,6 +174,9 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
     struct stat status;
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (text[foreign[i]]) return refuse(why, "%s: not with a figure that has a name", names[i]);
+    if (settings->solver.tolerance < 1e-6)
+        return refuse(why, "--tolerance = %.64s: must be at least 1e-6 with a figure that has a name; its lines are "
+                      "solved with a hundredth", text[TEXT_TOLERANCE]);
     if (settings->values.rotation_blocked >= 0)
         return refuse(why, "--rotation-blocked: not with a figure that has a name");
     for (enum field field = 0; field < FIELD_COUNT; field++)

@@ -75,6 +75,7 @@ refused '--material is missing' sweep temperature
 refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
 refused 'K is at most 64, the rows of fig10' sweep all --shard 1/65 --output one
+refused 'must be at least 1e-6' sweep fig4 --tolerance 1e-7
 refused 'is missing' sweep
 
 # Seeds that put Maxwell impacts close to the limit of rebound.
