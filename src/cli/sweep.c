@@ -1,5 +1,7 @@
 /* Figures with a name, one after the other: each is a batch of its own, whose rows become files, a chart and checks.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include "sweep.h"
 
 #include <stdlib.h>
@@ -186,8 +188,6 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
     if (figure && figure->kind == SWEEP_TEMPERATURE && !settings->values.material)
         return refuse(why, "--material is missing: the figure temperature needs that of polyisobutylene, "
                            "examples/materials/polyisobutylene.json");
-    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
-        return refuse(why, "--output = %.200s: must be a folder, for the files of the figure", folder);
     for (size_t i = 0; i < sweep_figure_count; i++) {
         const struct sweep_figure *f = &sweep_figures[i];
         if ((!figure || figure == f) && settings->shards > f->curves * f->points)
@@ -195,7 +195,10 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
                           f->curves * f->points, f->name);
     }
     if (!check_material(settings, figure, why)) return false;
-    return settings->text[TEXT_SHARD] || gnuplot_check("figure.svg", why);
+    if (!settings->text[TEXT_SHARD] && !gnuplot_check("figure.svg", why)) return false;
+    if (mkdir(folder, 0777) != 0 && (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)))
+        return refuse(why, "--output = %.200s: must be a folder, or a new one in a folder that there is", folder);
+    return true;
 }
 
 int sweep_run(const struct settings *given)

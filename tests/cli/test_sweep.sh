@@ -6,7 +6,7 @@ command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
 python=$(command -v python3 || true)
 
 # A figure: all its files, the scatter below the tolerance, no check failed; a rerun writes the same bytes.
-mkdir one two
+mkdir two
 for figure in fig4 fig5 fig6 fig11 maxwell tangent friction; do
     expect 0 sweep $figure --output one
     has out 'scatter of e_z' 'scatter of e_x' ': ok'
@@ -70,7 +70,10 @@ absent two/fig4.csv.partial two/fig4.csv.partial.json
 
 # Without rows no figure is lost, and what is wrong is said before anything is drawn.
 refused 'must be fig4 to fig11' sweep fig3
-refused 'must be a folder' sweep fig4 --output none
+touch file
+refused 'must be a folder' sweep fig4 --output file
+refused 'must be a folder' sweep fig4 --output none/below
+absent none
 refused '--material is missing' sweep temperature
 refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
