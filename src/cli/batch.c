@@ -25,6 +25,11 @@ static void on_signal(int number)
     interrupted = 1;
 }
 
+bool batch_interrupted(void)
+{
+    return interrupted;
+}
+
 /* A signal that whoever started us chose to ignore, as nohup and a shell's background jobs do, stays ignored. */
 static void catch_signal(int number)
 {

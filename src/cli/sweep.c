@@ -75,6 +75,12 @@ static int finish(void *context, const struct cases *cases, const struct row *ro
     const struct sweep *sweep = context;
     struct reason why;
     struct chart *chart = sweep_chart(sweep, cases, rows);
+    if (batch_interrupted()) {
+        chart_release(chart);
+        json_decref(record);
+        complain("interrupted while %s is drawn; make it again", sweep->figure->name);
+        return EXIT_INTERRUPTED;
+    }
     printf("%s: %s\n", sweep->figure->name, sweep->figure->title);
     const bool good = write_files(sweep, cases, rows, chart, record, &why);
     const int failed = sweep_check(sweep, rows, chart);
@@ -220,6 +226,10 @@ int sweep_run(const struct settings *given)
         if (!one && figure->kind == SWEEP_TEMPERATURE && !settings.values.material) {
             printf("%s: left out, needs --material\n", figure->name);
             continue;
+        }
+        if (batch_interrupted()) {
+            complain("interrupted before %s", figure->name);
+            return EXIT_INTERRUPTED;
         }
         const int status = run_figure(&settings, figure);
         if (status == EXIT_INTERRUPTED) return status;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch.h"
 #include "sweep_slip.h"
 
 void sweep_line(const struct sweep *sweep, size_t curve, double *x, restitute_result *results)
@@ -157,6 +158,7 @@ static void draw_critical(struct chart *chart, const struct sweep *sweep)
         for (size_t i = curve * f->points; i < (curve + 1) * f->points; i++) {
             const struct sweep_numbers *n = &sweep->samples[i].numbers;
             const double formula = restitute_critical_psi(n->chi, sweep->samples[i].ez);
+            if (batch_interrupted()) return;
             const double simulated = sweep_simulated_psi_c(sweep, n, error ? (int64_t)f->curve[curve] : 64);
             series_add(s, n->delta1, error ? fabs(simulated / formula - 1) : simulated);
         }

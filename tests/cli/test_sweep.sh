@@ -140,6 +140,19 @@ absent two/fig5.csv two/fig5.svg
 refused 'left from an interrupted run' $slow
 expect 0 $slow --resume
 cmp one/fig5.csv two/fig5.csv && cmp one/fig5.svg two/fig5.svg || fail "a resumed figure is another"
+# While it is drawn, too.
+"$RESTITUTE" sweep fig10 --output two >out 2>err &
+process=$!
+tries=0
+while [ ! -f two/fig10.csv.meta.json ] && [ $tries -lt 600 ]; do
+    tries=$((tries + 1))
+    sleep 0.05
+done
+kill -TERM $process 2>/dev/null
+wait $process
+[ $? -eq 130 ] || fail "the drawing was not interrupted"
+has err 'interrupted while fig10 is drawn'
+absent two/fig10.svg
 refused '--seed: needs the name of a figure' sweep --grid psi=1:2:3 --seed 1
 refused '--contours: not with a figure' sweep fig4 --contours
 refused '--join: not with --resume' sweep fig4 --join 2 --resume --output two
