@@ -204,7 +204,7 @@ static void draw_maxwell(struct chart *chart, const struct sweep *sweep, const s
     add_curves(z, sweep, rows, ROW_EZ);
     add_curves(x, sweep, rows, ROW_EX);
     add_limit(z, limit, 0, limit, 1, "");
-    add_limit(x, limit, -0.6, limit, 0.6, "no rebound");
+    add_limit(x, limit, -0.6, limit, 0.6, "limit of rebound");
 }
 
 static void draw_temperature(struct chart *chart, const struct sweep *sweep, const struct row *rows)
