@@ -292,9 +292,12 @@ struct chart *sweep_chart(const struct sweep *sweep, const struct cases *cases, 
     for (size_t i = 0; i < chart->panels && kind != SWEEP_FRICTION; i++)
         panel[i].xrange[0] = sweep->figure->low, panel[i].xrange[1] = sweep->figure->high;
     snprintf(chart->title, sizeof chart->title, "%s", sweep->figure->title);
+    const char *slash = sweep->material ? strrchr(sweep->material, '/') : NULL;
     if (kind == SWEEP_TEMPERATURE)
         snprintf(chart->description, sizeof chart->description,
-                 "steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted after Williams, Landel and Ferry");
+                 "%.100s; steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted as polyisobutylene's "
+                 "(Williams, Landel and Ferry)",
+                 slash ? slash + 1 : sweep->material);
     else
         snprintf(chart->description, sizeof chart->description, "χ = 7/6; %zu impacts drawn in SI units, seed %u",
                  cases->rows, sweep->settings->seed);

@@ -28,7 +28,7 @@ const struct sweep_figure sweep_figures[] = {
      10},
     {"maxwell", "Maxwell body", SWEEP_MAXWELL, 4, 48, {0.5, 1, 2, 3}, 0.1, 100},
     {"temperature",
-     "Polyisobutylene at six temperatures",
+     "Restitution at six temperatures",
      SWEEP_TEMPERATURE,
      6,
      41,
