@@ -25,6 +25,11 @@ static void on_signal(int number)
     interrupted = 1;
 }
 
+bool batch_interrupted(void)
+{
+    return interrupted;
+}
+
 /* A signal that whoever started us chose to ignore, as nohup and a shell's background jobs do, stays ignored. */
 static void catch_signal(int number)
 {
@@ -199,13 +204,14 @@ static bool take_shards(struct batch *batch, struct reason *why)
         batch->done += good ? count : 0;
     }
     free(list);
+    if (!good) partial_remove(&batch->partial);
     return good;
 }
 
 /* All rows, or as many as there is time and room for. */
 static bool solve_rows(struct batch *batch, struct reason *why)
 {
-    bool good = take_shards(batch, why);
+    bool good = true;
     batch->begin = seconds_now();
     batch->resumed = batch->done;
     for (size_t i = 0; i < batch->done; i++)
@@ -292,7 +298,7 @@ int batch_run(const struct settings *settings, const struct batch_maker *maker)
     struct reason why;
     int status;
     batch.path = output_is_stream(settings->text[TEXT_OUTPUT]) ? NULL : settings->text[TEXT_OUTPUT];
-    if (!prepare(&batch, &why)) {
+    if (!prepare(&batch, &why) || !take_shards(&batch, &why)) {
         status = complain("%s", why.text);
     } else {
         catch_signal(SIGINT);

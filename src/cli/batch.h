@@ -17,4 +17,7 @@ struct batch_maker {
 /* maker: NULL for --input and --grid. Returns the exit status. */
 int batch_run(const struct settings *settings, const struct batch_maker *maker);
 
+/* A signal asked the program to stop. */
+bool batch_interrupted(void);
+
 #endif

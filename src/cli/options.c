@@ -154,7 +154,7 @@ static const char sweep_footer[] =
     "Impacts are drawn at random in SI units; their scatter about the curves of the dimensionless numbers is printed.\n"
     "The method is sync and the tolerance 1e-5, if not said otherwise. Of the options above a figure with a name "
     "takes\n"
-    "those of the solution, --output, --threads, --resume, --shard and --join (K, or files, with one figure).\n"
+    "those of the solution, --output, --threads, --resume, --shard and --join K, the number of shards.\n"
     "\nOr any other, as with restitute pair --grid and --input:\n"
     "  restitute sweep --gamma 0.1 --grid psi=0.1:5:50,delta1=0.01:100:50:log --output g.csv --figure g.svg "
     "--contours\n"

@@ -65,9 +65,9 @@ static bool read_done(const char *path, const struct cases *cases, const struct 
             *count = i + 1;
     }
     restitute_csv_destroy(csv);
-    return good ? true
-                : refuse(why, "%.200s line %zu: does not belong to these cases; remove it to start anew", path,
-                         *count + 2);
+    return good || refuse(why, "%.200s line %zu: %s", path, *count + 2,
+                          settings->text[TEXT_JOIN] ? "is not the next shard: give all, in their order"
+                                                    : "does not belong to these cases; remove it to start anew");
 }
 
 bool partial_join(const char *path, const struct cases *cases, const struct settings *settings,

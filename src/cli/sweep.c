@@ -1,5 +1,7 @@
 /* Figures with a name, one after the other: each is a batch of its own, whose rows become files, a chart and checks.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
 #include "sweep.h"
 
 #include <stdlib.h>
@@ -9,12 +11,14 @@
 #include "batch.h"
 #include "gnuplot.h"
 #include "output.h"
+#include "places.h"
 #include "rows_hdf5.h"
 #include "sweep_charts.h"
 
 static bool make(void *context, struct cases *cases, struct reason *why)
 {
-    if (!sweep_plan(context, why)) return false;
+    (void)why;
+    sweep_plan(context);
     sweep_cases(context, cases);
     return true;
 }
@@ -71,6 +75,12 @@ static int finish(void *context, const struct cases *cases, const struct row *ro
     const struct sweep *sweep = context;
     struct reason why;
     struct chart *chart = sweep_chart(sweep, cases, rows);
+    if (batch_interrupted()) {
+        chart_release(chart);
+        json_decref(record);
+        complain("interrupted while %s is drawn; make it again", sweep->figure->name);
+        return EXIT_INTERRUPTED;
+    }
     printf("%s: %s\n", sweep->figure->name, sweep->figure->title);
     const bool good = write_files(sweep, cases, rows, chart, record, &why);
     const int failed = sweep_check(sweep, rows, chart);
@@ -135,6 +145,32 @@ static int run_figure(const struct settings *given, const struct sweep_figure *f
     return status;
 }
 
+/* The material can be read, and neither it nor its series is a file that a figure writes. */
+static bool check_material(const struct settings *settings, const struct sweep_figure *figure, struct reason *why)
+{
+    static const char *const endings[] = {".csv", ".csv.meta.json", ".csv.partial", ".csv.partial.json",
+                                          "-curves.csv", ".h5", ".svg", ".pdf"};
+    const char *folder = settings->text[TEXT_OUTPUT];
+    struct materials materials = {0};
+    struct places places = {0};
+    if (!settings->values.material) return true;
+    if (figure && figure->kind != SWEEP_TEMPERATURE)
+        return refuse(why, "--material: only with the figure temperature, or all");
+    bool good = materials_get(&materials, settings->values.material, why);
+    places_read_materials(&places, &materials);
+    for (size_t i = 0; i < sweep_figure_count; i++)
+        for (size_t k = 0; k < sizeof endings / sizeof *endings && (!figure || figure == &sweep_figures[i]); k++) {
+            const struct sweep sweep = {.figure = &sweep_figures[i], .folder = folder ? folder : "."};
+            char *path = file_of(&sweep, endings[k]);
+            places_write(&places, "--output", path);
+            free(path);
+        }
+    struct reason other;
+    good = places_check(&places, good ? why : &other) && good;
+    materials_release(&materials);
+    return good;
+}
+
 /* An impact of the user has no place in a figure whose impacts are drawn. */
 static bool check_options(const struct settings *settings, const struct sweep_figure *figure, struct reason *why)
 {
@@ -146,6 +182,9 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
     struct stat status;
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
         if (text[foreign[i]]) return refuse(why, "%s: not with a figure that has a name", names[i]);
+    if (settings->solver.tolerance < 1e-6)
+        return refuse(why, "--tolerance = %.64s: must be at least 1e-6 with a figure that has a name; its lines are "
+                      "solved with a hundredth", text[TEXT_TOLERANCE]);
     if (settings->values.rotation_blocked >= 0)
         return refuse(why, "--rotation-blocked: not with a figure that has a name");
     for (enum field field = 0; field < FIELD_COUNT; field++)
@@ -155,9 +194,17 @@ static bool check_options(const struct settings *settings, const struct sweep_fi
     if (figure && figure->kind == SWEEP_TEMPERATURE && !settings->values.material)
         return refuse(why, "--material is missing: the figure temperature needs that of polyisobutylene, "
                            "examples/materials/polyisobutylene.json");
-    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
-        return refuse(why, "--output = %.200s: must be a folder, for the files of the figure", folder);
-    return settings->text[TEXT_SHARD] || gnuplot_check("figure.svg", why);
+    for (size_t i = 0; i < sweep_figure_count; i++) {
+        const struct sweep_figure *f = &sweep_figures[i];
+        if ((!figure || figure == f) && settings->shards > f->curves * f->points)
+            return refuse(why, "--shard = %.60s: K is at most %zu, the rows of %s", text[TEXT_SHARD],
+                          f->curves * f->points, f->name);
+    }
+    if (!check_material(settings, figure, why)) return false;
+    if (!settings->text[TEXT_SHARD] && !gnuplot_check("figure.svg", why)) return false;
+    if (mkdir(folder, 0777) != 0 && (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)))
+        return refuse(why, "--output = %.200s: must be a folder, or a new one in a folder that there is", folder);
+    return true;
 }
 
 int sweep_run(const struct settings *given)
@@ -180,8 +227,12 @@ int sweep_run(const struct settings *given)
             printf("%s: left out, needs --material\n", figure->name);
             continue;
         }
+        if (batch_interrupted()) {
+            complain("interrupted before %s", figure->name);
+            return EXIT_INTERRUPTED;
+        }
         const int status = run_figure(&settings, figure);
-        if (status == EXIT_INTERRUPTED || status == EXIT_USAGE) return status;
+        if (status == EXIT_INTERRUPTED) return status;
         if (status > worst) worst = status;
     }
     return worst;

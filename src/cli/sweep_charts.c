@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch.h"
 #include "sweep_slip.h"
 
 void sweep_line(const struct sweep *sweep, size_t curve, double *x, restitute_result *results)
@@ -157,6 +158,7 @@ static void draw_critical(struct chart *chart, const struct sweep *sweep)
         for (size_t i = curve * f->points; i < (curve + 1) * f->points; i++) {
             const struct sweep_numbers *n = &sweep->samples[i].numbers;
             const double formula = restitute_critical_psi(n->chi, sweep->samples[i].ez);
+            if (batch_interrupted()) return;
             const double simulated = sweep_simulated_psi_c(sweep, n, error ? (int64_t)f->curve[curve] : 64);
             series_add(s, n->delta1, error ? fabs(simulated / formula - 1) : simulated);
         }
@@ -202,7 +204,7 @@ static void draw_maxwell(struct chart *chart, const struct sweep *sweep, const s
     add_curves(z, sweep, rows, ROW_EZ);
     add_curves(x, sweep, rows, ROW_EX);
     add_limit(z, limit, 0, limit, 1, "");
-    add_limit(x, limit, -0.6, limit, 0.6, "no rebound");
+    add_limit(x, limit, -0.6, limit, 0.6, "limit of rebound");
 }
 
 static void draw_temperature(struct chart *chart, const struct sweep *sweep, const struct row *rows)
@@ -270,7 +272,8 @@ static void draw_friction(struct chart *chart, const struct sweep *sweep)
             restitute_ledger ledger;
             restitute_result_init(&result);
             restitute_ledger_init(&ledger);
-            if (restitute_solve(solver, &impact, &result, &ledger, NULL, NULL) < 0) continue;
+            if (restitute_solve(solver, &impact, &result, &ledger, NULL, NULL) < 0)
+                ledger.friction_x = ledger.viscous_x = NAN;
             series_add(slip, psi, ledger.friction_x);
             series_add(material, psi, ledger.viscous_x + ledger.left_x);
         }
@@ -289,9 +292,12 @@ struct chart *sweep_chart(const struct sweep *sweep, const struct cases *cases, 
     for (size_t i = 0; i < chart->panels && kind != SWEEP_FRICTION; i++)
         panel[i].xrange[0] = sweep->figure->low, panel[i].xrange[1] = sweep->figure->high;
     snprintf(chart->title, sizeof chart->title, "%s", sweep->figure->title);
+    const char *slash = sweep->material ? strrchr(sweep->material, '/') : NULL;
     if (kind == SWEEP_TEMPERATURE)
         snprintf(chart->description, sizeof chart->description,
-                 "steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted after Williams, Landel and Ferry");
+                 "%.100s; steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted as polyisobutylene's "
+                 "(Williams, Landel and Ferry)",
+                 slash ? slash + 1 : sweep->material);
     else
         snprintf(chart->description, sizeof chart->description, "χ = 7/6; %zu impacts drawn in SI units, seed %u",
                  cases->rows, sweep->settings->seed);

@@ -12,6 +12,12 @@ static int check(const char *what, double value, double low, double high)
     return !good;
 }
 
+/* The larger one; NaN stays, and fails the check. */
+static double worst(double a, double b)
+{
+    return isnan(a) || a > b ? a : b;
+}
+
 /* How far the impacts in SI units lie from what their dimensionless numbers give. */
 static int check_scatter(const struct sweep *sweep, const struct row *rows)
 {
@@ -20,8 +26,8 @@ static int check_scatter(const struct sweep *sweep, const struct row *rows)
     for (size_t i = 0; i < sweep->count; i++) {
         const struct sweep_sample *s = &sweep->samples[i];
         if (!rows[i].solved) continue;
-        ez = fmax(ez, fabs(rows[i].number[ROW_EZ] - s->ez));
-        if (isfinite(rows[i].number[ROW_CONTACT_TIME])) ex = fmax(ex, fabs(rows[i].number[ROW_EX] - s->ex));
+        ez = worst(ez, fabs(rows[i].number[ROW_EZ] - s->ez));
+        if (isfinite(rows[i].number[ROW_CONTACT_TIME])) ex = worst(ex, fabs(rows[i].number[ROW_EX] - s->ex));
     }
     return check("scatter of e_z about the curves", ez, 0, tolerance) +
            check("scatter of e_x about the curves", ex, 0, tolerance);
@@ -56,7 +62,7 @@ static int check_kelvin_voigt(const struct sweep *sweep, const struct chart *cha
     const double small = sqrt(32.0 / 15) * 1e-3, large = sqrt(32.0 / 15) * 100;
     double rise = -1;
     for (size_t i = 1; i < line->count; i++)
-        rise = fmax(rise, line->y[i] - line->y[i - 1]);
+        rise = worst(rise, line->y[i] - line->y[i - 1]);
     return check("largest rise of e_z between neighbours", rise, -1, 0) +
            check("(1 - e_z)/theta at delta1 = 0.001, in the limit 1.8917",
                  (1 - solve(sweep, numbers(0, 1e-3, 0)).ez) / small, 1.87, 1.8918) +
@@ -126,16 +132,16 @@ static int check_no_slip(const struct sweep *sweep)
 /* 64 elements of a scheme of first order: 8e-5 where it is worst. */
 static int check_psi_c(const struct chart *chart, const struct sweep *sweep)
 {
-    double worst = 0;
+    double most = 0;
     for (size_t curve = 0; curve < sweep->figure->curves; curve++) {
         const struct series *s = &chart->panel[0].series[2 * curve + 1];
         for (size_t i = 0; i < s->count; i++) {
             const struct sweep_sample *sample = &sweep->samples[curve * sweep->figure->points + i];
             const double formula = restitute_critical_psi(sample->numbers.chi, sample->ez);
-            worst = fmax(worst, fabs(s->y[i] / formula - 1));
+            most = worst(most, fabs(s->y[i] / formula - 1));
         }
     }
-    return check("largest difference of simulations with 64 elements from (31)", worst, 0, 1.5e-4);
+    return check("largest difference of simulations with 64 elements from (31)", most, 0, 1.5e-4);
 }
 
 /* Half the difference with twice the elements, at every delta1: the formula is the limit. */
@@ -144,8 +150,8 @@ static int check_convergence(const struct chart *chart)
     const struct series *coarse = &chart->panel[0].series[chart->panel[0].count - 2], *fine = coarse + 1;
     double least = INFINITY, most = 0;
     for (size_t i = 0; i < fine->count; i++) {
-        least = fmin(least, fine->y[i] / coarse->y[i]);
-        most = fmax(most, fine->y[i] / coarse->y[i]);
+        least = -worst(-least, -fine->y[i] / coarse->y[i]);
+        most = worst(most, fine->y[i] / coarse->y[i]);
     }
     return check("difference with 64 elements over that with 32, least", least, 0.42, 0.58) +
            check("the same, largest", most, 0.42, 0.58);
@@ -179,15 +185,19 @@ static double distance(const struct series *kelvin_voigt, double x, double y)
 
 static int check_tangent(const struct chart *chart)
 {
-    double worst = 0, small = 0;
+    double most = 0, small = 0;
+    size_t outside = 0;
     const struct panel *panel = &chart->panel[0];
+    const struct series *first = &panel->series[0];
     for (size_t curve = 1; curve < panel->count; curve++)
         for (size_t i = 0; i < panel->series[curve].count; i++) {
             const double x = panel->series[curve].x[i], d = distance(&panel->series[0], x, panel->series[curve].y[i]);
-            worst = fmax(worst, d);
-            if (x < 0.3) small = fmax(small, d);
+            outside += !(first->count > 0 && x >= first->x[0] && x < first->x[first->count - 1]);
+            most = worst(most, d);
+            if (x < 0.3) small = worst(small, d);
         }
-    return check("largest distance from Kelvin-Voigt at equal loss tangent", worst, 0, 0.13) +
+    printf("  %zu points left out: no Kelvin-Voigt impact has their loss tangent\n", outside);
+    return check("largest distance from Kelvin-Voigt at equal loss tangent", most, 0, 0.13) +
            check("the same at loss tangents below 0.3", small, 0, 0.09);
 }
 
@@ -198,7 +208,7 @@ static int check_friction(const struct sweep *sweep, const struct chart *chart)
     const double ex = solve(sweep, numbers(6, 0, INFINITY)).ex;
     double most = 0;
     for (size_t i = 0; i < material->count; i++)
-        most = fmax(most, fabs(material->y[i]));
+        most = worst(most, fabs(material->y[i]));
     return check("elastic: part to friction at psi = 6 less 1 - e_x^2", slip->y[slip->count - 1] - (1 - ex * ex), -1e-4,
                  1e-4) +
            check("elastic: largest part to the material", most, 0, 1e-2);

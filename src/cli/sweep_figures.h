@@ -51,7 +51,7 @@ struct sweep {
 };
 
 /* Draw the samples of a figure and solve their dimensionless numbers. */
-bool sweep_plan(struct sweep *sweep, struct reason *why);
+void sweep_plan(struct sweep *sweep);
 
 /* The samples as cases. */
 void sweep_cases(const struct sweep *sweep, struct cases *cases);

@@ -88,8 +88,8 @@ for i in 1 2 3; do expect 0 pair --input cases.csv --shard $i/3 --output part$i.
 [ "$(wc -l <part2.csv)" -eq 5 ] || fail "not a third of the rows"
 expect 0 pair --input cases.csv --join part1.csv,part2.csv,part3.csv --output joined.csv --figure joined.svg
 cmp whole.csv joined.csv || fail "joined shards differ from the whole"
-refused 'does not belong to these cases' pair --input cases.csv --join part2.csv --output again.csv
-rm -f again.csv.partial*
+refused 'is not the next shard' pair --input cases.csv --join part2.csv --output again.csv
+absent again.csv.partial again.csv.partial.json
 refused 'is an input of this run' pair --input cases.csv --join part1.csv --output part1.csv
 refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --figure a.svg
 refused 'has no rows' pair --input cases.csv --shard 1/20

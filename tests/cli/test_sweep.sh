@@ -6,7 +6,7 @@ command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
 python=$(command -v python3 || true)
 
 # A figure: all its files, the scatter below the tolerance, no check failed; a rerun writes the same bytes.
-mkdir one two
+mkdir two
 for figure in fig4 fig5 fig6 fig11 maxwell tangent friction; do
     expect 0 sweep $figure --output one
     has out 'scatter of e_z' 'scatter of e_x' ': ok'
@@ -64,18 +64,37 @@ expect 0 sweep fig4 --output two --join 2
 cmp one/fig4.csv two/fig4.csv && cmp one/fig4.svg two/fig4.svg || fail "joined shards give another figure"
 (cd two && sed 's/,sync,/,euler,/' fig4-2of2.csv >other && mv other fig4-2of2.csv)
 rm -f two/fig4.csv
-refused 'does not belong to these cases' sweep fig4 --output two --join 2
-rm -f two/fig4.csv.partial*
+refused 'is not the next shard' sweep fig4 --output two --join 2
 refused 'tolerance of this run differs' sweep fig4 --output two --join 2 --tolerance 1e-4
-rm -f two/fig4.csv.partial*
+absent two/fig4.csv.partial two/fig4.csv.partial.json
 
 # Without rows no figure is lost, and what is wrong is said before anything is drawn.
 refused 'must be fig4 to fig11' sweep fig3
-refused 'must be a folder' sweep fig4 --output none
+touch file
+refused 'must be a folder' sweep fig4 --output file
+refused 'must be a folder' sweep fig4 --output none/below
+absent none
 refused '--material is missing' sweep temperature
 refused 'not with a figure that has a name' sweep fig4 --psi 1
 refused '--shard = "3/2"' sweep fig4 --shard 3/2
+refused 'K is at most 64, the rows of fig10' sweep all --shard 1/65 --output one
+refused 'must be at least 1e-6' sweep fig4 --tolerance 1e-7
 refused 'is missing' sweep
+
+# Seeds that put Maxwell impacts close to the limit of rebound.
+for seed in 3 6 13; do expect 0 sweep tangent --seed $seed --output one; done
+
+# A figure does not write over the material that it reads.
+mkdir own
+cp "$materials/polyisobutylene.json" own/m.json
+for ending in -curves.csv .svg .csv; do
+    cp "$materials/polyisobutylene.csv" own/temperature$ending
+    sed -i 's/"prony_csv": ".*"/"prony_csv": "temperature'$ending'"/' own/m.json
+    refused 'would be overwritten' sweep temperature --material own/m.json --output own
+    cmp -s "$materials/polyisobutylene.csv" own/temperature$ending || fail "an input is lost"
+done
+refused 'none.json' sweep all --material none.json --output one
+refused 'only with the figure temperature' sweep fig4 --material own/m.json --output one
 
 # A solid of numbers is the same as its file; a shift of times as a file with other times.
 cat >solid.json <<'END'
@@ -121,6 +140,19 @@ absent two/fig5.csv two/fig5.svg
 refused 'left from an interrupted run' $slow
 expect 0 $slow --resume
 cmp one/fig5.csv two/fig5.csv && cmp one/fig5.svg two/fig5.svg || fail "a resumed figure is another"
+# While it is drawn, too.
+"$RESTITUTE" sweep fig10 --output two >out 2>err &
+process=$!
+tries=0
+while [ ! -f two/fig10.csv.meta.json ] && [ $tries -lt 600 ]; do
+    tries=$((tries + 1))
+    sleep 0.05
+done
+kill -TERM $process 2>/dev/null
+wait $process
+[ $? -eq 130 ] || fail "the drawing was not interrupted"
+has err 'interrupted while fig10 is drawn'
+absent two/fig10.svg
 refused '--seed: needs the name of a figure' sweep --grid psi=1:2:3 --seed 1
 refused '--contours: not with a figure' sweep fig4 --contours
 refused '--join: not with --resume' sweep fig4 --join 2 --resume --output two
