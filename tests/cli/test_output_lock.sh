@@ -110,7 +110,7 @@ if ! grep -q 'no component table_files' err; then
     expect 0 table build --delta1 0 --tolerance 1e-2 --output fresh.h5 --resume
     absent fresh.h5.partial
 fi
-begin map-stability.csv.partial bench --stability --quick --methods euler --output map
-refused "map-stability.csv.partial $other" bench --stability --quick --methods euler --output map --resume
+begin map-stability.csv.partial bench --stability --methods euler --output map
+refused "map-stability.csv.partial $other" bench --stability --methods euler --output map --resume
 end KILL
-refused 'left from an interrupted run' bench --stability --quick --methods euler --output map
+refused 'left from an interrupted run' bench --stability --methods euler --output map
