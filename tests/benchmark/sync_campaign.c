@@ -2,13 +2,15 @@
  *
  *     sync_campaign COUNT SEED CORNER TOLERANCE,... [METHOD [MAX_UPDATES]]
  *
- * CORNER is a name, "corners" (all but the domains) or "all"; METHOD is sync (default) or euler. Of sync every 64th impact is solved by
- * `euler` and `cvode` too, so that the reference is checked by other methods. The table goes to stdout, one row a corner and
- * tolerance: medians and the like are of the true error over the tolerance, of impacts with status OK or NO_REBOUND. "low" are
- * estimates below the true error. What is called true is what exceeds the estimate of the reference; impacts whose reference
- * is not known to a tenth of the tolerance ("no ref") are not judged. Lines with # explain the row above: messages and the
- * worst cases, each with the command that solves it. Exit status 0: the aims are met, 1: they are not, 2: usage.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * CORNER is a name, "corners" (all but the two domains) or "all". METHOD is sync (default) or euler. Of sync every
+ * 64th impact is solved by `euler` and `cvode` as well, so that other methods check the reference.
+ *
+ * The table goes to stdout, one row a corner and tolerance. Its errors are over the tolerance, of impacts that end with
+ * OK or NO_REBOUND. The true error is what exceeds the estimate of the reference. "low" counts estimates below it. An
+ * impact is not judged ("no ref") if its reference is not known to a tenth of the tolerance. Lines with # below the
+ * rows hold the messages of the first 20 failures and the worst cases, with the commands that solve them again.
+ *
+ * Exit status 0: the aims are met, 1: they are not, 2: usage. SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdlib.h>
@@ -22,7 +24,7 @@
 #include "../support/remarks.h"
 #include "../support/sync.h"
 
-enum { piece = 128, threads = 2, most_rows = 12, every = 64, explained = 200 };
+enum { piece = 128, threads = 2, most_rows = 12, every = 64, explained = 20 };
 
 static const double reference_tolerance = 1e-8;
 static const int64_t reference_updates = 100000000; /* half a second; the tested method has the default */
@@ -33,11 +35,11 @@ enum worst { ERROR, ESTIMATE, FORCE, TIME, WORST };
 /* A method at a tolerance, on one corner. */
 struct row {
     restitute_options options;
-    int step, tested;      /* every so many impacts; the aims are for this row */
+    int step, tested; /* every so many impacts; the aims are for this row */
     long count, refused, sank, not_reached, unjudged, beyond, far, low, far_too_low, bad_force;
     double seconds, longest; /* all pieces, the longest one */
-    double *errors;        /* of those judged with OK or NO_REBOUND, over the tolerance */
-    long judged, compared; /* those, and all that have a reference */
+    double *errors;          /* of those judged with OK or NO_REBOUND, over the tolerance */
+    long judged, compared;   /* those, and all that have a reference */
     double worst[WORST];
     char *worst_command[WORST];
     struct remark remarks[most_remarks];
@@ -114,11 +116,6 @@ static void solve_batch(struct row *row, struct batch *b)
     time_singly(row, b);
 }
 
-static double over(double error, double estimate)
-{
-    return error <= estimate ? 0 : error / estimate; /* 0/0: none is too low */
-}
-
 /* What the row's result is off by, if there is a reference for it. */
 static void compare(struct row *row, const restitute_impact *impact, int status, const restitute_result *r,
                     const restitute_result *fine)
@@ -127,7 +124,7 @@ static void compare(struct row *row, const restitute_impact *impact, int status,
     const double x = certain_error(r->ex, fine->ex, fine->error_ex);
     const int finite = isfinite(r->ez) && isfinite(r->ex) && isfinite(r->error_ez) && isfinite(r->error_ex);
     const double error = (finite ? fmax(z, x) : INFINITY) / row->options.tolerance;
-    const double low = finite ? fmax(over(z, r->error_ez), over(x, r->error_ex)) : INFINITY;
+    const double low = finite ? fmax(too_low_by(z, r->error_ez), too_low_by(x, r->error_ex)) : INFINITY;
     row->compared++;
     row->low += low > 1;
     row->far_too_low += low > 10;
@@ -205,13 +202,11 @@ static void run_corner(const struct campaign_corner *corner, struct campaign_dra
     }
 }
 
-/* ------------------------------------------------------------------------------------------------------ the table */
-
 static void print_head(void)
 {
-    printf("%-15s %-6s %6s %7s %7s %6s %7s %6s %7s %6s %8s %8s %8s %6s %6s %9s %6s %8s %9s %9s\n", "corner", "method",
-           "tol", "n", "refused", "sank", "not met", "no ref", "beyond", "> 3", "median", "99 %", "worst", "low %",
-           "> 10", "worst low", "bad F", "F off", "us/impact", "slowest s");
+    printf("%-15s %-6s %6s %7s %7s %6s %7s %6s %7s %7s %8s %8s %8s %6s %6s %9s %6s %8s %9s %9s\n", "corner", "method",
+           "tol", "n", "refused", "sank", "not_met", "no_ref", "beyond", "beyond3", "median", "99_%", "worst", "low_%",
+           "low>10", "worst_low", "bad_F", "F_off", "us/impact", "slowest_s");
 }
 
 static void print_row(const char *corner, struct row *r)
@@ -221,21 +216,21 @@ static void print_row(const char *corner, struct row *r)
     printf("%-15s %-6s %6.0e %7ld %7ld %6ld %7ld", corner, restitute_method_name(r->options.method),
            r->options.tolerance, r->count, r->refused, r->sank, r->not_reached);
     if (r->compared > 0 && r->judged > 0)
-        printf(" %6ld %7ld %6ld %8.1e %8.1e %8.2g %6.2f %6ld %9.3g %6ld %8.1e", r->unjudged, r->beyond, r->far,
-               e[r->judged / 2], e[r->judged * 99 / 100], e[r->judged - 1], 100.0 * (double)r->low / (double)r->compared,
-               r->far_too_low, r->worst[ESTIMATE], r->bad_force, r->worst[FORCE]);
+        printf(" %6ld %7ld %7ld %8.1e %8.1e %8.2g %6.2f %6ld %9.3g %6ld %8.1e", r->unjudged, r->beyond, r->far,
+               e[r->judged / 2], e[r->judged * 99 / 100], e[r->judged - 1],
+               100.0 * (double)r->low / (double)r->compared, r->far_too_low, r->worst[ESTIMATE], r->bad_force,
+               r->worst[FORCE]);
     else
-        printf(" %6ld %7s %6s %8s %8s %8s %6s %6s %9s %6ld %8s", r->unjudged, "-", "-", "-", "-", "-", "-", "-", "-",
+        printf(" %6ld %7s %7s %8s %8s %8s %6s %6s %9s %6ld %8s", r->unjudged, "-", "-", "-", "-", "-", "-", "-", "-",
                r->bad_force, "-");
     printf(" %9.0f %9.3g\n", 1e6 * r->seconds / (double)(r->count ? r->count : 1), r->worst[TIME]);
 }
 
 static void print_remarks(const struct row *r)
 {
-    static const char *const what[] = {"largest error in tolerances:", "largest error over estimate:",
-                                       "force off by, relatively:", "slowest, s:"};
+    static const char *const what[] = {"error in tolerances:", "error over estimate:", "force off by:", "slowest, s:"};
+    static const double shown_from[] = {1, 5, 0.1, 1};
     const char *method = restitute_method_name(r->options.method);
-    const double shown_from[] = {1, 5, 0.1, 1};
     for (int k = 0; k < most_remarks; k++)
         if (r->remarks[k].count > 0)
             printf("# %s %g: %ld times%s status %d, %s\n#     %s\n", method, r->options.tolerance, r->remarks[k].count,
@@ -247,8 +242,8 @@ static void print_remarks(const struct row *r)
                    r->worst_command[k]);
 }
 
-/* No result with OK beyond three tolerances, none refused, none without a force; estimates hold in 95 %, and within a factor of
- * ten in all; the tolerance is met in 99.5 %. */
+/* No result with OK beyond three tolerances, none refused, none without a force. Estimates hold in 95 %, and within a
+ * factor of ten in all. The tolerance is met in 99.5 %. */
 static int meets_aims(const struct row *r)
 {
     return !r->tested || (r->far == 0 && r->refused == 0 && r->bad_force == 0 && 20 * r->low <= r->compared &&
@@ -272,8 +267,6 @@ static int finish(const char *corner, struct row *rows, int n_rows)
     fflush(stdout);
     return met;
 }
-
-/* ------------------------------------------------------------------------------------------------------- arguments */
 
 static struct row row_of(const restitute_method *method, double tolerance, int step, long count)
 {
@@ -322,10 +315,10 @@ static int is_wanted(const char *wanted, const char *corner)
 
 static int usage(void)
 {
-    fprintf(stderr, "usage: sync_campaign COUNT SEED CORNER|corners|all TOLERANCE,... [sync|euler [MAX_UPDATES]]\n       corners:");
+    fprintf(stderr, "usage: sync_campaign COUNT SEED CORNER TOLERANCE,... [sync|euler [MAX_UPDATES]]\n"
+                    "CORNER is all, corners or one of ");
     for (int i = 0; i < CAMPAIGN_CORNERS; i++)
-        fprintf(stderr, " %s", campaign_corners[i].name);
-    fprintf(stderr, "\n");
+        fprintf(stderr, "%s%s", campaign_corners[i].name, i < CAMPAIGN_CORNERS - 1 ? " " : "\n");
     return 2;
 }
 
