@@ -7,7 +7,8 @@ module rst_collocation
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: stages, point, integral, weights_at, last_coefficient, integrated, start_of, slope_of, root_between, solve_linear
+  public :: stages, point, integral, weights_at, last_coefficient, integrated, start_of, slope_of, root_between
+  public :: applied, composed, solve_linear
 
   integer(ip), parameter :: stages = 6
 
@@ -70,6 +71,26 @@ contains
       total = total + integral(:, j)*y(j)
     end do
   end function integrated
+
+  !> The matrix a, applied to y. (Compilers may call a library for matmul.)
+  pure function applied(a, y) result(z)
+    real(dp), intent(in) :: a(stages, stages), y(stages)
+    real(dp) :: z(stages)
+    integer(ip) :: j
+    z = 0
+    do j = 1, stages
+      z = z + a(:, j)*y(j)
+    end do
+  end function applied
+
+  pure function composed(a, b) result(c)
+    real(dp), intent(in), dimension(stages, stages) :: a, b
+    real(dp) :: c(stages, stages)
+    integer(ip) :: j
+    do j = 1, stages
+      c(:, j) = applied(a, b(:, j))
+    end do
+  end function composed
 
   !> At the start of the panel, the polynomial through the values at the points alone.
   pure function start_of(y) result(start)

@@ -6,7 +6,7 @@
 !> All of it is smooth at first touch (theta = 0) and at the turning point (theta = pi/2).
 module rst_compression_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, integrated, solve_linear
+  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, composed, solve_linear
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mass_factor
   implicit none (type, external)
@@ -109,7 +109,7 @@ contains
     do k = 1, solid%n_arms
       call respond(rate(k), span, kernel, decay, fails)
       if (fails) return
-      loading(1:, k) = decay*loading(0, k) + matmul(kernel, g(k)*span*m%a*m%v)
+      loading(1:, k) = decay*loading(0, k) + applied(kernel, g(k)*span*m%a*m%v)
       m%f = m%f + loading(1:, k)
       do j = 1, stages
         answer(:, j) = answer(:, j) + kernel(:, j)*(g(k)*span(j))
@@ -155,10 +155,10 @@ contains
       pull_a(j, j) = pull_a(j, j) + 2*part(j)*alpha(j)
       by_v(j, j) = by_v(j, j) + part(j)
     end do
-    matrix(:stages, :stages) = -h*matmul(integral, by_a)
-    matrix(:stages, stages + 1:) = -h*matmul(integral, by_v)
-    matrix(stages + 1:, :stages) = h*matmul(integral, pull_a)
-    matrix(stages + 1:, stages + 1:) = h*matmul(integral, pull_v)
+    matrix(:stages, :stages) = -h*composed(integral, by_a)
+    matrix(:stages, stages + 1:) = -h*composed(integral, by_v)
+    matrix(stages + 1:, :stages) = h*composed(integral, pull_a)
+    matrix(stages + 1:, stages + 1:) = h*composed(integral, pull_v)
     do i = 1, 2*stages
       matrix(i, i) = 1 + matrix(i, i)
     end do
@@ -181,8 +181,8 @@ contains
     do k = 1, solid%n_arms
       call respond(rate(k), span, kernel, decay, fails)
       if (fails) return
-      loading(1:, k) = decay*loading(0, k) + matmul(kernel, g(k)*span*m%a*m%v)
-      memory(1:, k) = decay*memory(0, k) + matmul(kernel, g(k)*span*m%v)
+      loading(1:, k) = decay*loading(0, k) + applied(kernel, g(k)*span*m%a*m%v)
+      memory(1:, k) = decay*memory(0, k) + applied(kernel, g(k)*span*m%v)
       m%f = m%f + loading(1:, k)
     end do
     panel%radius(1:) = m%a

@@ -2,6 +2,7 @@
 module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, solve_linear
+  use rst_arms, only: advance
   use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type
   use rst_piece, only: ground_type, lay_ground, advance_memory
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
@@ -107,14 +108,19 @@ contains
     type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: panel
     type(store_type), intent(inout) :: store
+    integer(ip) :: i, k
     store%n_records = panel
     associate (on => normal%panel(panel))
       store%record(panel) = record_type(on%from, on%to, on%to, on%radius, on%time, on%velocity*on%pace, on%velocity*on%pace)
     end associate
-    store%mz(:, :, panel) = normal%memory(:, :, panel)
-    store%mx(:, :, panel) = normal%memory(:, :, panel)
-    store%lz(:, :, panel) = normal%loading(:, :, panel)
-    store%lx(:, :, panel) = normal%loading(:, :, panel)
+    do k = 1, normal%n_arms
+      do i = 0, stages
+        store%mz(i, k, panel) = normal%memory(i, k, panel)
+        store%mx(i, k, panel) = normal%memory(i, k, panel)
+        store%lz(i, k, panel) = normal%loading(i, k, panel)
+        store%lx(i, k, panel) = normal%loading(i, k, panel)
+      end do
+    end do
   end subroutine record_slip
 
   !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end is the start of the next one.
@@ -137,15 +143,17 @@ contains
       do i = 0, stages
         weight = weights_at(ground%place(i))
         do k = 1, normal%n_arms
+          store%mz(i, k, n) = store%now_z(i, k)
+          store%mx(i, k, n) = store%now_x(i, k)
           store%lz(i, k, n) = sum(weight*normal%loading(:, k, ground%panel))
+          store%lx(i, k, n) = store%now_l(i, k)
         end do
       end do
-      store%mz(:, :, n) = store%now_z
-      store%mx(:, :, n) = store%now_x
-      store%lx(:, :, n) = store%now_l
     end if
-    store%now_x(0, :) = store%now_x(stages, :)
-    store%now_l(0, :) = store%now_l(stages, :)
+    do k = 1, normal%n_arms
+      store%now_x(0, k) = store%now_x(stages, k)
+      store%now_l(0, k) = store%now_l(stages, k)
+    end do
   end subroutine keep
 
   !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its slack y stays
@@ -207,10 +215,7 @@ contains
     matrix = ground%answer
     call solve_linear(stages, 1_ip, matrix, right, fails)
     slip = right(:, 1) - (ground%velocity(1:) - side*s%w(1:))
-    do k = 1, normal%n_arms
-      store%now_l(1:, k) = store%decay(:, k)*store%now_l(0, k) &
-                           + matmul(store%kernel(:, :, k), normal%g(k)*ground%span*right(:, 1))
-    end do
+    call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
     lasts = .not. fails .and. all(slip >= -steady)
     call advance_memory(normal, ground, s%w(1:), store)
   end subroutine slide_piece

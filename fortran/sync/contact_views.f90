@@ -24,8 +24,8 @@ module rst_contact_views
   end type contact_type
 
   !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it. The edge
-  !> angle goes from `from` to `to`, and the last point is at `end`, which may be beyond. Arrays mz, lz, mx, lx of store_type are at its points too.
-  type :: record_type
+  !> angle goes from `from` to `to`, and the last point is at `end`, which may be beyond. Arrays mz, lz, mx, lx of store_type are at its points too. Twin of `struct sync_record` in C.
+  type, bind(c) :: record_type
     real(dp) :: from, to, end
     real(dp), dimension(0:stages) :: radius, time, sink, shear  !! sink, shear: D' and U' times |ds/dtheta|
   end type record_type

@@ -1,8 +1,8 @@
 !> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
 module rst_piece
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, integrated, solve_linear
-  use rst_arms, only: respond
+  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, solve_linear
+  use rst_arms, only: respond_all, advance
   use rst_panel, only: panel_type, mass_factor
   use rst_contact_views, only: normal_type, contact_type, store_type
   implicit none (type, external)
@@ -38,7 +38,7 @@ contains
     type(ground_type), intent(out) :: ground
     logical, intent(out) :: fails
     real(dp) :: weight(0:stages), x, slope, width
-    integer(ip) :: i, j, k
+    integer(ip) :: i, k
     ground%panel = panel
     ground%from = from
     ground%to = to
@@ -65,20 +65,9 @@ contains
       do k = 1, normal%n_arms
         store%now_z(i, k) = sum(weight*normal%memory(:, k, panel))
       end do
-      if (i > 0) ground%span(i) = ground%pace(i)*width*slope
+      ground%span(max(i, 1_ip)) = ground%pace(i)*width*slope  ! that of the start is written over
     end do
-    ground%answer = 0
-    fails = .false.
-    do k = 1, normal%n_arms
-      call respond(normal%rate(k), ground%span, store%kernel(:, :, k), store%decay(:, k), fails)
-      if (fails) return
-      do j = 1, stages
-        ground%answer(:, j) = ground%answer(:, j) + store%kernel(:, j, k)*(normal%g(k)*ground%span(j))
-      end do
-    end do
-    do j = 1, stages
-      ground%answer(j, j) = ground%answer(j, j) + normal%eta
-    end do
+    call respond_all(normal%eta, normal%g, normal%rate, ground%span, store%kernel, store%decay, ground%answer, fails)
   end subroutine lay_ground
 
   !> M_k in x at the points, from that at the start and U' = w.
@@ -87,10 +76,7 @@ contains
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: w(stages)
     type(store_type), intent(inout) :: store
-    integer(ip) :: k
-    do k = 1, normal%n_arms
-      store%now_x(1:, k) = store%decay(:, k)*store%now_x(0, k) + matmul(store%kernel(:, :, k), normal%g(k)*ground%span*w)
-    end do
+    call advance(normal%g, ground%span, store%kernel, store%decay, w, store%now_x)
   end subroutine advance_memory
 
   !> All sticks: S at the points is linear in U', S = kept + response U'. While the contact grows
@@ -128,20 +114,17 @@ contains
       end if
     end do
     do j = 1, stages
-      matrix(:, j) = push*matmul(integral, ground%span*response(:, j))
+      matrix(:, j) = push*applied(integral, ground%span*response(:, j))
       matrix(j, j) = 1 + matrix(j, j)
     end do
     right(:, 1) = integrated(w(0), -push*ground%span*kept)
     call solve_linear(stages, 1_ip, matrix, right, fails)
     if (fails) return
     w(1:) = right(:, 1)
-    force(1:) = kept + matmul(response, w(1:))
+    force(1:) = kept + applied(response, w(1:))
     call advance_memory(normal, ground, w(1:), store)
     if (ground%returning) return
-    do k = 1, normal%n_arms
-      store%now_l(1:, k) = store%decay(:, k)*store%now_l(0, k) &
-                           + matmul(store%kernel(:, :, k), normal%g(k)*ground%span*ground%radius(1:)*w(1:))
-    end do
+    call advance(normal%g, ground%span, store%kernel, store%decay, ground%radius(1:)*w(1:), store%now_l)
   end subroutine stick
 
   !> The polynomial through y at the place on the piece, which is between 0 and 1.

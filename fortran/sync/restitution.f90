@@ -6,7 +6,7 @@
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, solve_linear
+  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, solve_linear
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
   implicit none (type, external)
@@ -71,14 +71,16 @@ contains
     type(motion_type), intent(out) :: m
     real(dp), intent(out) :: entry(stages, solid%n_arms, 2)
     real(dp) :: weight(0:stages)
-    integer(ip) :: i, p
+    integer(ip) :: i, k, p
     p = mesh%n_compression
     do i = 1, stages
       call find_angle(new%from + point(i)*(new%to - new%from), mesh%n_compression, panel, p, weight)
       m%entered(i) = sum(weight*panel(p)%time)
       m%radius(i) = sum(weight*panel(p)%radius)
-      entry(i, :, 1) = matmul(weight, memory(:, :, p))
-      entry(i, :, 2) = matmul(weight, loading(:, :, p))
+      do k = 1, solid%n_arms
+        entry(i, k, 1) = sum(weight*memory(:, k, p))
+        entry(i, k, 2) = sum(weight*loading(:, k, p))
+      end do
     end do
   end subroutine recall
 
@@ -163,7 +165,7 @@ contains
     do k = 1, solid%n_arms
       call respond(rate(k), h*m%pace, kernel, decay, fails)
       if (fails) return
-      memory(1:, k) = decay*memory(0, k) + matmul(kernel, g(k)*h*m%pace*m%v)
+      memory(1:, k) = decay*memory(0, k) + applied(kernel, g(k)*h*m%pace*m%v)
       left = 1
       if (rate(k) > 0) left = exp(-rate(k)*since)
       m%open = m%open + (memory(1:, k) - left*entry(:, k, 1))
@@ -194,12 +196,12 @@ contains
       faded(:, j) = (m%pace*m%force_rate)*(h*integral(:, j))
       faded(j, j) = faded(j, j) - m%force(j)
     end do
-    pull = (mass_factor*h)*matmul(integral, faded)  ! of D' to the pace
-    matrix = by_pace + matmul(by_v, pull)
-    right(:, 1) = -m%open - matmul(by_v, miss)
+    pull = (mass_factor*h)*composed(integral, faded)  ! of D' to the pace
+    matrix = by_pace + composed(by_v, pull)
+    right(:, 1) = -m%open - applied(by_v, miss)
     call solve_linear(stages, 1_ip, matrix, right, fails)
     step_pace = right(:, 1)
-    step_v = miss + matmul(pull, step_pace)
+    step_v = miss + applied(pull, step_pace)
   end subroutine newton
 
   pure subroutine note(mesh, h, m, panel)

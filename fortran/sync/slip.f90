@@ -1,7 +1,7 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, solve_linear
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear
   use rst_contact_views, only: normal_type, contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor
   use rst_front, only: slack_type, find_front, held_by
@@ -119,7 +119,7 @@ contains
       end do
       step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
       do j = 1, stages
-        matrix(:, j) = push*matmul(integral, ground%span*s%stick(1:)*ground%answer(:, j))
+        matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
         matrix(j, j) = 1 + matrix(j, j)
       end do
       call solve_linear(stages, 1_ip, matrix, step, fails)

@@ -41,6 +41,7 @@ struct rst_outcome {
     int64_t normal_levels; /* sync: those of the normal problem, a divisor of `elements` */
     struct euler_ledger ledger;
     int sunk;
+    int halvings; /* sync: those of the run that gave the pair */
 };
 
 /* Receives samples of the history in the units of the problem; see restitute_history. */

@@ -1,0 +1,170 @@
+/* The method `sync` (docs/sync.md): the normal motion, then the tangential one on it, each at two resolutions that are compared,
+ * and at finer ones until the estimate meets the tolerance.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "motion.h"
+#include "status.h"
+#include "sync.h"
+#include "tuning.h"
+
+/* One resolution. */
+struct attempt {
+    const struct rst_run *run;
+    int halvings;
+    double velocity, shear_velocity;
+    int walked; /* by elements */
+};
+
+static int slips_to_the_end(const struct rst_problem *problem, double rebound)
+{
+    return problem->mode != RST_NO_SLIP && problem->psi >= rst_critical_psi(problem->chi, rebound);
+}
+
+/* (27) */
+static double full_slip(const struct rst_problem *problem, double velocity)
+{
+    return problem->psi - 2 * problem->chi * (1 - velocity);
+}
+
+static const struct sync_panel *last_panel(const struct rst_run *run)
+{
+    return &run->normal.panel[run->normal.n_panels - 1];
+}
+
+static int too_hard(restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                      "sync did not converge for this solid; use the method euler");
+}
+
+/* The pair at one resolution. */
+static int attempt(struct rst_motion *motion, const struct rst_problem *problem, int halvings, struct attempt *a,
+                   struct rst_outcome *outcome, restitute_error *error)
+{
+    int64_t found;
+    *a = (struct attempt){.run = rst_motion_run(motion, halvings), .halvings = halvings};
+    if (!a->run) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for panels");
+    if (a->run->found == RST_DOES_NOT_CONVERGE) return too_hard(error);
+    a->velocity = a->run->found == RST_STOPS ? 0 : last_panel(a->run)->velocity[rst_stages];
+    outcome->updates += a->run->normal.n_panels * rst_points * (1 + a->run->normal.n_arms);
+    if (problem->mode == RST_FRICTIONLESS || slips_to_the_end(problem, -a->velocity)) {
+        a->shear_velocity = problem->mode == RST_FRICTIONLESS ? problem->psi : full_slip(problem, a->velocity);
+        return RESTITUTE_OK;
+    }
+    if (rst_motion_contact(motion, a->run, problem, halvings, &a->shear_velocity, &found))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
+    outcome->updates += motion->store.n_pieces * rst_points * (1 + a->run->normal.n_arms);
+    if (found == RST_STICKS_AGAIN) return too_hard(error);
+    return RESTITUTE_OK;
+}
+
+/* The largest value that the polynomials of the force have, sampled. */
+static double largest_force(const struct sync_normal *normal)
+{
+    enum { samples = 64 };
+    double largest = 0, weight[rst_points];
+    int64_t at = 0;
+    for (int64_t p = 0; p < normal->n_panels; p++)
+        for (int i = 0; i < rst_points; i++)
+            if (normal->panel[p].force[i] > largest) {
+                largest = normal->panel[p].force[i];
+                at = p;
+            }
+    for (int64_t p = at > 0 ? at - 1 : 0; p <= at + 1 && p < normal->n_panels; p++)
+        for (int i = 0; i <= samples; i++) {
+            double force = 0;
+            rst_sync_weights_at((double)i / samples, weight);
+            for (int j = 0; j < rst_points; j++)
+                force += weight[j] * normal->panel[p].force[j];
+            largest = fmax(largest, force);
+        }
+    return largest;
+}
+
+/* What both attempts say: the finer one, and what they differ by. */
+static void compare(const struct rst_problem *problem, const struct attempt *coarse, const struct attempt *fine,
+                    struct rst_outcome *outcome)
+{
+    const struct sync_normal *n = &fine->run->normal;
+    const struct sync_panel *end = last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
+    const double points = (double)(rst_stages * n->n_compression);
+    const int stops = fine->run->found == RST_STOPS;
+    const double stop_speed = rst_rest_part * problem->tolerance;
+    outcome->velocity = fine->velocity;
+    outcome->shear_velocity = fine->shear_velocity;
+    outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) + rst_rounding + stops * stop_speed;
+    outcome->error_ex =
+        problem->mode == RST_FRICTIONLESS
+            ? 0
+            : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
+                  stops * stop_speed;
+    outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
+    outcome->followed_time = end->time[rst_stages];
+    outcome->max_indentation = turn->depth[rst_stages];
+    outcome->max_contact_radius = sqrt(turn->depth[rst_stages]);
+    outcome->spacing = outcome->max_contact_radius / points;
+    outcome->elements = (int64_t)points;
+    outcome->steps = rst_stages * n->n_panels;
+    outcome->step = outcome->followed_time / (double)outcome->steps;
+    outcome->sunk = stops;
+    outcome->halvings = fine->halvings;
+}
+
+static int meets(const struct rst_problem *problem, const struct rst_outcome *outcome)
+{
+    return fmax(outcome->error_ez, outcome->error_ex) <= rst_acceptance * problem->tolerance;
+}
+
+/* Panels of the first run, and of the last one. */
+static int first_halvings(const struct rst_problem *problem)
+{
+    if (problem->elements > 0) {
+        int halvings = 1;
+        while (halvings < rst_most_halvings - 1 && (rst_stages << (halvings + 2)) <= problem->elements)
+            halvings++;
+        return halvings;
+    }
+    return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
+}
+
+static int conclude(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_error *error)
+{
+    if (meets(problem, outcome)) return rst_done(error);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->tolerance,
+                      outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
+}
+
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    struct rst_motion *motion = rst_motion_of(workspace);
+    struct attempt coarse, fine;
+    if (!motion || rst_motion_begin(motion, problem, 0))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the motion");
+    *outcome = (struct rst_outcome){0};
+    int halvings = first_halvings(problem);
+    int status = attempt(motion, problem, halvings, &coarse, outcome, error);
+    while (!status) {
+        status = attempt(motion, problem, ++halvings, &fine, outcome, error);
+        if (status) break;
+        compare(problem, &coarse, &fine, outcome);
+        if (problem->elements > 0 || halvings == rst_most_halvings || meets(problem, outcome)) break;
+        coarse = fine;
+    }
+    if (status) return status;
+    outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
+    (void)keep_ledger;
+    return conclude(problem, outcome, error);
+}
+
+static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    (void)problem; (void)workspace; (void)outcome; (void)history;
+    return too_hard(error);
+}
+
+const struct restitute_method rst_method_sync = {
+    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = sync_record};

@@ -1,0 +1,31 @@
+/* All tuned numbers of the method `sync`. Those of the estimates are calibrated by the target sync-campaign
+ * (docs/sync.md, "How the error is estimated").
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_TUNING_H
+#define RST_SYNC_TUNING_H
+
+/* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
+ * of the tangential one behind a front and with elements. */
+static const double rst_share_of_change = 0.125, rst_share_of_elements = 0.5;
+
+/* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
+ * give where all is smooth, so that only panels that are not smooth are halved further. */
+static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
+
+/* Panels of the first run are at most (pi/2)/2^halvings wide: halvings = 1 for tolerances from that on, one more for each
+ * factor of 64 below. */
+static const double rst_coarse_above = 3e-5;
+
+/* Newton's steps end when the next one would change velocities by less. */
+static const double rst_closeness = 1e-12;
+
+/* Velocities are known to that in a run, by rounding. */
+static const double rst_rounding = 1e-13;
+
+/* Part of the tolerance below which a rebound is none. */
+static const double rst_rest_part = 0.01;
+
+/* Part of the tolerance that an estimate may take; the rest is for merged terms. */
+static const double rst_acceptance = 0.9;
+
+#endif
