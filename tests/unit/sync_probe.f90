@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c. One motion at a time is held here, in rooms of
-!> fixed size: a test program, not the library, may keep state.
+!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
+!> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_precision, only: dp, ip
@@ -133,7 +133,7 @@ contains
     n_pieces = store%n_pieces
   end function probe_contact
 
-  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left, and U', S, stick radius at y of the piece.
+  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S, stick radius at y of the piece.
   subroutine probe_piece(i, y, panel, range, rooted, motion) bind(c)
     integer(c_int64_t), value :: i
     real(c_double), value :: y
@@ -150,7 +150,7 @@ contains
   end subroutine probe_piece
 
   !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has the
-  !> memories m of the arms in z and x now, and the velocity r of slip; recorded over theta = A. out: radius, H, y at centre and edge.
+  !> memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
   subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, side, out) bind(c)
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: g(n), rate(n), m(n, 2)
