@@ -49,8 +49,9 @@ contains
         if (idle > most_idle) return
       end if
       x = ground%to
-      if (event == stick_ends) exit
       if (event == slip_begins) side = sign(1.0_dp, velocity)
+      if (event == slip_begins .and. store%n_records == 0) event = stick_ends ! nothing has stuck
+      if (event == stick_ends) exit
       if (event == slip_leaves) side = -side
       if (x >= 1) then
         panel = panel + 1

@@ -21,7 +21,7 @@ module rst_normal_motion
 
   !> Twin of `struct sync_normal_control` in C.
   type, bind(c) :: normal_control_type
-    real(dp) :: roughness   !! what the polynomials of a panel may miss of D', A/r and the time over the contact time
+    real(dp) :: roughness   !! what the polynomials of a panel may miss of D', A/r and the time over that of the panel
     real(dp) :: stop_speed  !! a sphere that cannot come back faster has stopped
     integer(ip) :: halvings !! panels are at most (pi/2)/2^halvings wide
     integer(ip) :: capacity !! panels there is room for
@@ -71,10 +71,10 @@ contains
         if (back) then
           call rebound(solid, g, rate, mesh, panel, memory, loading, entry, fails)
         else
-          call compress(solid, g, rate, mesh%radius, mesh%closeness, panel(max(1_ip, n - 1)), panel(n), memory(:, :, n), &
+          call compress(solid, g, rate, mesh, panel(max(1_ip, n - 1)), panel(n), memory(:, :, n), &
                         loading(:, :, n), fails)
         end if
-        if (.not. fails) fails = missed(mesh%radius, panel(n)) > control%roughness
+        if (.not. fails) fails = missed(mesh%radius, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
           found = does_not_converge
@@ -131,12 +131,16 @@ contains
     end if
   end subroutine begin
 
-  pure function missed(r, panel) result(most)
+  !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
+  !> restitution follows from slopes of what the compression left.
+  pure function missed(r, panel, back) result(most)
     real(dp), intent(in) :: r
     type(panel_type), intent(in) :: panel
+    logical, intent(in) :: back
     real(dp) :: most
     most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/r, &
                last_coefficient(panel%time)/panel%time(stages))
+    if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
   end function missed
 
   !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses up to

@@ -19,7 +19,6 @@ module rst_slip
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
-  real(dp), parameter :: backward = 1.0e-8_dp   !! rise of the angle of the front that is rounding
 
   !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in stick,
   !> else the slack at the centre and at the edge. returns: elements that slipped would stick again.
@@ -137,8 +136,8 @@ contains
     do i = 1, stages
       call slacken(normal, store, ground, side, i, s)
     end do
-    s%returns = any(s%front(1:) > s%front(:stages - 1) + backward)
-    if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:))
+    s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
+    if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
   end subroutine slip_behind
 
   !> Front, slack and S at the point i.
@@ -182,19 +181,32 @@ contains
     place = 1
     if (contact%no_slip /= 0) return
     do i = 1, stages
-      if (s%centre(i) < 0) then
+      if (s%centre(i) < merge(0.0_dp, -contact%roughness, abs(side) > 0)) then
         event = merge(stick_ends, slip_begins, abs(side) > 0)
-        place = 0
-        if (s%centre(i - 1) > 0) place = root_between(i, s%centre)
+        place = first_rise(i, -s%centre)
         return
       end if
-      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > 0 .and. s%edge(i - 1) < 0) then
+      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise) then
         event = slip_leaves
-        place = root_between(i, s%edge)
+        place = first_rise(i, s%edge)
         return
       end if
     end do
   end subroutine next_event
+
+  !> Where y, which is positive at the point i, became so; 0: at the start.
+  pure function first_rise(i, y) result(place)
+    integer(ip), intent(in) :: i
+    real(dp), intent(in) :: y(0:stages)
+    real(dp) :: place
+    integer(ip) :: j
+    j = i
+    do while (j > 1 .and. y(j - 1) >= 0)
+      j = j - 1
+    end do
+    place = 0
+    if (y(j - 1) < 0) place = root_between(j, y)
+  end function first_rise
 
   !> The piece that ends at an event: its end is moved by secants until what is zero at the event is.
   subroutine end_at(normal, contact, store, range, side, event, ground, s, fails)

@@ -165,6 +165,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
                                          .roughness = rst_roughness_of(halvings - 1) * fmin(1, problem->psi),
+                                         .noise = rst_roughness_of(halvings - 1),
                                          .closeness = rst_closeness * fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {

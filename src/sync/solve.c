@@ -55,7 +55,8 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
     if (rst_motion_contact(motion, a->run, problem, halvings, &a->shear_velocity, &found))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
     outcome->updates += motion->store.n_pieces * rst_points * (1 + a->run->normal.n_arms);
-    if (found == RST_STICKS_AGAIN) return too_hard(error);
+    if (found == RST_STICKS_AGAIN)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "sticks again, chi %.3g psi %.3g arms %d eta %.3g halvings %d", problem->chi, problem->psi, (int)motion->n_arms, motion->eta, halvings);
     return RESTITUTE_OK;
 }
 
@@ -136,8 +137,8 @@ static int conclude(const struct rst_problem *problem, const struct rst_outcome 
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
-static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                      struct rst_outcome *outcome, restitute_error *error)
+static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                          struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_motion *motion = rst_motion_of(workspace);
     struct attempt coarse, fine;
@@ -157,6 +158,27 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
     (void)keep_ledger;
     return conclude(problem, outcome, error);
+}
+
+/* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about 0.4 psi, is no slip; the
+ * energies in x are those parts of the whole, psi^2. */
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    const double psi = problem->psi;
+    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
+                       rst_change_by_slip * psi < rst_negligible_part * problem->tolerance;
+    struct rst_problem without_slip = *problem;
+    if (!strong) return solve_refining(problem, workspace, keep_ledger, outcome, error);
+    without_slip.mode = RST_NO_SLIP;
+    without_slip.psi = 1;
+    const int status = solve_refining(&without_slip, workspace, keep_ledger, outcome, error);
+    outcome->shear_velocity *= psi;
+    outcome->error_ex += rst_change_by_slip * psi;
+    outcome->ledger.friction_x *= psi * psi;
+    outcome->ledger.viscous_x *= psi * psi;
+    outcome->ledger.left_x *= psi * psi;
+    return status;
 }
 
 static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,

@@ -34,7 +34,7 @@ struct sync_normal {
 
 /* Twin of contact_type. */
 struct sync_contact {
-    double chi, psi, roughness, closeness;
+    double chi, psi, roughness, noise, closeness;
     int64_t no_slip;
 };
 
