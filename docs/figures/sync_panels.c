@@ -67,10 +67,32 @@ int main(int argc, char **argv)
     const double theta = sqrt(32.0 / 15) * delta1;
     double g[arms] = {1, 1 / gamma_}, rate[arms] = {0, 1 / (gamma_ * theta)}, velocity;
     int64_t found;
-    const struct sync_normal_control control = {1e30, 1e-9, 2, room}; /* four panels a phase, none of them halved */
-    const struct sync_contact contact = {chi, psi, 1e30, 1e-12, 0};
-    struct sync_normal normal = {0, arms, sqrt(0.4 * 0.84), 1e-12, 0, 0, g, rate, panel, memory, loading};
-    struct sync_store store = {room, 0, 0, record, piece, mz, lz, mx, lx, kernel, decay, now_z, now_x, now_l};
+    const struct sync_normal_control control = {/* four panels a phase, none of them halved */
+                                                .roughness = 1e30,
+                                                .stop_speed = 1e-9,
+                                                .halvings = 2,
+                                                .capacity = room};
+    const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8, .closeness = 1e-12};
+    struct sync_normal normal = {.n_arms = arms,
+                                 .radius = sqrt(0.4 * 0.84), /* about r of the largest indentation */
+                                 .closeness = 1e-12,
+                                 .g = g,
+                                 .rate = rate,
+                                 .panel = panel,
+                                 .memory = memory,
+                                 .loading = loading};
+    struct sync_store store = {.capacity = room,
+                               .record = record,
+                               .piece = piece,
+                               .mz = mz,
+                               .lz = lz,
+                               .mx = mx,
+                               .lx = lx,
+                               .kernel = kernel,
+                               .decay = decay,
+                               .now_z = now_z,
+                               .now_x = now_x,
+                               .now_l = now_l};
     rst_follow_normal(&control, &normal, entry, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);

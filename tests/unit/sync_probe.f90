@@ -73,8 +73,8 @@ contains
     call hold(eta, n, g, rate)
     mesh%radius = sqrt(0.4_dp*depth)
     mesh%closeness = 1.0e-12_dp
-    call follow_normal(solid, g_room(:n), rate_room(:n), normal_control_type(roughness, 1.0e-9_dp, halvings, room), mesh, &
-                       panel_room, memory_room, loading_room, entry_room, found)
+    call follow_normal(solid, g_room(:n), rate_room(:n), normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, &
+                       halvings=halvings, capacity=room), mesh, panel_room, memory_room, loading_room, entry_room, found)
     normal%n_compression = mesh%n_compression
     normal%n_panels = mesh%n_panels
     counts = [mesh%n_compression, mesh%n_panels]
@@ -129,7 +129,8 @@ contains
     real(c_double), intent(out) :: velocity
     integer(c_int64_t), intent(out) :: n_pieces
     integer(c_int64_t) :: found
-    call follow_contact(normal, contact_type(chi, psi, roughness, 1.0e-12_dp, 0_ip), store, velocity, found)
+    call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, closeness=1.0e-12_dp, &
+                                             no_slip=0_ip), store, velocity, found)
     n_pieces = store%n_pieces
   end function probe_contact
 

@@ -157,7 +157,7 @@ static void front_is_that_of_a_foundation(void **state)
     double velocity, range[2], before[6], now[6], old[3], new[3], stuck = 0, worst_s = 0, worst_c = 0, force = 0;
     int compared = 0;
     assert_int_equal(normal(s, 0.84, 4, counts), 0);
-    assert_int_equal(probe_contact(7.0 / 6, 0.6, rough, &velocity, &n_pieces), 0);
+    assert_int_equal(probe_contact(7.0 / 6, 0.6, 1e-4, &velocity, &n_pieces), 0);
     f = (struct foundation){.g = {s.g[0], s.g[1]}, .rate = {s.rate[0], s.rate[1]}};
     probe_motion(counts[0], 1, now);
     f.dx = now[RADIUS] / elements;
