@@ -2,7 +2,7 @@
 module rst_sync_walk_interface
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_ledger, only: ledger_type
-  use rst_sync_walk, only: walk_type, walk_level_type, walk_shear_type, term_type, room_columns, follow_elements
+  use rst_sync_walk, only: walk_type, walk_level_type, walk_shear_type, walk_term_type, columns, follow_elements
   implicit none (type, external)
   private
   public :: rst_follow_elements
@@ -16,8 +16,8 @@ contains
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
     real(c_double), intent(in) :: memory(walk%n_terms, 0:2*walk%n)
     type(walk_shear_type), intent(inout) :: shear(0:2*walk%n)
-    type(term_type), intent(out) :: term(0:walk%n_terms)
-    real(c_double), intent(out) :: body(0:walk%capacity - 1, room_columns)
+    type(walk_term_type), intent(out) :: term(0:walk%n_terms)
+    real(c_double), intent(out) :: body(0:walk%capacity - 1, columns)
     real(c_double), intent(out) :: stress(0:walk%capacity - 1, 0:walk%n_terms, 2)
     type(ledger_type), intent(out) :: ledger
     call follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
