@@ -42,13 +42,16 @@ module rst_sync_element_step
   type :: step_type
     real(dp) :: h, start_response, end_response, viscous, drop
     integer(ip) :: last  !! elements 0 to last are in contact
+    integer(ip) :: top   !! elements 0 to top are computed: whole groups of lanes, the others without weight
   end type step_type
 
 contains
 
-  pure subroutine measure_step(walk, g, tau, h, term, step)
+  !> The step after level l, of length h.
+  pure subroutine measure_step(walk, g, tau, l, h, term, step)
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms), h
+    integer(ip), intent(in) :: l
     type(walk_term_type), intent(inout) :: term(0:walk%n_terms)
     type(step_type), intent(inout) :: step
     type(memory_type) :: m
@@ -62,6 +65,8 @@ contains
       term(k)%from_start = term(k)%g*h*(m%phi1 - m%phi2)
       term(k)%from_end = term(k)%g*h*m%phi2
     end do
+    step%last = min(l, 2*walk%n - l - 1)
+    step%top = step%last/lanes*lanes + lanes - 1
     step%h = h
     step%start_response = sum(term%from_start)
     step%end_response = sum(term%from_end) + walk%eta
@@ -81,21 +86,21 @@ contains
     real(dp), intent(inout), dimension(0:walk%capacity - 1, 0:walk%n_terms) :: stress, faded
     real(dp) :: normal, from_normal, from_shear
     integer(ip) :: i, k
-    body(:, c_limit) = walk%eta*velocity
-    body(:, c_trial) = 0
+    body(0:step%top, c_limit) = walk%eta*velocity
+    body(0:step%top, c_trial) = 0
     do k = 0, walk%n_terms
       normal = term(k)%normal
       from_normal = merge(1.0_dp, 0.0_dp, gross)
       from_shear = merge(0.0_dp, term(k)%decay, gross)
       !$omp simd
-      do i = 0, step%last
+      do i = 0, step%top
         faded(i, k) = term(k)%decay*faded(i, k)
         body(i, c_limit) = body(i, c_limit) + (normal - faded(i, k))
         stress(i, k) = from_shear*stress(i, k) + from_normal*(normal - faded(i, k))
         body(i, c_trial) = body(i, c_trial) + stress(i, k)
       end do
     end do
-    body(:, c_limit) = max(body(:, c_limit), 0.0_dp)
+    body(0:step%top, c_limit) = max(body(0:step%top, c_limit), 0.0_dp)
   end subroutine relax
 
   !> Sum of all forces for U' = velocity at the end of the step, and its derivative.
@@ -108,7 +113,7 @@ contains
     integer(ip) :: first, i, l
     forces = 0
     stuck = 0
-    do first = 0, step%last, lanes
+    do first = 0, step%top, lanes
       !$omp simd private(i, q, limit)
       do l = 1, lanes
         i = first + l - 1
@@ -136,7 +141,7 @@ contains
     admittance = 1/(step%end_response + step%drop*step%start_response)
     frictions = 0
     works = 0
-    do first = 0, step%last, lanes
+    do first = 0, step%top, lanes
       !$omp simd private(i, q, limit, kept, slip, impulse)
       do l = 1, lanes
         i = first + l - 1
@@ -157,7 +162,7 @@ contains
     work = lane_sum(works)
     do k = 0, walk%n_terms
       !$omp simd
-      do i = 0, step%last
+      do i = 0, step%top
         stress(i, k) = stress(i, k) + term(k)%from_start*body(i, c_start) + term(k)%from_end*(velocity(1) - body(i, c_slip))
       end do
     end do
@@ -171,7 +176,7 @@ contains
     real(dp) :: total, sums(lanes)
     integer(ip) :: first
     sums = 0
-    do first = 0, step%last, lanes
+    do first = 0, step%top, lanes
       sums = sums + weight(first:first + lanes - 1)*x(first:first + lanes - 1)
     end do
     total = lane_sum(sums)

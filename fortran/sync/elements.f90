@@ -63,11 +63,10 @@ contains
       shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force)
     end do
     do l = 0, 2*walk%n - 1
-      step%last = min(l, 2*walk%n - l - 1)
-      call measure_step(walk, g, tau, level(l + 1)%step, term, step)
+      call measure_step(walk, g, tau, l, level(l + 1)%step, term, step)
       term(0)%normal = walk%g_inf*level(l)%depth
       term(1:)%normal = memory(:, l)
-      if (l < walk%n) call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress(:, :, 2), account)
+      if (l < walk%n) call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress, account)
       term(0)%normal = walk%g_inf*level(l + 1)%depth
       term(1:)%normal = memory(:, l + 1)
       call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
@@ -81,14 +80,14 @@ contains
 
   !> Element j is touched, and moves with the contact point unless that is faster than the sphere: then it slips at once. Arms
   !> that relax within the step are dashpots to it.
-  pure subroutine enter_contact(walk, j, level, velocity, term, step, body, faded, account)
+  pure subroutine enter_contact(walk, j, level, velocity, term, step, body, stress, account)
     type(walk_type), intent(in) :: walk
     integer(ip), intent(in) :: j
     type(walk_level_type), intent(in) :: level(0:walk%n)
     real(dp), intent(in) :: velocity  !! of the contact point
     type(walk_term_type), intent(in) :: term(0:walk%n_terms)
     type(step_type), intent(in) :: step
-    real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), faded(0:walk%capacity - 1, 0:walk%n_terms)
+    real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms, 2)
     type(account_type), intent(inout) :: account
     real(dp) :: own
     own = velocity
@@ -96,7 +95,8 @@ contains
     body(j, c_weight) = (level(j + 1)%radius - level(max(j - 1, 0_ip))%radius)/2
     body(j, c_slip) = velocity - own
     body(j, c_force) = step%viscous*own
-    faded(j, :) = term%normal
+    stress(j, :, 1) = 0
+    stress(j, :, 2) = term%normal
     account%force_z = account%force_z + body(j, c_weight)*step%viscous*level(j)%velocity
   end subroutine enter_contact
 
@@ -132,8 +132,8 @@ contains
     account%force_z = force
     if (l >= walk%start) return
     account%work_x = account%work_z
-    body(:, c_slip) = 0
-    body(:, c_force) = body(:, c_limit)
+    body(0:step%top, c_slip) = 0
+    body(0:step%top, c_force) = body(0:step%top, c_limit)
   end subroutine step_normal
 
   !> From level l to the next one in x.
@@ -148,7 +148,8 @@ contains
     type(account_type), intent(inout) :: account
     type(rim_type) :: rim
     real(dp) :: share, friction, work
-    body(:, c_trial) = body(:, c_trial) + step%start_response*(shear(0)%velocity - (1 - step%drop)*body(:, c_slip))
+    body(0:step%top, c_trial) = body(0:step%top, c_trial) &
+                                + step%start_response*(shear(0)%velocity - (1 - step%drop)*body(0:step%top, c_slip))
     ! in the compression the rim enters with half a cell at the end of the step; in the restitution it leaves,
     ! with all of its cell in the sum, of which half a cell is still in contact: that counts only without slip
     associate (edge => level(step%last:step%last + 1)%radius)
@@ -157,7 +158,7 @@ contains
     end associate
     share = account%force_z + rim%weight*rim%limit
     share = merge(level(l + 1)%force/max(share, tiny(share)), 1.0_dp, share > 0)
-    if (walk%no_slip /= 0) body(:, c_limit) = huge(1.0_dp)
+    if (walk%no_slip /= 0) body(0:step%top, c_limit) = huge(1.0_dp)
     if (walk%no_slip /= 0) rim%limit = huge(1.0_dp)
     call find_velocity(walk, level(l:l + 1), share, rim, step, body, shear)
     call move_elements(walk, term, step, shear%velocity, body, stress, friction, work)
@@ -178,14 +179,15 @@ contains
     real(dp), intent(in) :: body(0:walk%capacity - 1, columns)
     type(walk_shear_type), intent(inout) :: shear(0:1)
     integer(ip), parameter :: most_trials = 60  !! halvings that exhaust all digits
-    real(dp), parameter :: tolerance = 1.0e-14_dp
+    real(dp), parameter :: tolerance = 1.0e-9_dp  !! of psi; on so short a way hardly any element begins or ends to slip
     type(memory_type) :: m
     real(dp) :: w, push, v, low, high, miss, change, force, slope, q
     integer(ip) :: trial
     m = memory_of(2*mass_factor*walk%chi*step%h*step%viscous*max(level(0)%radius, level(1)%radius))
     w = m%phi2/m%phi1
     push = 2*walk%chi*(level(0)%velocity - level(1)%velocity)/((1 - w)*level(0)%force + w*level(1)%force)
-    v = shear(0)%velocity - push*shear(0)%force
+    v = shear(0)%velocity
+    if (level(0)%force > 0) v = v - 2*walk%chi*(level(0)%velocity - level(1)%velocity)*shear(0)%force/level(0)%force
     if (walk%prescribed /= 0) v = shear(1)%velocity
     low = -huge(v)
     high = huge(v)
