@@ -179,7 +179,7 @@ contains
     real(dp), intent(in) :: body(0:walk%capacity - 1, columns)
     type(walk_shear_type), intent(inout) :: shear(0:1)
     integer(ip), parameter :: most_trials = 60  !! halvings that exhaust all digits
-    real(dp), parameter :: tolerance = 1.0e-9_dp  !! of psi; on so short a way hardly any element begins or ends to slip
+    real(dp), parameter :: tolerance = 1.0e-13_dp  !! of psi: above rounding
     type(memory_type) :: m
     real(dp) :: w, push, v, low, high, miss, change, force, slope, q
     integer(ip) :: trial
