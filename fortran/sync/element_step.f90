@@ -1,15 +1,17 @@
-!> One time step of the elements of the foundation in the tangential problem (docs/theory.md, the method `sync`).
+!> One time step of the elements of the foundation in the tangential problem (docs/theory.md, method `sync`).
 !>
-!> Element i holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip velocity kappa = U' - v. The
-!> spring G_inf is the arm 0, whose relaxation time is infinite. The force is q = sum_k y_k + eta v, its limit is f.
+!> An element holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip velocity
+!> kappa = U' - v. The spring G_inf is the arm 0, whose relaxation time is infinite. The force is
+!> q = sum_k y_k + eta v; friction limits it to f.
 !>
-!> In a step v is linear, from v0 to v1, so y_k becomes decay y_k + from_start v0 + from_end v1, exactly and for any tau.
-!> v1 = U' in stick; where that needs more force than f, v1 is what brings q to the limit.
+!> In a step v is linear, from v0 to v1, so y_k becomes decay y_k + from_start v0 + from_end v1, for any tau.
+!> In stick v1 = U'. Where that needs more force than f, v1 is what brings q to the limit.
 !>
-!> Where springs rule, kappa jumps as slip begins, and v0 must jump with it: v1 alone would swing from step to step about the
-!> velocity that gives the displacement. Where dashpots rule, kappa is continuous. So the share `drop` of the old kappa is
-!> replaced by the new one. It is the stiffness that v0 meets over that of v1: 1 for springs, 0 for dashpots. If the
-!> step is short, drop is 1 up to O(h/tau), or O(h) with a dashpot, whose kappa changes by O(h): second order in all cases.
+!> Where springs rule, kappa jumps as slip begins, and v0 must jump with it: v1 alone would swing from step to step
+!> about the velocity that gives the displacement. Where dashpots rule, kappa is continuous. So the share `drop` of the
+!> old kappa is replaced by the new one: the stiffness that v0 meets over that of v1, 1 for springs, 0 for dashpots.
+!> This is second order: in a short step 1 - drop is O(h/tau) without a dashpot, so that v is constant but for O(h);
+!> with a dashpot drop is O(h), and kappa changes by O(h).
 module rst_sync_element_step
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
@@ -18,7 +20,7 @@ module rst_sync_element_step
   public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force
   public :: measure_step, relax, friction_force, move_elements, weighted_sum
 
-  integer(ip), parameter :: lanes = 8  !! partial sums, whatever the width of vectors: results are the same everywhere
+  integer(ip), parameter :: lanes = 8  !! partial sums, so that no result depends on the width of vectors
 
   !> What an element has besides its stresses: weight in X, f, q for v1 = 0, kappa, q, v0.
   integer(ip), parameter :: c_weight = 1, c_limit = 2, c_trial = 3, c_slip = 4, c_force = 5, c_start = 6, columns = 6
@@ -27,7 +29,7 @@ module rst_sync_element_step
   type, bind(c) :: walk_type
     integer(ip) :: n, n_terms
     integer(ip) :: capacity    !! room for elements: n + 1, rounded up to a multiple of 8
-    integer(ip) :: start       !! level at which gross slip ends: 0 for psi <= 1, 2 n if it never does
+    integer(ip) :: start       !! level at which gross slip ends: 0 for psi <= 1, 2 n if never
     integer(ip) :: no_slip     !! 1: friction without limit
     integer(ip) :: prescribed  !! 1: U' is given from the level `start` on
     real(dp) :: chi, psi, g_inf, eta
@@ -38,11 +40,11 @@ module rst_sync_element_step
     real(dp) :: g, decay, from_start, from_end, normal
   end type walk_term_type
 
-  !> A step as all elements meet it: response of q to v0 and v1, and what v1 has on top of v0, which is that of the dashpots.
+  !> A step as all elements meet it: response of q to v0, to v1, and their difference, the viscous part.
   type :: step_type
     real(dp) :: h, start_response, end_response, viscous, drop
     integer(ip) :: last  !! elements 0 to last are in contact
-    integer(ip) :: top   !! elements 0 to top are computed: whole groups of lanes, the others without weight
+    integer(ip) :: top   !! elements 0 to top are computed, whole groups of lanes; the others weigh nothing
   end type step_type
 
 contains
@@ -74,8 +76,8 @@ contains
     step%drop = 1 - step%viscous/step%end_response
   end subroutine measure_step
 
-  !> What elements keep of M_k at entry fades in the step, and gives their friction limit at its end, where the sphere is
-  !> `velocity` fast. So do their stresses; `trial` is what they add up to. In gross slip they are those of the normal problem.
+  !> Fade what elements keep of M_k at entry, and find their friction limit at the end of the step, where the sphere
+  !> has `velocity`. Relax their stresses, and add them up in `trial`. In gross slip they are those in z.
   pure subroutine relax(walk, gross, velocity, term, step, body, stress, faded)
     type(walk_type), intent(in) :: walk
     logical, intent(in) :: gross
@@ -86,11 +88,11 @@ contains
     real(dp), intent(inout), dimension(0:walk%capacity - 1, 0:walk%n_terms) :: stress, faded
     real(dp) :: normal, from_normal, from_shear
     integer(ip) :: i, k
+    from_normal = merge(1.0_dp, 0.0_dp, gross)
     body(0:step%top, c_limit) = walk%eta*velocity
     body(0:step%top, c_trial) = 0
     do k = 0, walk%n_terms
       normal = term(k)%normal
-      from_normal = merge(1.0_dp, 0.0_dp, gross)
       from_shear = merge(0.0_dp, term(k)%decay, gross)
       !$omp simd
       do i = 0, step%top
@@ -123,12 +125,12 @@ contains
         stuck(l) = stuck(l) + merge(body(i, c_weight), 0.0_dp, abs(q) <= limit)
       end do
     end do
-    force = lane_sum(forces)
-    slope = step%end_response*lane_sum(stuck)
+    force = sum(forces)
+    slope = step%end_response*sum(stuck)
   end subroutine friction_force
 
-  !> Move the elements while U' goes from velocity(0) to velocity(1). The work of the step is that of mean forces on mean
-  !> velocities, which no spring dissipates: work of friction, and what the elements take up.
+  !> Move the elements while U' goes from velocity(0) to velocity(1). Work of friction, and what the elements take up:
+  !> mean forces on mean velocities, by which springs dissipate nothing.
   pure subroutine move_elements(walk, term, step, velocity, body, stress, friction, work)
     type(walk_type), intent(in) :: walk
     type(walk_term_type), intent(in) :: term(0:walk%n_terms)
@@ -158,12 +160,13 @@ contains
         body(i, c_start) = velocity(0) - kept
       end do
     end do
-    friction = lane_sum(frictions)
-    work = lane_sum(works)
+    friction = sum(frictions)
+    work = sum(works)
     do k = 0, walk%n_terms
       !$omp simd
       do i = 0, step%top
-        stress(i, k) = stress(i, k) + term(k)%from_start*body(i, c_start) + term(k)%from_end*(velocity(1) - body(i, c_slip))
+        stress(i, k) = stress(i, k) + term(k)%from_start*body(i, c_start) &
+                       + term(k)%from_end*(velocity(1) - body(i, c_slip))
       end do
     end do
   end subroutine move_elements
@@ -179,12 +182,6 @@ contains
     do first = 0, step%top, lanes
       sums = sums + weight(first:first + lanes - 1)*x(first:first + lanes - 1)
     end do
-    total = lane_sum(sums)
+    total = sum(sums)
   end function weighted_sum
-
-  pure function lane_sum(x) result(total)
-    real(dp), intent(in) :: x(lanes)
-    real(dp) :: total
-    total = ((x(1) + x(5)) + (x(3) + x(7))) + ((x(2) + x(6)) + (x(4) + x(8)))
-  end function lane_sum
 end module rst_sync_element_step

@@ -1,21 +1,21 @@
-!> The tangential motion of an impact by elements (docs/theory.md, the method `sync`): for slip that sticks again, and for the
-!> energy ledger. Module rst_sync_element_step has the step of the elements; here are the contact and the sphere.
+!> The tangential motion of an impact by elements (docs/theory.md, method `sync`): for slip that sticks again, and for
+!> the energy ledger. Module rst_sync_element_step has the step of the elements; here are contact and sphere.
 !>
-!> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at which the edge of the contact is
-!> at X_j, level 2n - j that of the restitution. So elements enter and leave exactly at a level.
+!> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at which the edge of the
+!> contact is at X_j, level 2n - j that of the restitution. So elements enter and leave exactly at a level.
 !>
-!> The sums over elements and over time lean on the normal problem, whose force N and impulse are known: the share of the
-!> friction that is used, by the trapezoidal rule, times N. So full slip is exact; all else is second order.
+!> The sums over elements and over time lean on the normal problem, whose force N and impulse are known: each is
+!> the share of friction that is used, by the trapezoidal rule, times the known one. So full slip is exact.
 !>
-!> To call follow_elements: fill walk, level(0:2n), memory(n_terms, 0:2n) and, with walk%prescribed, shear(start:2n)%velocity; psi is
-!> not negative. term, body and stress are room, whatever they contain. Results: shear(0:2n), and the accounts of
-!> module rst_ledger. chi = 0 with start = 2n stands for no friction. Nothing can fail; what is not finite comes out as such.
+!> To call follow_elements: fill walk, level(0:2n), memory(n_terms, 0:2n) and, with walk%prescribed,
+!> shear(start:2n)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
+!> contain. Results: shear(0:2n) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
 module rst_sync_walk
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
-  use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force, &
-                                   measure_step, relax, friction_force, move_elements, weighted_sum
+  use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
+                                   c_force, measure_step, relax, friction_force, move_elements, weighted_sum
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, walk_level_type, walk_shear_type, columns, follow_elements
@@ -32,7 +32,7 @@ module rst_sync_walk
     real(dp) :: velocity, force
   end type walk_shear_type
 
-  !> Energies in units of force N times depth D, and the sum over f to which work_z has come.
+  !> Energies in units of force N times depth D, and the sum over f at the level where work_z ends.
   type :: account_type
     real(dp) :: work_z = 0, left_z = 0, work_x = 0, left_x = 0, friction = 0, force_z = 0
   end type account_type
@@ -52,7 +52,7 @@ contains
     type(walk_shear_type), intent(inout) :: shear(0:2*walk%n)
     type(walk_term_type), intent(out) :: term(0:walk%n_terms)
     real(dp), intent(out) :: body(0:walk%capacity - 1, columns)
-    real(dp), intent(out) :: stress(0:walk%capacity - 1, 0:walk%n_terms, 2)  !! of shear, and what is left of M_k at entry
+    real(dp), intent(out) :: stress(0:walk%capacity - 1, 0:walk%n_terms, 2)  !! y_k, and what is left of M_k at entry
     type(ledger_type), intent(out) :: ledger
     type(account_type) :: account
     type(step_type) :: step
@@ -66,20 +66,22 @@ contains
       call measure_step(walk, g, tau, l, level(l + 1)%step, term, step)
       term(0)%normal = walk%g_inf*level(l)%depth
       term(1:)%normal = memory(:, l)
-      if (l < walk%n) call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress, account)
+      if (l < walk%n) &
+        call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress, account)
       term(0)%normal = walk%g_inf*level(l + 1)%depth
       term(1:)%normal = memory(:, l + 1)
       call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
       if (l >= walk%n) body(step%last, c_limit) = 0  ! it leaves
       call step_normal(walk, l, level, step, body, account)
-      if (l >= walk%start) call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account)
+      if (l >= walk%start) &
+        call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account)
       if (l >= walk%n) call leave_contact(walk, step%last, term, body(:, c_weight), stress, account)
     end do
     call close_accounts(walk, level(walk%start)%velocity, account, ledger)
   end subroutine follow_elements
 
-  !> Element j is touched, and moves with the contact point unless that is faster than the sphere: then it slips at once. Arms
-  !> that relax within the step are dashpots to it.
+  !> Element j is touched. It moves with the contact point unless that is faster than the sphere: then it slips at
+  !> once. Arms that relax within the step are dashpots to it.
   pure subroutine enter_contact(walk, j, level, velocity, term, step, body, stress, account)
     type(walk_type), intent(in) :: walk
     integer(ip), intent(in) :: j
@@ -210,8 +212,8 @@ contains
     shear(1) = walk_shear_type(v, force)
   end subroutine find_velocity
 
-  !> What an element took up and does not hold when it leaves was dissipated in it. Gross slip, until the sphere was `velocity` fast,
-  !> added int N (U' - D') ds with N = -D''/mass_factor.
+  !> What an element took up and does not hold when it leaves was dissipated in it. Gross slip, until the sphere had
+  !> `velocity`, added int N (U' - D') ds with N = -D''/mass_factor.
   pure subroutine close_accounts(walk, velocity, account, ledger)
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: velocity

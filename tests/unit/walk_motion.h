@@ -1,5 +1,5 @@
 /* The normal motion of an impact at the levels of a walk over elements (src/core/walk.h), by fine steps of Runge and
- * Kutta's method: independent of the library, and good to 1e-9 if no relaxation time is below a hundredth of the impact.
+ * Kutta's method: independent of the library, and good to 1e-9 if no relaxation time is below 0.05.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_WALK_MOTION_H
 #define TEST_WALK_MOTION_H
@@ -79,7 +79,7 @@ static inline void compress(const struct solid *s, double sigma, double h, const
         to[i] = y[i] + h / 6 * (r[0][i] + 2 * r[1][i] + 2 * r[2][i] + r[3][i]);
 }
 
-/* dy/dphi of the restitution, a = a_max cos(phi): the derivative of the condition f(a) = 0 says how fast the edge moves.
+/* dy/dphi of the restitution, a = a_max cos(phi): the condition f(a) = 0 says how the edge moves.
  * At the turning point ds/dphi is `turn`. */
 static inline void restitution_rates(const struct solid *s, double a_max, double phi, const struct trace *entry,
                                      const double *y, double turn, double *rate)
@@ -146,7 +146,7 @@ static inline void note_level(const struct solid *s, struct motion *m, int l, do
     memcpy(m->memory + l * s->n, y + 3 + s->n, (size_t)s->n * sizeof *y);
 }
 
-/* The levels: node n1 at the angle phi1, all nodes evenly in angle before it and after it, from pi/2 at first touch to 0. */
+/* The angles from pi/2 at first touch to 0: node n1 is at phi1, and nodes are even on both sides of it. */
 static inline double angle_of(int i, int n, int n1, double phi1)
 {
     double j = (double)i / fine_steps;
