@@ -71,7 +71,6 @@ contains
       term(0)%normal = walk%g_inf*level(l + 1)%depth
       term(1:)%normal = memory(:, l + 1)
       call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
-      if (l >= walk%n) body(step%last, c_limit) = 0  ! it leaves
       call step_normal(walk, l, level, step, body, account)
       if (l >= walk%start) &
         call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account)
@@ -206,7 +205,6 @@ contains
       change = -miss/(1 + push*w*slope)
       if (v + change < low .or. v + change > high) change = (low + high)/2 - v
       v = v + change
-      force = force + slope*change
       if (abs(change) <= tolerance*walk%psi) exit
     end do
     shear(1) = walk_shear_type(v, force)
