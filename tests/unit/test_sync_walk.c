@@ -192,8 +192,8 @@ static void ledger_closes(void **state)
         }
 }
 
-/* Friction work depends on how slip begins and ends in each element. Second order: differences fall by 4 as n doubles, up to the
- * scatter of kinks between nodes (0.36 at most; first order would be a half). */
+/* Friction work depends on how slip begins and ends in each element. Second order: differences fall by 4 as n doubles, up
+ * to the scatter of kinks between nodes (0.36 at most; first order would be a half). */
 static void friction_work_converges(void **state)
 {
     (void)state;
