@@ -8,7 +8,7 @@ module rst_collocation
   implicit none (type, external)
   private
   public :: stages, point, integral, weights_at, last_coefficient, integrated, start_of, slope_of, root_between
-  public :: applied, composed, solve_linear
+  public :: applied, composed, solve_linear, has_converged
 
   integer(ip), parameter :: stages = 6
 
@@ -138,6 +138,14 @@ contains
       if (high - low <= epsilon(x) .or. .not. abs(now) > 0) exit
     end do
   end function root_between
+
+  !> Whether Newton's steps end: the next change, foretold from the last two, is below closeness, or rounding keeps it from falling.
+  pure function has_converged(change, previous, closeness) result(yes)
+    real(dp), intent(in) :: change, previous, closeness
+    logical :: yes
+    real(dp), parameter :: stagnates_below = 1.0e-6_dp
+    yes = change*min(1.0_dp, change/previous) < closeness .or. (change < stagnates_below .and. change > 0.5_dp*previous)
+  end function has_converged
 
   !> Solve a x = b by elimination with pivots; both are destroyed, b becomes x. fails: a is singular or not finite.
   pure subroutine solve_linear(n, columns, a, b, fails)

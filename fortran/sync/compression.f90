@@ -7,7 +7,8 @@
 !> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2) too.
 module rst_compression_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, composed, solve_linear
+  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, composed, solve_linear, &
+                             has_converged
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, mass_factor
   implicit none (type, external)
@@ -48,7 +49,7 @@ contains
       change = maxval(abs(step))
       fails = .not. (change < 1.0e3_dp .and. all(m%rho > 0))
       if (fails) return
-      if (change*min(1.0_dp, change/previous) < mesh%closeness) exit
+      if (has_converged(change, previous, mesh%closeness)) exit
       previous = change
     end do
     fails = i > most_iterations

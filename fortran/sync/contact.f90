@@ -8,7 +8,7 @@ module rst_tangential_motion
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
   implicit none (type, external)
   private
-  public :: follow_contact, solved, sticks_again, lacks_pieces
+  public :: follow_contact, find_velocity, solved, sticks_again, lacks_pieces
 
   integer(ip), parameter :: lacks_pieces = 2  !! follow_contact was given too few
   integer(ip), parameter :: most_idle = 2     !! events at one place, of which one undoes the other
@@ -69,8 +69,8 @@ contains
     type(store_type), intent(inout) :: store
     integer(ip), intent(out) :: panel
     real(dp), intent(out) :: x, velocity
-    real(dp) :: weight(0:stages), reached(0:stages)
-    integer(ip) :: i, k
+    real(dp) :: weight(0:stages)
+    integer(ip) :: k
     store%n_records = 0
     store%n_pieces = 0
     store%now_x(0, :) = 0
@@ -80,15 +80,7 @@ contains
     velocity = contact%psi
     if (.not. contact%psi > 1 .or. contact%no_slip /= 0) return
     velocity = (2*contact%chi - contact%psi)/(2*contact%chi - 1)
-    do while (normal%panel(panel)%velocity(stages) > velocity .and. panel < normal%n_panels)
-      panel = panel + 1
-    end do
-    reached = normal%panel(panel)%velocity - velocity
-    i = 1
-    do while (reached(i) > 0 .and. i < stages)
-      i = i + 1
-    end do
-    x = root_between(i, reached)
+    call find_velocity(normal, velocity, panel, x)
     do k = 1, min(panel, normal%n_compression)
       call record_slip(normal, k, store)
     end do
@@ -103,6 +95,26 @@ contains
       if (panel <= normal%n_compression) store%now_l(0, k) = sum(weight*normal%loading(:, k, panel))
     end do
   end subroutine start
+
+  !> The panel, and x on it, where D' has fallen to a velocity.
+  pure subroutine find_velocity(normal, velocity, panel, x)
+    type(normal_type), intent(in) :: normal
+    real(dp), intent(in) :: velocity
+    integer(ip), intent(out) :: panel
+    real(dp), intent(out) :: x
+    real(dp) :: above(0:stages)
+    integer(ip) :: i
+    panel = 1
+    do while (normal%panel(panel)%velocity(stages) > velocity .and. panel < normal%n_panels)
+      panel = panel + 1
+    end do
+    above = normal%panel(panel)%velocity - velocity
+    i = 1
+    do while (above(i) > 0 .and. i < stages)
+      i = i + 1
+    end do
+    x = root_between(i, above)
+  end subroutine find_velocity
 
   !> A panel of the compression in gross slip.
   subroutine record_slip(normal, panel, store)

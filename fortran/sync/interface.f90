@@ -6,10 +6,10 @@ module rst_sync_interface
   use rst_panel, only: panel_type, mesh_type
   use rst_normal_motion, only: normal_control_type, follow_normal
   use rst_contact_views, only: normal_type, contact_type, store_type
-  use rst_tangential_motion, only: follow_contact
+  use rst_tangential_motion, only: follow_contact, find_velocity
   implicit none (type, external)
   private
-  public :: rst_follow_normal, rst_follow_contact, rst_weights_at
+  public :: rst_follow_normal, rst_follow_contact, rst_find_velocity, rst_weights_at
 
   !> Twin of `struct sync_normal` in C: see normal_type.
   type, bind(c) :: normal_arrays_type
@@ -57,6 +57,21 @@ contains
     store%n_records = s%n_records
     store%n_pieces = s%n_pieces
   end subroutine rst_follow_contact
+
+  !> The edge angle at which D' has fallen to a velocity; returning: /= 0 in the restitution.
+  subroutine rst_find_velocity(normal, velocity, angle, returning) bind(c, name="rst_sync_find_velocity")
+    type(normal_arrays_type), intent(in) :: normal
+    real(c_double), intent(in), value :: velocity
+    real(c_double), intent(out) :: angle
+    integer(c_int64_t), intent(out) :: returning
+    type(normal_type) :: n
+    integer(c_int64_t) :: panel
+    real(c_double) :: x
+    n = view_normal(normal)
+    call find_velocity(n, velocity, panel, x)
+    angle = n%panel(panel)%from + x*(n%panel(panel)%to - n%panel(panel)%from)
+    returning = merge(1_c_int64_t, 0_c_int64_t, panel > n%n_compression)
+  end subroutine rst_find_velocity
 
   function view_normal(normal) result(n)
     type(normal_arrays_type), intent(in) :: normal

@@ -6,7 +6,8 @@
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, solve_linear
+  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, solve_linear, &
+                             has_converged
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
   implicit none (type, external)
@@ -52,7 +53,7 @@ contains
       if (panel(new)%to > 0) step_pace(stages) = max(step_pace(stages), -0.9_dp*m%pace(stages)) ! at theta = 0 it is 0
       step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
       m%pace = m%pace + step_pace
-      if (change*min(1.0_dp, change/previous) < mesh%closeness) exit
+      if (has_converged(change, previous, mesh%closeness)) exit
       previous = change
     end do
     fails = i > most_iterations

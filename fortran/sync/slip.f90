@@ -1,7 +1,8 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear, &
+                             has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor
   use rst_front, only: slack_type, find_front, held_by
@@ -127,7 +128,7 @@ contains
       change = maxval(abs(step))
       fails = .not. change < 1.0e3_dp
       if (fails) return
-      if (change*min(1.0_dp, change/previous) < contact%closeness) exit
+      if (has_converged(change, previous, contact%closeness)) exit
       previous = change
     end do
     fails = n > most_iterations

@@ -15,6 +15,7 @@ static void release(struct rst_own_memory *own)
         free(motion->run[i].room);
     free(motion->arms);
     free(motion->store_room);
+    free(motion->walk_room);
     free(motion);
 }
 
@@ -76,8 +77,8 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     double *held = motion->arms, *asked = motion->arms + 2 * motion->most_arms;
     const int64_t n = spread_arms(s, asked, asked + motion->most_arms);
     const size_t bytes = (size_t)n * sizeof(double);
-    const double stop_speed = rst_rest_part * problem->tolerance *
-                              (problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi)));
+    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi));
+    const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
     const int same = keep && n == motion->n_arms && motion->eta == s->eta && motion->stop_speed == stop_speed &&
                      memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;

@@ -29,8 +29,8 @@ struct rst_motion {
     int64_t n_arms, most_arms;
     struct rst_run run[rst_most_halvings + 1];
     struct sync_store store;
-    double *store_room;
-    size_t store_size;
+    double *store_room, *walk_room;
+    size_t store_size, walk_size;
 };
 
 /* The motion that a workspace keeps; NULL: out of memory. */

@@ -4,16 +4,17 @@
 #include <math.h>
 
 #include "motion.h"
+#include "record.h"
 #include "status.h"
 #include "sync.h"
 #include "tuning.h"
+#include "walk.h"
 
 /* One resolution. */
 struct attempt {
     const struct rst_run *run;
-    int halvings;
+    int halvings, sticks_again; /* sticks_again: slip is not behind one front, there is no shear_velocity */
     double velocity, shear_velocity;
-    int walked; /* by elements */
 };
 
 static int slips_to_the_end(const struct rst_problem *problem, double rebound)
@@ -55,8 +56,7 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
     if (rst_motion_contact(motion, a->run, problem, halvings, &a->shear_velocity, &found))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
     outcome->updates += motion->store.n_pieces * rst_points * (1 + a->run->normal.n_arms);
-    if (found == RST_STICKS_AGAIN)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "sticks again, chi %.3g psi %.3g arms %d eta %.3g halvings %d", problem->chi, problem->psi, (int)motion->n_arms, motion->eta, halvings);
+    a->sticks_again = found == RST_STICKS_AGAIN;
     return RESTITUTE_OK;
 }
 
@@ -99,7 +99,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
         problem->mode == RST_FRICTIONLESS
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
-                  stops * stop_speed;
+                  stops * fmax(stop_speed, 2 * problem->chi * rst_slowest / problem->psi);
     outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
     outcome->followed_time = end->time[rst_stages];
     outcome->max_indentation = turn->depth[rst_stages];
@@ -129,12 +129,54 @@ static int first_halvings(const struct rst_problem *problem)
     return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
+/* U' by elements, half as many and all of them, until the two agree: of second order, extrapolated. */
+static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
+                         struct rst_outcome *outcome, restitute_error *error)
+{
+    struct rst_walk coarse, now;
+    const double error_ez = outcome->error_ez;
+    int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
+    if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
+    if (rst_walk(motion, fine->run, problem, RST_STICKS, parts, &coarse))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
+    for (;; coarse = now) {
+        const double work = 2.0 * (double)coarse.n * (double)coarse.n * (1.0 + (double)problem->solid.n_terms);
+        outcome->updates += (int64_t)work;
+        parts *= 2;
+        if (rst_walk(motion, fine->run, problem, RST_STICKS, parts, &now))
+            return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
+        const double change = now.velocity - coarse.velocity;
+        outcome->shear_velocity = now.velocity + change / 3;
+        outcome->error_ex = (rst_share_of_elements * fabs(change) + rst_rounding * (double)now.n) / problem->psi + error_ez;
+        outcome->elements = now.n;
+        outcome->steps = 2 * now.n;
+        outcome->step = outcome->followed_time / (double)outcome->steps;
+        outcome->spacing = outcome->max_contact_radius / (double)now.n;
+        outcome->walked = parts;
+        if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements ||
+            (double)outcome->updates + 4 * work > (double)problem->max_updates)
+            return RESTITUTE_OK;
+    }
+}
+
 static int conclude(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_error *error)
 {
     if (meets(problem, outcome)) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->tolerance,
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
+}
+
+/* The pair of two attempts on end: a resolution that is too coarse to converge is passed over. */
+static int attempt_twice(struct rst_motion *motion, const struct rst_problem *problem, int *halvings,
+                         struct attempt *coarse, struct attempt *fine, struct rst_outcome *outcome,
+                         restitute_error *error)
+{
+    int status = attempt(motion, problem, *halvings, coarse, outcome, error);
+    while (status == RESTITUTE_ERROR_TOO_MUCH_WORK && *halvings < rst_most_halvings - 1)
+        status = attempt(motion, problem, ++*halvings, coarse, outcome, error);
+    if (!status) status = attempt(motion, problem, ++*halvings, fine, outcome, error);
+    return status;
 }
 
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
@@ -146,18 +188,21 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the motion");
     *outcome = (struct rst_outcome){0};
     int halvings = first_halvings(problem);
-    int status = attempt(motion, problem, halvings, &coarse, outcome, error);
+    int status = attempt_twice(motion, problem, &halvings, &coarse, &fine, outcome, error);
     while (!status) {
-        status = attempt(motion, problem, ++halvings, &fine, outcome, error);
-        if (status) break;
         compare(problem, &coarse, &fine, outcome);
+        if (fine.sticks_again || coarse.sticks_again) {
+            status = walk_refining(motion, problem, &fine, outcome, error);
+            break;
+        }
         if (problem->elements > 0 || halvings == rst_most_halvings || meets(problem, outcome)) break;
         coarse = fine;
+        status = attempt(motion, problem, ++halvings, &fine, outcome, error);
     }
     if (status) return status;
     outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
-    (void)keep_ledger;
-    return conclude(problem, outcome, error);
+    if (keep_ledger) status = rst_sync_ledger(motion, problem, fine.run, outcome, error);
+    return status ? status : conclude(problem, outcome, error);
 }
 
 /* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about 0.4 psi, is no slip; the
@@ -181,12 +226,5 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return status;
 }
 
-static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
-                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
-{
-    (void)problem; (void)workspace; (void)outcome; (void)history;
-    return too_hard(error);
-}
-
 const struct restitute_method rst_method_sync = {
-    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = sync_record};
+    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_sync_record};

@@ -67,6 +67,7 @@ void rst_follow_normal(const struct sync_normal_control *control, struct sync_no
                        int64_t *found);
 void rst_follow_contact(const struct sync_normal *normal, const struct sync_contact *contact, struct sync_store *store,
                         double *velocity, int64_t *found);
+void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);
 void rst_sync_weights_at(double x, double *weight);
 
 #endif

@@ -22,13 +22,16 @@ static const double rst_closeness = 1e-12;
 /* Velocities are known to that in a run, by rounding. */
 static const double rst_rounding = 1e-13;
 
-/* Part of the tolerance below which a rebound is none. */
-static const double rst_rest_part = 0.01;
+/* Part of the tolerance below which a rebound is none; slower ones are lost in rounding. */
+static const double rst_rest_part = 0.01, rst_slowest = 1e-11;
 
 /* e_x differs from that without slip by at most this times psi, which is left out where it is a small part of the tolerance. */
 static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
 
 /* Part of the tolerance that an estimate may take; the rest is for merged terms. */
 static const double rst_acceptance = 0.9;
+
+/* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
+enum { rst_first_elements = 32, rst_most_elements = 8192, rst_ledger_elements = 256 };
 
 #endif
