@@ -49,7 +49,7 @@ contains
       change = maxval(abs(step))
       fails = .not. (change < 1.0e3_dp .and. all(m%rho > 0))
       if (fails) return
-      if (has_converged(change, previous, mesh%closeness)) exit
+      if (has_converged(change, min(previous, 10*change), mesh%closeness)) exit
       previous = change
     end do
     fails = i > most_iterations
