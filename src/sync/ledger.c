@@ -37,7 +37,7 @@ static enum rst_sliding sliding(const struct rst_problem *problem, double reboun
     return RST_SLIPS_TO_THE_END;
 }
 
-int rst_sync_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
+int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
                     struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_walk walk;

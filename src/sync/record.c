@@ -104,7 +104,7 @@ static void sample_at(const struct trace *trace, double time, int64_t *p, int64_
     sample->shear_force = fmax(-sample->normal_force, fmin(sample->normal_force, sample->shear_force));
 }
 
-int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
 {
     struct rst_motion *motion = rst_motion_of(workspace);

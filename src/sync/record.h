@@ -6,11 +6,11 @@
 #include "motion.h"
 
 /* Fill outcome->ledger; the rest of the outcome is known. */
-int rst_sync_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
+int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
                     struct rst_outcome *outcome, restitute_error *error);
 
 /* See struct restitute_method. */
-int rst_sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *workspace,
                     const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error);
 
 #endif

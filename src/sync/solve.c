@@ -6,7 +6,7 @@
 #include "motion.h"
 #include "record.h"
 #include "status.h"
-#include "sync.h"
+#include "collocation.h"
 #include "tuning.h"
 #include "walk.h"
 
@@ -201,7 +201,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     }
     if (status) return status;
     outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
-    if (keep_ledger) status = rst_sync_ledger(motion, problem, fine.run, outcome, error);
+    if (keep_ledger) status = rst_motion_ledger(motion, problem, fine.run, outcome, error);
     return status ? status : conclude(problem, outcome, error);
 }
 
@@ -226,5 +226,5 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return status;
 }
 
-const struct restitute_method rst_method_sync = {
-    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_sync_record};
+const struct restitute_method rst_method_collocation = {
+    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_motion_record};
