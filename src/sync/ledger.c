@@ -30,11 +30,11 @@ static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
     ledger->viscous_x = psi * psi - outcome->shear_velocity * outcome->shear_velocity - ledger->friction_x;
 }
 
-static enum rst_sliding sliding(const struct rst_problem *problem, double rebound)
+static enum rst_walk_kind sliding(const struct rst_problem *problem, double rebound)
 {
-    if (problem->mode == RST_FRICTIONLESS) return RST_HAS_NO_FRICTION;
-    if (problem->mode == RST_NO_SLIP || problem->psi < rst_critical_psi(problem->chi, rebound)) return RST_STICKS;
-    return RST_SLIPS_TO_THE_END;
+    if (problem->mode == RST_FRICTIONLESS) return RST_WITHOUT_FRICTION;
+    if (problem->mode == RST_NO_SLIP || problem->psi < rst_critical_psi(problem->chi, rebound)) return RST_STICKS_SOMETIME;
+    return RST_SLIDES;
 }
 
 int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,

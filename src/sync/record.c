@@ -121,7 +121,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     const int slides = problem->mode == RST_FRICTIONLESS ||
                        (problem->mode != RST_NO_SLIP && problem->psi >= rst_critical_psi(problem->chi, -outcome->velocity));
     if (!slides && outcome->walked > 0) {
-        if (rst_walk(motion, run, problem, RST_STICKS, outcome->walked, &walk))
+        if (rst_walk(motion, run, problem, RST_STICKS_SOMETIME, outcome->walked, &walk))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {

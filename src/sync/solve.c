@@ -137,13 +137,13 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
     const double error_ez = outcome->error_ez;
     int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
-    if (rst_walk(motion, fine->run, problem, RST_STICKS, parts, &coarse))
+    if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &coarse))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     for (;; coarse = now) {
         const double work = 2.0 * (double)coarse.n * (double)coarse.n * (1.0 + (double)problem->solid.n_terms);
         outcome->updates += (int64_t)work;
         parts *= 2;
-        if (rst_walk(motion, fine->run, problem, RST_STICKS, parts, &now))
+        if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &now))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         const double change = now.velocity - coarse.velocity;
         outcome->shear_velocity = now.velocity + change / 3;

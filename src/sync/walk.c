@@ -50,11 +50,11 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
 }
 
 /* The angle at which gross slip ends splits the panel that it is in, unless it is at an end of it. */
-static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, enum rst_sliding sliding,
+static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, enum rst_walk_kind sliding,
                       struct ladder *ladder)
 {
     static const double apart = 1e-6; /* of a panel */
-    const int split = sliding == RST_STICKS && problem->mode == RST_GROSS_SLIP;
+    const int split = sliding == RST_STICKS_SOMETIME && problem->mode == RST_GROSS_SLIP;
     double angle = -1;
     int64_t returning = 0, at = 0;
     ladder->n_marks = 0;
@@ -123,7 +123,7 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
 }
 
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-             enum rst_sliding sliding, int64_t parts, struct rst_walk *walk)
+             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk)
 {
     const struct rst_solid *s = &problem->solid;
     const struct sync_normal *normal = &run->normal;
@@ -137,9 +137,9 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
     const struct walk w = {.n = n,
                            .n_terms = s->n_terms,
                            .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
-                           .start = sliding == RST_STICKS ? ladder.start : 2 * n,
+                           .start = sliding == RST_STICKS_SOMETIME ? ladder.start : 2 * n,
                            .no_slip = problem->mode == RST_NO_SLIP,
-                           .chi = sliding == RST_HAS_NO_FRICTION ? 0 : problem->chi,
+                           .chi = sliding == RST_WITHOUT_FRICTION ? 0 : problem->chi,
                            .psi = problem->psi,
                            .g_inf = s->g_inf,
                            .eta = s->eta};

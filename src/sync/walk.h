@@ -16,10 +16,10 @@ struct rst_walk {
 };
 
 /* Whether the contact slips to the end, sticks at some time, or has no friction. */
-enum rst_sliding { RST_HAS_NO_FRICTION, RST_SLIPS_TO_THE_END, RST_STICKS };
+enum rst_walk_kind { RST_WITHOUT_FRICTION, RST_SLIDES, RST_STICKS_SOMETIME };
 
 /* Walk with `parts` elements in each panel of the compression. Nonzero: out of memory. */
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-             enum rst_sliding sliding, int64_t parts, struct rst_walk *walk);
+             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk);
 
 #endif
