@@ -94,9 +94,14 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
-double rst_roughness_of(int level)
+static double rst_roughness_of(int level)
 {
     return rst_first_roughness * pow(rst_roughness_falls, level);
+}
+
+double rst_piece_roughness(const struct rst_problem *problem, int halvings)
+{
+    return fmin(rst_roughness_of(halvings - 1), rst_piece_part * problem->tolerance);
 }
 
 /* Panels, M_k, P_k and what the restitution needs besides. */
@@ -165,8 +170,8 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
 {
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
-                                         .roughness = rst_roughness_of(halvings - 1) * fmin(1, problem->psi),
-                                         .noise = rst_roughness_of(halvings - 1),
+                                         .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
+                                         .noise = rst_noise * rst_roughness_of(halvings - 1),
                                          .closeness = rst_closeness * fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {

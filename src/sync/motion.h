@@ -42,6 +42,9 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
 /* The normal motion with panels of at most (pi/2)/2^halvings; NULL: out of memory. */
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings);
 
+/* What the polynomials of U' may miss, over psi. */
+double rst_piece_roughness(const struct rst_problem *problem, int halvings);
+
 /* The tangential motion on a run: U' at the end, over psi as the problem has it. Nonzero: out of memory. */
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, double *velocity, int64_t *found);

@@ -99,6 +99,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
         problem->mode == RST_FRICTIONLESS
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
+                  rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) +
                   stops * fmax(stop_speed, 2 * problem->chi * rst_slowest / problem->psi);
     outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
     outcome->followed_time = end->time[rst_stages];
@@ -192,6 +193,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     while (!status) {
         compare(problem, &coarse, &fine, outcome);
         if (fine.sticks_again || coarse.sticks_again) {
+            if (outcome->sunk) return too_hard(error); /* the walk goes over a rebound */
             status = walk_refining(motion, problem, &fine, outcome, error);
             break;
         }

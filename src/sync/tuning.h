@@ -6,11 +6,15 @@
 
 /* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
  * of the tangential one behind a front and with elements. */
-static const double rst_share_of_change = 0.125, rst_share_of_elements = 0.5;
+static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5;
 
 /* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
  * give where all is smooth, so that only panels that are not smooth are halved further. */
 static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
+
+/* The same for the pieces of U', as a part of the tolerance; what an estimate gets of it, since two runs may agree by chance; and
+ * the part of the roughness below which slack is none. */
+static const double rst_piece_part = 3, rst_share_of_pieces = 0.03, rst_noise = 0.01;
 
 /* Panels of the first run are at most (pi/2)/2^halvings wide: halvings = 1 for tolerances from that on, one more for each
  * factor of 64 below. */
