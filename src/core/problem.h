@@ -41,6 +41,8 @@ struct rst_outcome {
     int64_t normal_levels; /* sync: those of the normal problem, a divisor of `elements` */
     struct euler_ledger ledger;
     int sunk;
+    int halvings;   /* sync: those of the run that gave the pair */
+    int64_t walked; /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
 /* Receives samples of the history in the units of the problem; see restitute_history. */

@@ -34,6 +34,12 @@ static inline double certain_error(double value, double reference, double refere
     return fmax(0, fabs(value - reference) - reference_error);
 }
 
+/* Error over estimate where it is more than 1, else 0: an estimate of 0 is right about an error of 0. */
+static inline double too_low_by(double error, double estimate)
+{
+    return error <= estimate ? 0 : error / estimate;
+}
+
 static inline int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;

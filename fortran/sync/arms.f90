@@ -1,0 +1,86 @@
+!> The Maxwell arms of the solid on a panel of collocation.
+!>
+!> An arm of the modulus g that relaxes at the rate 1/tau has the stress y with y' = g v - rate y for the velocity v. The spring
+!> G_inf is an arm with the rate 0, so that the solid is a dashpot eta and arms, and no formula has a case for any of them.
+module rst_arms
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, integral, solve_linear
+  implicit none (type, external)
+  private
+  public :: solid_type, respond, respond_all, advance
+
+  !> Twin of `struct sync_solid` in C; the moduli and rates of the arms are arrays beside it.
+  type, bind(c) :: solid_type
+    real(dp) :: eta
+    integer(ip) :: n_arms
+  end type solid_type
+
+contains
+
+  !> The stress at the points of a panel is decay*y_0 + matmul(kernel, g*span*v). span: time per x at the points, so that time passes
+  !> as int span dx. The arm is taken implicitly, at any rate.
+  pure subroutine respond(rate, span, kernel, decay, fails)
+    real(dp), intent(in) :: rate, span(stages)
+    real(dp), intent(out) :: kernel(stages, stages), decay(stages)
+    logical, intent(out) :: fails
+    real(dp) :: a(stages, stages), b(stages, stages + 1)
+    integer(ip) :: j
+    fails = .false.
+    kernel = integral
+    decay = 1
+    if (.not. rate > 0) return
+    do j = 1, stages
+      a(:, j) = integral(:, j)*(rate*span(j))
+      a(j, j) = 1 + a(j, j)
+    end do
+    b(:, 1:stages) = integral
+    b(:, stages + 1) = 1
+    call solve_linear(stages, stages + 1, a, b, fails)
+    kernel = b(:, 1:stages)
+    decay = b(:, stages + 1)
+  end subroutine respond
+  !> That of all arms, and answer: how the stress of an element answers to its velocity. (Arrays of any stride: compilers would copy
+  !> components of derived types to make them contiguous.)
+  pure subroutine respond_all(eta, g, rate, span, kernel, decay, answer, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), span(stages)
+    real(dp), intent(out) :: kernel(:, :, :), decay(:, :), answer(stages, stages)
+    logical, intent(out) :: fails
+    real(dp) :: one(stages, stages), fade(stages)
+    integer(ip) :: i, j, k
+    answer = 0
+    fails = .false.
+    do k = 1, size(g, kind=ip)
+      call respond(rate(k), span, one, fade, fails)
+      if (fails) return
+      do j = 1, stages
+        answer(:, j) = answer(:, j) + one(:, j)*(g(k)*span(j))
+        do i = 1, stages
+          kernel(i, j, k) = one(i, j)
+        end do
+        decay(j, k) = fade(j)
+      end do
+    end do
+    do j = 1, stages
+      answer(j, j) = answer(j, j) + eta
+    end do
+  end subroutine respond_all
+
+  !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v.
+  pure subroutine advance(g, span, kernel, decay, v, y)
+    real(dp), intent(in) :: g(:), span(stages), kernel(:, :, :), decay(:, :), v(stages)
+    real(dp), intent(inout) :: y(0:, :)
+    real(dp) :: total(stages)
+    integer(ip) :: i, j, k
+    do k = 1, size(g, kind=ip)
+      total = 0
+      do j = 1, stages
+        do i = 1, stages
+          total(i) = total(i) + kernel(i, j, k)*(span(j)*v(j))
+        end do
+      end do
+      do i = 1, stages
+        y(i, k) = decay(i, k)*y(0, k) + g(k)*total(i)
+      end do
+    end do
+  end subroutine advance
+end module rst_arms

@@ -1,0 +1,196 @@
+!> Collocation on one panel: Radau's points, integrals of the polynomials through them, interpolation, and small linear systems.
+!>
+!> A panel is 0 <= x <= 1. A function of it is known by its value at x = 0 and at the `stages` points of Radau (docs/sync.md). An
+!> initial value problem y' = h f(y) is solved where y_i = y_0 + h sum_j integral(i, j) f_j: Radau IIA, which is of order
+!> 2 stages - 1 at the end of the panel and damps whatever decays within it (L-stable).
+module rst_collocation
+  use rst_precision, only: dp, ip
+  implicit none (type, external)
+  private
+  public :: stages, point, integral, weights_at, last_coefficient, integrated, start_of, slope_of, root_between
+  public :: applied, composed, solve_linear, has_converged
+
+  integer(ip), parameter :: stages = 6
+
+  !> The start of the panel and Radau's points: zeros of P_6 - P_5, Legendre's polynomials in 2x - 1.
+  real(dp), parameter :: point(0:stages) = [0.0_dp, 3.98098570514687430e-02_dp, 1.98013417873608183e-01_dp, &
+                         4.37974810247386159e-01_dp, 6.95464273353636142e-01_dp, 9.01464914201173584e-01_dp, 1.0_dp]
+
+  !> integral(i, j): int_0^x_i of the polynomial that is 1 at point j and 0 at the other points, without x = 0.
+  real(dp), parameter :: integral(stages, stages) = reshape([ &
+    5.09500109946406099e-02_dp, 1.08221658919058661e-01_dp, 9.77796700926453488e-02_dp, &
+    1.02122375612933844e-01_dp, 1.00331001384960802e-01_dp, 1.00794192626740414e-01_dp, &
+    -1.89073065542921387e-02_dp, 1.06975519937332605e-01_dp, 2.23172250636895830e-01_dp, &
+    2.02975957373091070e-01_dp, 2.10247308553338452e-01_dp, 2.08450667155953867e-01_dp, &
+    1.36860714330882295e-02_dp, -2.75390233553924196e-02_dp, 1.36314679273051881e-01_dp, &
+    2.76399136380747812e-01_dp, 2.56085372050337601e-01_dp, 2.60463391594787486e-01_dp, &
+    -1.03700387660460459e-02_dp, 1.74967471412281611e-02_dp, -2.96469659881962166e-02_dp, &
+    1.31006023136042982e-01_dp, 2.53365934704565643e-01_dp, 2.42693594234484972e-01_dp, &
+    7.36065639663980361e-03_dp, -1.16537218911955866e-02_dp, 1.63585788434371590e-02_dp, &
+    -2.48763031998222861e-02_dp, 9.24305343356996018e-02_dp, 1.59820376610255471e-01_dp, &
+    -2.90953645256171456e-03_dp, 4.51223712257675397e-03_dp, -6.00340261044787597e-03_dp, &
+    7.83708405064264743e-03_dp, -1.09952368277285543e-02_dp, 2.77777777777777762e-02_dp], [stages, stages])
+
+  !> 1/prod(point_j - point_k): the barycentric weights; sum_j weight_j y_j is the coefficient of x^stages.
+  real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
+                         -3.56279434793616133e+02_dp, 2.72918967701194731e+02_dp, -1.94528678408716956e+02_dp, 7.7e1_dp]
+
+contains
+
+  !> The polynomial through y has the value sum(weight*y) at x.
+  pure function weights_at(x) result(weight)
+    real(dp), intent(in) :: x
+    real(dp) :: weight(0:stages), away
+    integer(ip) :: j
+    do j = 0, stages
+      away = x - point(j)
+      if (.not. abs(away) > 0) then
+        weight = 0
+        weight(j) = 1
+        return
+      end if
+      weight(j) = barycentric(j)/away
+    end do
+    weight = weight/sum(weight)
+  end function weights_at
+
+  !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
+  pure function last_coefficient(y) result(c)
+    real(dp), intent(in) :: y(0:stages)
+    real(dp) :: c
+    c = abs(sum(barycentric*y))/2.0_dp**(2*stages - 1)
+  end function last_coefficient
+
+  !> start + int_0^x_i y dx at the points.
+  pure function integrated(start, y) result(total)
+    real(dp), intent(in) :: start, y(stages)
+    real(dp) :: total(stages)
+    integer(ip) :: j
+    total = start
+    do j = 1, stages
+      total = total + integral(:, j)*y(j)
+    end do
+  end function integrated
+
+  !> The matrix a, applied to y. (Compilers may call a library for matmul.)
+  pure function applied(a, y) result(z)
+    real(dp), intent(in) :: a(stages, stages), y(stages)
+    real(dp) :: z(stages)
+    integer(ip) :: j
+    z = 0
+    do j = 1, stages
+      z = z + a(:, j)*y(j)
+    end do
+  end function applied
+
+  pure function composed(a, b) result(c)
+    real(dp), intent(in), dimension(stages, stages) :: a, b
+    real(dp) :: c(stages, stages)
+    integer(ip) :: j
+    do j = 1, stages
+      c(:, j) = applied(a, b(:, j))
+    end do
+  end function composed
+
+  !> At the start of the panel, the polynomial through the values at the points alone.
+  pure function start_of(y) result(start)
+    real(dp), intent(in) :: y(stages)
+    real(dp) :: start
+    start = -sum(barycentric(1:)*y)/barycentric(0)
+  end function start_of
+
+  !> Slopes at the points of the polynomial through them that is 0 at the start.
+  pure function slope_of(y) result(slope)
+    real(dp), intent(in) :: y(stages)
+    real(dp) :: slope(stages)
+    integer(ip) :: i, j
+    do i = 1, stages
+      slope(i) = -barycentric(0)*y(i)/point(i)
+      do j = 1, stages
+        if (j /= i) slope(i) = slope(i) + barycentric(j)*(y(j) - y(i))/(point(i) - point(j))
+      end do
+      slope(i) = slope(i)/barycentric(i)
+    end do
+  end function slope_of
+
+  !> A zero of the polynomial through y between the points i - 1 and i, where it changes its sign: the secant's, halved where that
+  !> hardly moves.
+  pure function root_between(i, y) result(x)
+    integer(ip), intent(in) :: i
+    real(dp), intent(in) :: y(0:stages)
+    real(dp) :: x, low, high, at_low, at_high, now
+    integer(ip) :: n
+    low = point(i - 1)
+    high = point(i)
+    at_low = y(i - 1)
+    at_high = y(i)
+    do n = 1, 60
+      x = low - at_low*(high - low)/(at_high - at_low)
+      if (modulo(n, 3_ip) == 0 .or. .not. (x > low .and. x < high)) x = 0.5_dp*(low + high)
+      now = sum(weights_at(x)*y)
+      if (now*at_high > 0) then
+        high = x
+        at_high = now
+      else
+        low = x
+        at_low = now
+      end if
+      if (high - low <= epsilon(x) .or. .not. abs(now) > 0) exit
+    end do
+  end function root_between
+
+  !> Whether Newton's steps end: the next change, foretold from the last two, is below closeness, or rounding keeps it from falling.
+  pure function has_converged(change, previous, closeness) result(yes)
+    real(dp), intent(in) :: change, previous, closeness
+    logical :: yes
+    real(dp), parameter :: stagnates_below = 1.0e-6_dp
+    yes = change*min(1.0_dp, change/previous) < closeness .or. (change < stagnates_below .and. change > 0.5_dp*previous)
+  end function has_converged
+
+  !> Solve a x = b by elimination with pivots; both are destroyed, b becomes x. fails: a is singular or not finite.
+  pure subroutine solve_linear(n, columns, a, b, fails)
+    integer(ip), intent(in) :: n, columns
+    real(dp), intent(inout) :: a(n, n), b(n, columns)
+    logical, intent(out) :: fails
+    real(dp) :: pivot, swap, part
+    integer(ip) :: i, j, k, p
+    fails = .true.
+    do k = 1, n
+      p = k
+      do i = k + 1, n
+        if (abs(a(i, k)) > abs(a(p, k))) p = i
+      end do
+      if (.not. (abs(a(p, k)) > 0 .and. abs(a(p, k)) <= huge(1.0_dp))) return
+      if (p /= k) then
+        do j = k, n
+          swap = a(k, j)
+          a(k, j) = a(p, j)
+          a(p, j) = swap
+        end do
+        do j = 1, columns
+          swap = b(k, j)
+          b(k, j) = b(p, j)
+          b(p, j) = swap
+        end do
+      end if
+      pivot = 1/a(k, k)
+      a(k + 1:n, k) = a(k + 1:n, k)*pivot
+      do j = k + 1, n
+        part = a(k, j)
+        a(k + 1:n, j) = a(k + 1:n, j) - a(k + 1:n, k)*part
+      end do
+      do j = 1, columns
+        part = b(k, j)
+        b(k + 1:n, j) = b(k + 1:n, j) - a(k + 1:n, k)*part
+      end do
+    end do
+    do k = n, 1, -1
+      do j = 1, columns
+        b(k, j) = b(k, j)/a(k, k)
+        part = b(k, j)
+        b(1:k - 1, j) = b(1:k - 1, j) - a(1:k - 1, k)*part
+      end do
+    end do
+    fails = .false.
+  end subroutine solve_linear
+end module rst_collocation

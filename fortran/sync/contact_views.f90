@@ -1,0 +1,51 @@
+!> What the tangential problem of the method `sync` works on: views of the caller's arrays, set by the interface to C.
+module rst_contact_views
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages
+  use rst_panel, only: panel_type
+  implicit none (type, external)
+  private
+  public :: normal_type, contact_type, record_type, piece_type, store_type
+
+  !> The normal motion of a solid: eta, arms, panels, M_k and P_k at their points; n: panels of the compression and of all.
+  type :: normal_type
+    real(dp) :: eta
+    integer(ip) :: n_arms, n_compression, n_panels
+    real(dp), pointer, contiguous :: g(:), rate(:), memory(:, :, :), loading(:, :, :)
+    type(panel_type), pointer, contiguous :: panel(:)
+  end type normal_type
+
+  !> The tangential problem. Twin of `struct sync_contact` in C.
+  type, bind(c) :: contact_type
+    real(dp) :: chi, psi
+    real(dp) :: roughness   !! what the polynomial of a piece may miss of U'
+    real(dp) :: noise       !! slack, angles and velocities that the polynomials of the normal motion may miss
+    real(dp) :: closeness   !! iterations end when U' changes by less
+    integer(ip) :: no_slip  !! /= 0: friction without limit
+  end type contact_type
+
+  !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it. The edge
+  !> angle goes from `from` to `to`, and the last point is at `end`, which may be beyond. Arrays mz, lz, mx, lx of store_type are at its points too. Twin of `struct sync_record` in C.
+  type, bind(c) :: record_type
+    real(dp) :: from, to, end
+    real(dp), dimension(0:stages) :: radius, time, sink, shear  !! sink, shear: D' and U' times |ds/dtheta|
+  end type record_type
+
+  !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is left of it. U', S and the stick
+  !> radius at its points. Twin of `struct sync_piece` in C.
+  type, bind(c) :: piece_type
+    integer(ip) :: panel, rooted
+    real(dp) :: from, to
+    real(dp), dimension(0:stages) :: velocity, force, stick
+  end type piece_type
+
+  !> Records, pieces and room. (0:stages, arms): of the piece being solved, (0) is its start.
+  type :: store_type
+    integer(ip) :: n_records, n_pieces
+    type(record_type), pointer, contiguous :: record(:)
+    type(piece_type), pointer, contiguous :: piece(:)
+    real(dp), pointer, contiguous, dimension(:, :, :) :: mz, lz, mx, lx  !! (0:stages, arms, records): M_k, P_k in z and x
+    real(dp), pointer, contiguous :: kernel(:, :, :), decay(:, :)        !! of the arms (module rst_arms)
+    real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
+  end type store_type
+end module rst_contact_views

@@ -1,0 +1,160 @@
+!> The normal motion of an impact, panel after panel (docs/sync.md).
+!>
+!> Panels are equal parts of the edge angle, halved while their polynomials miss too much or Newton's steps do not converge, and twice as
+!> wide again where halves are not needed. Their ends are at multiples of (pi/2)/2^deepest.
+module rst_normal_motion
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, last_coefficient
+  use rst_arms, only: solid_type
+  use rst_panel, only: panel_type, mesh_type, mass_factor
+  use rst_compression_panel, only: compress
+  use rst_restitution_panel, only: rebound
+  implicit none (type, external)
+  private
+  public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
+
+  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good; that the panels given are too few; nothing.
+  integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
+
+  integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
+  real(dp), parameter :: unit = acos(0.0_dp)/real(whole, dp)
+
+  !> Twin of `struct sync_normal_control` in C.
+  type, bind(c) :: normal_control_type
+    real(dp) :: roughness   !! what the polynomials of a panel may miss of D', A/r and the time over that of the panel
+    real(dp) :: stop_speed  !! a sphere that cannot come back faster has stopped
+    integer(ip) :: halvings !! panels are at most (pi/2)/2^halvings wide
+    integer(ip) :: capacity !! panels there is room for
+  end type normal_control_type
+
+contains
+
+  !> From first touch to the end of contact. mesh%radius and mesh%closeness are given.
+  subroutine follow_normal(solid, g, rate, control, mesh, panel, memory, loading, entry, found)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
+    type(normal_control_type), intent(in) :: control
+    type(mesh_type), intent(inout) :: mesh
+    type(panel_type), intent(inout) :: panel(control%capacity)
+    real(dp), intent(inout), dimension(0:stages, solid%n_arms, control%capacity) :: memory, loading  !! M_k and P_k
+    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room
+    integer(ip), intent(out) :: found
+    mesh%n_panels = 0
+    call go_through(.false., found)
+    if (found /= rebounds) return
+    call go_through(.true., found)
+  contains
+
+    !> The compression or the restitution: place runs from 0 to whole.
+    subroutine go_through(back, found)
+      logical, intent(in) :: back
+      integer(ip), intent(out) :: found
+      integer(ip) :: place, width, widest, n
+      logical :: fails
+      place = 0
+      widest = whole/2_ip**control%halvings
+      width = widest
+      do while (place < whole)
+        n = mesh%n_panels + 1
+        found = lacks_room
+        if (n > control%capacity) return
+        if (back) width = min(width, width_at(whole - place, mesh%n_compression, panel))
+        call begin(panel(max(1_ip, n - 1)), n, panel(n))
+        memory(0, :, n) = 0
+        loading(0, :, n) = 0
+        if (n > 1) then
+          memory(0, :, n) = memory(stages, :, n - 1)
+          loading(0, :, n) = loading(stages, :, n - 1)
+        end if
+        panel(n)%from = merge(whole - place, place, back)*unit
+        panel(n)%to = merge(whole - place - width, place + width, back)*unit
+        if (back) then
+          call rebound(solid, g, rate, mesh, panel, memory, loading, entry, fails)
+        else
+          call compress(solid, g, rate, mesh, panel(max(1_ip, n - 1)), panel(n), memory(:, :, n), &
+                        loading(:, :, n), fails)
+        end if
+        if (.not. fails) fails = missed(mesh%radius, panel(n), back) > control%roughness
+        if (fails) then
+          width = width/2
+          found = does_not_converge
+          if (width == 0) return
+          cycle
+        end if
+        mesh%n_panels = n
+        if (.not. back) mesh%n_compression = n
+        place = place + width
+        if (.not. back) then
+          found = stops
+          if (has_stopped(solid, g, control%stop_speed, panel(n), memory(:, :, n), loading(:, :, n))) return
+        end if
+        do while (width < widest .and. modulo(place, 2*width) == 0)
+          width = 2*width
+          exit
+        end do
+      end do
+      found = rebounds
+    end subroutine go_through
+  end subroutine follow_normal
+
+  !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is not smooth.
+  pure function width_at(place, n, panel) result(width)
+    integer(ip), intent(in) :: place, n
+    type(panel_type), intent(in) :: panel(n)
+    integer(ip) :: width, i
+    i = n
+    do while (i > 1 .and. nint(panel(i)%from/unit, ip) >= place)
+      i = i - 1
+    end do
+    width = nint(panel(i)%to/unit, ip) - nint(panel(i)%from/unit, ip)
+  end function width_at
+
+  !> The start of a panel is the end of the one before, and the first one starts at first touch.
+  pure subroutine begin(before, n, panel)
+    type(panel_type), intent(in) :: before
+    integer(ip), intent(in) :: n
+    type(panel_type), intent(inout) :: panel
+    if (n > 1) then
+      panel%radius(0) = before%radius(stages)
+      panel%time(0) = before%time(stages)
+      panel%depth(0) = before%depth(stages)
+      panel%velocity(0) = before%velocity(stages)
+      panel%force(0) = before%force(stages)
+      panel%pace(0) = before%pace(stages)
+    else
+      panel%radius(0) = 0
+      panel%time(0) = 0
+      panel%depth(0) = 0
+      panel%velocity(0) = 1
+      panel%force(0) = 0
+      panel%pace(0) = 0
+    end if
+  end subroutine begin
+
+  !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
+  !> restitution follows from slopes of what the compression left.
+  pure function missed(r, panel, back) result(most)
+    real(dp), intent(in) :: r
+    type(panel_type), intent(in) :: panel
+    logical, intent(in) :: back
+    real(dp) :: most
+    most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/r, &
+               last_coefficient(panel%time)/panel%time(stages))
+    if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
+  end function missed
+
+  !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses up to
+  !> twice their mean, or because the dashpot keeps them from letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
+  pure function has_stopped(solid, g, stop_speed, panel, memory, loading) result(yes)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), stop_speed
+    type(panel_type), intent(in) :: panel
+    real(dp), intent(in), dimension(0:stages, solid%n_arms) :: memory, loading
+    logical :: yes
+    real(dp) :: energy
+    yes = .false.
+    if (panel%velocity(stages) >= stop_speed .or. .not. panel%velocity(stages) > 0) return
+    energy = 2*mass_factor*sum(loading(stages, :)**2/g)/panel%radius(stages)
+    yes = energy < stop_speed**2 .or. sum(memory(stages, :)) < stop_speed*solid%eta
+  end function has_stopped
+end module rst_normal_motion

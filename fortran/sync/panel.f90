@@ -1,0 +1,51 @@
+!> A panel of the normal motion and what is known of it between its points.
+module rst_panel
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, point, weights_at
+  implicit none (type, external)
+  private
+  public :: panel_type, mesh_type, place_on, find_angle, mass_factor
+
+  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
+
+  !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression and
+  !> downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.
+  type, bind(c) :: panel_type
+    real(dp) :: from, to
+    real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
+  end type panel_type
+
+  !> How the motion is divided: the scale r of the radius in theta, when iterations end, panels of the compression and of all.
+  !> Twin of `struct sync_mesh` in C.
+  type, bind(c) :: mesh_type
+    real(dp) :: radius, closeness
+    integer(ip) :: n_compression, n_panels
+  end type mesh_type
+
+contains
+
+  !> The panel of the compression at whose angles theta is, and the weights of its points there.
+  pure subroutine find_angle(theta, n_panels, panel, p, weight)
+    real(dp), intent(in) :: theta
+    integer(ip), intent(in) :: n_panels
+    type(panel_type), intent(in) :: panel(n_panels)
+    integer(ip), intent(inout) :: p  !! where to begin the search
+    real(dp), intent(out) :: weight(0:stages)
+    p = max(1_ip, min(n_panels, p))
+    do while (p > 1 .and. theta < panel(p)%from)
+      p = p - 1
+    end do
+    do while (p < n_panels .and. theta > panel(p)%to)
+      p = p + 1
+    end do
+    weight = weights_at(place_on(panel(p), theta))
+  end subroutine find_angle
+
+  !> x of an angle on the panel.
+  pure function place_on(panel, theta) result(x)
+    type(panel_type), intent(in) :: panel
+    real(dp), intent(in) :: theta
+    real(dp) :: x
+    x = (theta - panel%from)/(panel%to - panel%from)
+  end function place_on
+end module rst_panel

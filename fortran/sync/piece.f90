@@ -1,0 +1,136 @@
+!> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
+module rst_piece
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, solve_linear
+  use rst_arms, only: respond_all, advance
+  use rst_panel, only: panel_type, mass_factor
+  use rst_contact_views, only: normal_type, contact_type, store_type
+  implicit none (type, external)
+  private
+  public :: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
+
+  !> The normal motion at the start of a piece and at its points; span: time per x of the piece; answer: of the stress of an element
+  !> in stick to U'.
+  type :: ground_type
+    integer(ip) :: panel
+    real(dp) :: from, to
+    logical :: rooted, returning
+    real(dp), dimension(0:stages) :: place, angle, radius, time, velocity, force, pace
+    real(dp) :: span(stages), answer(stages, stages)
+  end type ground_type
+
+contains
+
+  !> U'' = -(15/4) chi S
+  pure function push_factor(contact) result(push)
+    type(contact_type), intent(in) :: contact
+    real(dp) :: push
+    push = 2*mass_factor*contact%chi
+  end function push_factor
+
+  !> The ground of the piece from x = from to x = to of a panel. In a rooted piece x is to - (to - from) (1 - y)^2 with y from 0 to 1.
+  subroutine lay_ground(normal, panel, from, to, rooted, store, ground, fails)
+    type(normal_type), intent(in) :: normal
+    integer(ip), intent(in) :: panel
+    real(dp), intent(in) :: from, to
+    logical, intent(in) :: rooted
+    type(store_type), intent(inout) :: store
+    type(ground_type), intent(out) :: ground
+    logical, intent(out) :: fails
+    real(dp) :: weight(0:stages), x, slope, width
+    integer(ip) :: i, k
+    ground%panel = panel
+    ground%from = from
+    ground%to = to
+    ground%rooted = rooted
+    ground%returning = panel > normal%n_compression
+    width = abs(normal%panel(panel)%to - normal%panel(panel)%from)
+    do i = 0, stages
+      slope = to - from
+      x = from + slope*point(i)
+      if (rooted) then
+        x = to - (to - from)*(1 - point(i))**2
+        slope = 2*(to - from)*(1 - point(i))
+      end if
+      ground%place(i) = x
+      associate (on => normal%panel(panel))
+        weight = weights_at(x)
+        ground%angle(i) = on%from + x*(on%to - on%from)
+        ground%radius(i) = sum(weight*on%radius)
+        ground%time(i) = sum(weight*on%time)
+        ground%velocity(i) = sum(weight*on%velocity)
+        ground%force(i) = sum(weight*on%force)
+        ground%pace(i) = sum(weight*on%pace)
+      end associate
+      do k = 1, normal%n_arms
+        store%now_z(i, k) = sum(weight*normal%memory(:, k, panel))
+      end do
+      ground%span(max(i, 1_ip)) = ground%pace(i)*width*slope  ! that of the start is written over
+    end do
+    call respond_all(normal%eta, normal%g, normal%rate, ground%span, store%kernel, store%decay, ground%answer, fails)
+  end subroutine lay_ground
+
+  !> M_k in x at the points, from that at the start and U' = w.
+  subroutine advance_memory(normal, ground, w, store)
+    type(normal_type), intent(in) :: normal
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: w(stages)
+    type(store_type), intent(inout) :: store
+    call advance(normal%g, ground%span, store%kernel, store%decay, w, store%now_x)
+  end subroutine advance_memory
+
+  !> All sticks: S at the points is linear in U', S = kept + response U'. While the contact grows
+  !> P_k' = g_k A U' - P_k/tau_k in x and S = eta A U' + sum_k P_k; while it shrinks without slip,
+  !> S = A q(A) + sum_k E_k P_k(t_A) with the stress q of an element at the edge (held: its part of memory and the sum).
+  subroutine stick(normal, contact, ground, held, w, force, store, fails)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: held(stages)      !! of the shrinking contact
+    real(dp), intent(inout) :: w(0:stages)    !! U'; (0) is given
+    real(dp), intent(inout) :: force(0:stages)
+    type(store_type), intent(inout) :: store
+    logical, intent(out) :: fails
+    real(dp) :: response(stages, stages), matrix(stages, stages), kept(stages), right(stages, 1), push
+    integer(ip) :: j, k
+    push = push_factor(contact)
+    kept = held
+    response = 0
+    do k = 1, normal%n_arms
+      if (ground%returning) then
+        kept = kept + ground%radius(1:)*store%decay(:, k)*store%now_x(0, k)
+      else
+        kept = kept + store%decay(:, k)*store%now_l(0, k)
+        do j = 1, stages
+          response(:, j) = response(:, j) + store%kernel(:, j, k)*(normal%g(k)*ground%span(j)*ground%radius(j))
+        end do
+      end if
+    end do
+    do j = 1, stages
+      if (ground%returning) then
+        response(:, j) = ground%radius(1:)*ground%answer(:, j)
+      else
+        response(j, j) = response(j, j) + normal%eta*ground%radius(j)
+      end if
+    end do
+    do j = 1, stages
+      matrix(:, j) = push*applied(integral, ground%span*response(:, j))
+      matrix(j, j) = 1 + matrix(j, j)
+    end do
+    right(:, 1) = integrated(w(0), -push*ground%span*kept)
+    call solve_linear(stages, 1_ip, matrix, right, fails)
+    if (fails) return
+    w(1:) = right(:, 1)
+    force(1:) = kept + applied(response, w(1:))
+    call advance_memory(normal, ground, w(1:), store)
+    if (ground%returning) return
+    call advance(normal%g, ground%span, store%kernel, store%decay, ground%radius(1:)*w(1:), store%now_l)
+  end subroutine stick
+
+  !> The polynomial through y at the place on the piece, which is between 0 and 1.
+  pure function value_on(place, y) result(value)
+    real(dp), intent(in) :: place, y(0:stages)
+    real(dp) :: value
+    value = sum(weights_at(place)*y)
+  end function value_on
+end module rst_piece

@@ -1,0 +1,221 @@
+!> The restitution on one panel (docs/sync.md): the edge goes back over the angles of the compression. When it is again at the radius
+!> that it had at the time t_A of the compression it is free,
+!>
+!>   sum_k [M_k - E_k M_k(t_A)] + eta D' = 0,  E_k = exp(-(s - t_A)/tau_k),
+!>
+!> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
+module rst_restitution_panel
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, solve_linear, &
+                             has_converged
+  use rst_arms, only: solid_type, respond
+  use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
+  implicit none (type, external)
+  private
+  public :: rebound
+
+  integer(ip), parameter :: most_iterations = 25
+
+  !> At the points: time of entry of the edge, its radius, D', pace, the sums above over k, and of rate_k times their terms.
+  type :: motion_type
+    real(dp), dimension(stages) :: entered, radius, v, pace, open, force, kept_rate, force_rate
+  end type motion_type
+
+contains
+
+  !> The panel mesh%n_panels + 1 from its values at its start, (0).
+  pure subroutine rebound(solid, g, rate, mesh, panel, memory, loading, entry, fails)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
+    type(mesh_type), intent(in) :: mesh
+    type(panel_type), intent(inout) :: panel(mesh%n_panels + 1)
+    real(dp), intent(inout) :: memory(0:stages, solid%n_arms, mesh%n_panels + 1)
+    real(dp), intent(in) :: loading(0:stages, solid%n_arms, mesh%n_compression)
+    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room: M_k and P_k when the edge went in
+    logical, intent(out) :: fails
+    type(motion_type) :: m
+    real(dp) :: by_v(stages, stages), by_pace(stages, stages), step_v(stages), step_pace(stages), change, previous, h
+    integer(ip) :: i, new
+    new = mesh%n_panels + 1
+    h = panel(new)%from - panel(new)%to
+    call recall(solid, mesh, panel, memory, loading, panel(new), m, entry)
+    call guess(solid, g, rate, mesh, panel, m)
+    previous = 1
+    do i = 1, most_iterations
+      call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, by_v, by_pace, fails)
+      if (fails) return
+      call newton(h, panel(new)%velocity(0), m, by_v, by_pace, step_v, step_pace, fails)
+      if (fails) return
+      change = maxval(abs(step_v)) + maxval(abs(step_pace))/maxval(m%pace)
+      fails = .not. change < 1.0e6_dp
+      if (fails) return
+      m%v = m%v + step_v
+      if (panel(new)%to > 0) step_pace(stages) = max(step_pace(stages), -0.9_dp*m%pace(stages)) ! at theta = 0 it is 0
+      step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
+      m%pace = m%pace + step_pace
+      if (has_converged(change, previous, mesh%closeness)) exit
+      previous = change
+    end do
+    fails = i > most_iterations
+    if (fails) return
+    call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, by_v, by_pace, fails)
+    if (.not. fails) call note(mesh, h, m, panel(new))
+    if (.not. fails) fails = .not. all(abs(panel(new)%time) < huge(1.0_dp))
+  end subroutine rebound
+
+  !> What the compression left at the angles of the points.
+  pure subroutine recall(solid, mesh, panel, memory, loading, new, m, entry)
+    type(solid_type), intent(in) :: solid
+    type(mesh_type), intent(in) :: mesh
+    type(panel_type), intent(in) :: panel(mesh%n_compression), new
+    real(dp), intent(in), dimension(0:stages, solid%n_arms, mesh%n_compression) :: memory, loading
+    type(motion_type), intent(out) :: m
+    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)
+    real(dp) :: weight(0:stages)
+    integer(ip) :: i, k, p
+    p = mesh%n_compression
+    do i = 1, stages
+      call find_angle(new%from + point(i)*(new%to - new%from), mesh%n_compression, panel, p, weight)
+      m%entered(i) = sum(weight*panel(p)%time)
+      m%radius(i) = sum(weight*panel(p)%radius)
+      do k = 1, solid%n_arms
+        entry(i, k, 1) = sum(weight*memory(:, k, p))
+        entry(i, k, 2) = sum(weight*loading(:, k, p))
+      end do
+    end do
+  end subroutine recall
+
+  !> The panel before, continued. After the turning point D' is linear in time.
+  pure subroutine guess(solid, g, rate, mesh, panel, m)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
+    type(mesh_type), intent(in) :: mesh
+    type(panel_type), intent(in) :: panel(mesh%n_panels + 1)
+    type(motion_type), intent(inout) :: m
+    real(dp) :: weight(0:stages), after(stages)
+    integer(ip) :: i, n
+    n = mesh%n_panels
+    if (n == mesh%n_compression) then
+      do i = 1, stages
+        after(i) = first_return(solid, g, rate, panel(n + 1)%time(0) - m%entered(i))
+      end do
+      m%pace = slope_of(after)/(panel(n + 1)%from - panel(n + 1)%to)
+      m%v = -mass_factor*panel(n + 1)%force(0)*after
+      m%pace = max(m%pace, 1.0e-3_dp*maxval(m%pace))
+    else
+      do i = 1, stages
+        weight = weights_at(place_on(panel(n), panel(n + 1)%from + point(i)*(panel(n + 1)%to - panel(n + 1)%from)))
+        m%pace(i) = sum(weight*panel(n)%pace)
+        m%v(i) = sum(weight*panel(n)%velocity)
+      end do
+      if (any(m%pace <= 0)) m%pace = panel(n)%pace(stages)
+    end if
+  end subroutine guess
+
+  !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
+  !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0, E_k = exp(-(x + before)/tau_k).
+  !> It rises with x; x = before solves the elastic one.
+  pure function first_return(solid, g, rate, before) result(x)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), before
+    real(dp) :: x, low, high, excess, slope, z
+    integer(ip) :: i, k
+    low = 0
+    high = before
+    x = before
+    do i = 1, 60
+      excess = solid%eta*x
+      slope = solid%eta
+      do k = 1, solid%n_arms
+        z = rate(k)*(x + before)
+        if (z < 1.0e-3_dp) then
+          excess = excess + g(k)*(x + before)*((x - before)/2 + z*(2*before - x)/6)
+          slope = slope + g(k)*x
+        else
+          excess = excess + g(k)*((x - (1 - exp(-z))/rate(k)) + before*exp(-z))/rate(k)
+          slope = slope + g(k)*((1 - exp(-z))/rate(k) - before*exp(-z))
+        end if
+      end do
+      if (excess > 0) high = x
+      if (excess <= 0) low = x
+      x = x - excess/slope
+      if (.not. (x > low .and. x < high)) x = (low + high)/2
+      if (abs(excess) <= 1.0e-3_dp*slope*x .or. high - low <= 1.0e-3_dp*high) exit
+    end do
+  end function first_return
+
+  !> The sums at the points for D' and the pace, with memory, and by_v, by_pace: how the sum that is zero answers to both.
+  pure subroutine balance(solid, g, rate, h, start, memory, entry, m, by_v, by_pace, fails)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), h, start
+    real(dp), intent(inout) :: memory(0:stages, solid%n_arms)
+    real(dp), intent(in) :: entry(stages, solid%n_arms, 2)
+    type(motion_type), intent(inout) :: m
+    real(dp), intent(out) :: by_v(stages, stages), by_pace(stages, stages)
+    logical, intent(out) :: fails
+    real(dp) :: kernel(stages, stages), decay(stages), left(stages), since(stages)
+    integer(ip) :: j, k
+    since = integrated(start, h*m%pace) - m%entered
+    m%open = solid%eta*m%v
+    m%force = 0
+    m%kept_rate = 0
+    m%force_rate = 0
+    by_v = 0
+    by_pace = 0
+    fails = .false.
+    do k = 1, solid%n_arms
+      call respond(rate(k), h*m%pace, kernel, decay, fails)
+      if (fails) return
+      memory(1:, k) = decay*memory(0, k) + applied(kernel, g(k)*h*m%pace*m%v)
+      left = 1
+      if (rate(k) > 0) left = exp(-rate(k)*since)
+      m%open = m%open + (memory(1:, k) - left*entry(:, k, 1))
+      m%force = m%force + left*entry(:, k, 2)
+      m%kept_rate = m%kept_rate + rate(k)*left*entry(:, k, 1)
+      m%force_rate = m%force_rate + rate(k)*left*entry(:, k, 2)
+      do j = 1, stages
+        by_v(:, j) = by_v(:, j) + kernel(:, j)*(g(k)*h*m%pace(j))
+        by_pace(:, j) = by_pace(:, j) + kernel(:, j)*(h*(g(k)*m%v(j) - rate(k)*memory(j, k)))
+      end do
+    end do
+    do j = 1, stages
+      by_v(j, j) = by_v(j, j) + solid%eta
+      by_pace(:, j) = by_pace(:, j) + m%kept_rate*(h*integral(:, j))
+    end do
+  end subroutine balance
+
+  !> Newton's step: that of D' follows from that of the pace.
+  pure subroutine newton(h, start, m, by_v, by_pace, step_v, step_pace, fails)
+    real(dp), intent(in) :: h, start, by_v(stages, stages), by_pace(stages, stages)
+    type(motion_type), intent(in) :: m
+    real(dp), intent(out) :: step_v(stages), step_pace(stages)
+    logical, intent(out) :: fails
+    real(dp) :: pull(stages, stages), faded(stages, stages), matrix(stages, stages), right(stages, 1), miss(stages)
+    integer(ip) :: j
+    miss = integrated(start, -mass_factor*h*m%pace*m%force) - m%v
+    do j = 1, stages
+      faded(:, j) = (m%pace*m%force_rate)*(h*integral(:, j))
+      faded(j, j) = faded(j, j) - m%force(j)
+    end do
+    pull = (mass_factor*h)*composed(integral, faded)  ! of D' to the pace
+    matrix = by_pace + composed(by_v, pull)
+    right(:, 1) = -m%open - applied(by_v, miss)
+    call solve_linear(stages, 1_ip, matrix, right, fails)
+    step_pace = right(:, 1)
+    step_v = miss + applied(pull, step_pace)
+  end subroutine newton
+
+  pure subroutine note(mesh, h, m, panel)
+    type(mesh_type), intent(in) :: mesh
+    real(dp), intent(in) :: h
+    type(motion_type), intent(in) :: m
+    type(panel_type), intent(inout) :: panel
+    panel%velocity(1:) = m%v
+    panel%force(1:) = m%force
+    panel%pace(1:) = m%pace
+    if (mesh%n_panels == mesh%n_compression) panel%pace(0) = start_of(m%pace)
+    panel%time(1:) = integrated(panel%time(0), h*m%pace)
+    panel%radius(1:) = m%radius
+    panel%depth(1:) = integrated(panel%depth(0), h*m%pace*m%v)
+  end subroutine note
+end module rst_restitution_panel

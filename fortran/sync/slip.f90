@@ -1,0 +1,256 @@
+!> One piece of the tangential motion, up to the next event (docs/sync.md).
+module rst_slip
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear, &
+                             has_converged
+  use rst_contact_views, only: normal_type, contact_type, store_type
+  use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor
+  use rst_front, only: slack_type, find_front, held_by
+  implicit none (type, external)
+  private
+  public :: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
+
+  integer(ip), parameter :: solved = 0, sticks_again = 1
+
+  !> Events that end a piece: slip sets in at the edge of a growing contact; the last element sticks no more; all that slipped has
+  !> left the shrinking contact.
+  integer(ip), parameter :: nothing = 0, slip_begins = 1, stick_ends = 2, slip_leaves = 3
+
+  integer(ip), parameter :: most_iterations = 20, most_secants = 15
+  real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
+  real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
+  real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
+
+  !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in stick,
+  !> else the slack at the centre and at the edge. returns: elements that slipped would stick again.
+  type :: solution_type
+    real(dp), dimension(0:stages) :: w, force, stick, front, centre, edge
+    logical :: returns
+  end type solution_type
+
+contains
+
+  !> The next piece from x on: the rest of the panel, or less where its polynomial misses too much or an event ends it.
+  !> s%w(0) and the starts of now_x, now_l are given.
+  subroutine take_piece(normal, contact, store, panel, x, side, ground, s, event, found)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(store_type), intent(inout) :: store
+    integer(ip), intent(in) :: panel
+    real(dp), intent(in) :: x, side
+    type(ground_type), intent(out) :: ground
+    type(solution_type), intent(inout) :: s
+    integer(ip), intent(out) :: event, found
+    real(dp) :: to, place
+    logical :: fails
+    to = 1
+    found = sticks_again
+    do
+      call solve_piece(normal, contact, store, panel, [x, to], .false., side, ground, s, fails)
+      event = nothing
+      if (.not. fails) call next_event(contact, ground, side, s, event, place)
+      if (event /= nothing) then
+        to = x + place*(to - x)
+        call end_at(normal, contact, store, [x, to], side, event, ground, s, fails)
+      end if
+      if (.not. fails) then
+        if (.not. s%returns .and. last_coefficient(s%w) <= contact%roughness) exit
+        if (s%returns .and. to - x < turning_room) return
+      end if
+      to = x + 0.5_dp*(to - x)
+      if (to - x < narrowest) return
+    end do
+    found = solved
+  end subroutine take_piece
+
+  subroutine solve_piece(normal, contact, store, panel, range, rooted, side, ground, s, fails)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(store_type), intent(inout) :: store
+    integer(ip), intent(in) :: panel
+    real(dp), intent(in) :: range(2), side
+    logical, intent(in) :: rooted
+    type(ground_type), intent(out) :: ground
+    type(solution_type), intent(inout) :: s
+    logical, intent(out) :: fails
+    real(dp) :: held(stages)
+    integer(ip) :: i
+    call lay_ground(normal, panel, range(1), range(2), rooted, store, ground, fails)
+    if (fails) return
+    if (abs(side) > 0) then
+      call slip_behind(normal, contact, store, ground, side, s, fails)
+      return
+    end if
+    held = 0
+    if (ground%returning) then
+      do i = 1, stages
+        held(i) = held_by(normal, store, ground%time(i), ground%angle(i))
+      end do
+    end if
+    call stick(normal, contact, ground, held, s%w, s%force, store, fails)
+    s%force(0) = 2*s%force(1) - s%force(2)
+    s%stick = ground%radius
+    s%edge = 1
+    s%centre = ground%velocity - abs(s%w)
+    s%returns = .false.
+  end subroutine solve_piece
+
+  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements that stick do.
+  subroutine slip_behind(normal, contact, store, ground, side, s, fails)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(store_type), intent(inout) :: store
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: side
+    type(solution_type), intent(inout) :: s
+    logical, intent(out) :: fails
+    real(dp) :: matrix(stages, stages), step(stages, 1), push, change, previous
+    integer(ip) :: i, j, n
+    push = push_factor(contact)
+    s%front = edge_of(store, ground, 0_ip)
+    call slacken(normal, store, ground, side, 0_ip, s)
+    s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
+    previous = 1
+    do n = 1, most_iterations
+      call advance_memory(normal, ground, s%w(1:), store)
+      do i = 1, stages
+        if (n == 1) s%front(i) = s%front(i - 1)
+        call slacken(normal, store, ground, side, i, s)
+      end do
+      step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
+      do j = 1, stages
+        matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
+        matrix(j, j) = 1 + matrix(j, j)
+      end do
+      call solve_linear(stages, 1_ip, matrix, step, fails)
+      if (fails) return
+      s%w(1:) = s%w(1:) + step(:, 1)
+      change = maxval(abs(step))
+      fails = .not. change < 1.0e3_dp
+      if (fails) return
+      if (has_converged(change, previous, contact%closeness)) exit
+      previous = change
+    end do
+    fails = n > most_iterations
+    if (fails) return
+    call advance_memory(normal, ground, s%w(1:), store)
+    do i = 1, stages
+      call slacken(normal, store, ground, side, i, s)
+    end do
+    s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
+    if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
+  end subroutine slip_behind
+
+  !> Front, slack and S at the point i.
+  subroutine slacken(normal, store, ground, side, i, s)
+    type(normal_type), intent(in) :: normal
+    type(store_type), intent(in) :: store
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: side
+    integer(ip), intent(in) :: i
+    type(solution_type), intent(inout) :: s
+    type(slack_type) :: slack
+    slack%angle = s%front(i)
+    call find_front(normal, store, i, ground%time(i), side, ground%velocity(i) - side*s%w(i), edge_of(store, ground, i), slack)
+    s%front(i) = slack%angle
+    s%stick(i) = slack%radius
+    s%centre(i) = slack%centre
+    s%edge(i) = slack%edge
+    s%force(i) = side*(ground%force(i) - slack%force)
+  end subroutine slacken
+
+  !> The angle of the outermost element that may stick: recorded, and in contact.
+  pure function edge_of(store, ground, i) result(edge)
+    type(store_type), intent(in) :: store
+    type(ground_type), intent(in) :: ground
+    integer(ip), intent(in) :: i
+    real(dp) :: edge
+    edge = store%record(store%n_records)%to
+    if (ground%returning) edge = min(edge, ground%angle(i))
+  end function edge_of
+
+  !> The first event on the piece, and its place.
+  subroutine next_event(contact, ground, side, s, event, place)
+    type(contact_type), intent(in) :: contact
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: side
+    type(solution_type), intent(in) :: s
+    integer(ip), intent(out) :: event
+    real(dp), intent(out) :: place
+    integer(ip) :: i
+    event = nothing
+    place = 1
+    if (contact%no_slip /= 0) return
+    do i = 1, stages
+      if (s%centre(i) < merge(0.0_dp, -contact%roughness, abs(side) > 0)) then
+        event = merge(stick_ends, slip_begins, abs(side) > 0)
+        place = first_rise(i, -s%centre)
+        return
+      end if
+      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise) then
+        event = slip_leaves
+        place = first_rise(i, s%edge)
+        return
+      end if
+    end do
+  end subroutine next_event
+
+  !> Where y, which is positive at the point i, became so; 0: at the start.
+  pure function first_rise(i, y) result(place)
+    integer(ip), intent(in) :: i
+    real(dp), intent(in) :: y(0:stages)
+    real(dp) :: place
+    integer(ip) :: j
+    j = i
+    do while (j > 1 .and. y(j - 1) >= 0)
+      j = j - 1
+    end do
+    place = 0
+    if (y(j - 1) < 0) place = root_between(j, y)
+  end function first_rise
+
+  !> The piece that ends at an event: its end is moved by secants until what is zero at the event is.
+  subroutine end_at(normal, contact, store, range, side, event, ground, s, fails)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(store_type), intent(inout) :: store
+    real(dp), intent(in) :: range(2), side
+    integer(ip), intent(in) :: event
+    type(ground_type), intent(inout) :: ground
+    type(solution_type), intent(inout) :: s
+    logical, intent(out) :: fails
+    real(dp) :: to, miss, to_before, miss_before, slope
+    integer(ip) :: n, panel
+    panel = ground%panel
+    to = range(2)
+    to_before = 0
+    miss_before = 0
+    do n = 1, most_secants
+      fails = .false.
+      if (to - range(1) <= empty) then
+        ground%to = range(1)
+        s%w = s%w(0)
+        s%returns = .false.
+        return
+      end if
+      call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, ground, s, fails)
+      if (fails) return
+      miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
+      if (abs(miss) <= contact%closeness) return
+      if (n == 1) then
+        slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
+        slope = slope/merge((to - range(1))*(1 - point(stages - 1))**2, (to - range(1))*(1 - point(stages - 1)), &
+                            event == stick_ends)
+      else
+        slope = (miss - miss_before)/(to - to_before)
+      end if
+      to_before = to
+      miss_before = miss
+      fails = .not. abs(slope) > 0
+      if (fails) return
+      to = max(range(1), to - miss/slope)
+      if (to > 1) to = 0.5_dp*(1 + to_before)
+    end do
+    fails = .true.
+  end subroutine end_at
+end module rst_slip

@@ -1,0 +1,182 @@
+/* The normal motion at several resolutions (motion.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tuning.h"
+
+static void release(struct rst_own_memory *own)
+{
+    struct rst_motion *motion = (struct rst_motion *)own;
+    for (int i = 0; i <= rst_most_halvings; i++)
+        free(motion->run[i].room);
+    free(motion->arms);
+    free(motion->store_room);
+    free(motion->walk_room);
+    free(motion);
+}
+
+struct rst_motion *rst_motion_of(struct rst_workspace *workspace)
+{
+    if (!workspace->own) {
+        struct rst_motion *motion = calloc(1, sizeof *motion);
+        if (!motion) return NULL;
+        motion->own.release = release;
+        workspace->own = &motion->own;
+    }
+    return (struct rst_motion *)workspace->own;
+}
+
+/* Room for `count` doubles; what was in it is lost if it grows. Nonzero: out of memory. */
+static int make_room(double **room, size_t *size, size_t count)
+{
+    if (count <= *size) return 0;
+    double *larger = malloc(count * sizeof(double));
+    if (!larger) return 1;
+    free(*room);
+    *room = larger;
+    *size = count;
+    return 0;
+}
+
+/* The arms of a solid: the spring G_inf, if there is one, and the terms. */
+static int64_t spread_arms(const struct rst_solid *s, double *g, double *rate)
+{
+    int64_t n = 0;
+    if (s->g_inf > 0 || (s->n_terms == 0 && !(s->eta > 0))) {
+        g[n] = s->g_inf;
+        rate[n++] = 0;
+    }
+    for (int64_t k = 0; k < s->n_terms; k++) {
+        g[n] = s->g[k];
+        rate[n++] = 1 / s->tau[k];
+    }
+    return n;
+}
+
+/* Arms of the solid held, then those of the solid asked for: g and rate of each. */
+static int make_arms(struct rst_motion *motion, int64_t most)
+{
+    if (most <= motion->most_arms) return 0;
+    double *arms = malloc((size_t)(4 * most) * sizeof(double));
+    if (!arms) return 1;
+    free(motion->arms);
+    motion->arms = arms;
+    motion->most_arms = most;
+    motion->n_arms = -1; /* of no solid */
+    return 0;
+}
+
+int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep)
+{
+    const struct rst_solid *s = &problem->solid;
+    if (make_arms(motion, s->n_terms + 1)) return 1;
+    double *held = motion->arms, *asked = motion->arms + 2 * motion->most_arms;
+    const int64_t n = spread_arms(s, asked, asked + motion->most_arms);
+    const size_t bytes = (size_t)n * sizeof(double);
+    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi));
+    const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
+    const int same = keep && n == motion->n_arms && motion->eta == s->eta && motion->stop_speed == stop_speed &&
+                     memcmp(held, asked, bytes) == 0 &&
+                     memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
+    if (same) return 0;
+    memcpy(held, asked, bytes);
+    memcpy(held + motion->most_arms, asked + motion->most_arms, bytes);
+    motion->n_arms = n;
+    motion->eta = s->eta;
+    motion->stop_speed = stop_speed;
+    motion->radius = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
+    for (int i = 0; i <= rst_most_halvings; i++)
+        motion->run[i].found = RST_NOT_SOLVED;
+    return 0;
+}
+
+static double rst_roughness_of(int level)
+{
+    return rst_first_roughness * pow(rst_roughness_falls, level);
+}
+
+double rst_piece_roughness(const struct rst_problem *problem, int halvings)
+{
+    return fmin(rst_roughness_of(halvings - 1), rst_piece_part * problem->tolerance);
+}
+
+/* Panels, M_k, P_k and what the restitution needs besides. */
+static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity)
+{
+    const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
+    const size_t panels = c * sizeof(struct sync_panel) / sizeof(double);
+    if (make_room(&run->room, &run->room_size, panels + 2 * points + 2 * rst_stages * n + 1)) return 1;
+    run->capacity = capacity;
+    run->normal = (struct sync_normal){.eta = motion->eta,
+                                       .n_arms = motion->n_arms,
+                                       .radius = motion->radius,
+                                       .closeness = rst_closeness,
+                                       .g = motion->arms,
+                                       .rate = motion->arms + motion->most_arms,
+                                       .panel = (struct sync_panel *)run->room,
+                                       .memory = run->room + panels,
+                                       .loading = run->room + panels + points};
+    return 0;
+}
+
+const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings)
+{
+    struct rst_run *run = &motion->run[halvings];
+    if (run->found != RST_NOT_SOLVED) return run;
+    for (int64_t capacity = run->capacity > 0 ? run->capacity : INT64_C(8) << halvings;; capacity *= 2) {
+        const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
+                                                    .stop_speed = motion->stop_speed,
+                                                    .halvings = halvings,
+                                                    .capacity = capacity};
+        if (lay_out(motion, run, capacity)) return NULL;
+        rst_follow_normal(&control, &run->normal,
+                          run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
+        if (run->found != RST_LACKS_ROOM) return run;
+    }
+}
+
+static int lay_out_store(struct rst_motion *motion, int64_t capacity)
+{
+    const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
+    const size_t records = c * sizeof(struct sync_record) / sizeof(double);
+    const size_t pieces = c * sizeof(struct sync_piece) / sizeof(double);
+    const size_t now = rst_points * n, square = rst_stages * rst_stages * n;
+    struct sync_store *s = &motion->store;
+    if (make_room(&motion->store_room, &motion->store_size,
+                  records + pieces + 4 * points + square + rst_stages * n + 3 * now + 1))
+        return 1;
+    double *next = motion->store_room;
+    s->capacity = capacity;
+    s->record = (struct sync_record *)next;
+    s->piece = (struct sync_piece *)(next += records);
+    s->mz = next += pieces;
+    s->lz = next += points;
+    s->mx = next += points;
+    s->lx = next += points;
+    s->kernel = next += points;
+    s->decay = next += square;
+    s->now_z = next += rst_stages * n;
+    s->now_x = next += now;
+    s->now_l = next + now;
+    return 0;
+}
+
+int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
+                       int halvings, double *velocity, int64_t *found)
+{
+    const struct sync_contact contact = {.chi = problem->chi,
+                                         .psi = problem->psi,
+                                         .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
+                                         .noise = rst_noise * rst_roughness_of(halvings - 1),
+                                         .closeness = rst_closeness * fmin(1, problem->psi),
+                                         .no_slip = problem->mode == RST_NO_SLIP};
+    for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {
+        if (lay_out_store(motion, capacity)) return 1;
+        rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);
+        if (*found != RST_LACKS_PIECES) return 0;
+    }
+}

@@ -1,0 +1,52 @@
+/* The normal motion of a solid at several resolutions, and room for the tangential motions on it. One object of the caller
+ * (docs/sync.md): it is filled for the solid of a problem, and serves every impact on that solid.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_MOTION_H
+#define RST_SYNC_MOTION_H
+
+#include <stddef.h>
+
+#include "problem.h"
+#include "sync_kernels.h"
+#include "workspace.h"
+
+/* Resolutions: each has panels half as wide as the one before. */
+enum { rst_most_halvings = 10 };
+
+enum { RST_NOT_SOLVED = -1 }; /* else as rst_follow_normal found */
+
+struct rst_run {
+    struct sync_normal normal;
+    int64_t found, capacity;
+    double *room;
+    size_t room_size;
+};
+
+struct rst_motion {
+    struct rst_own_memory own; /* released with the workspace */
+    double *arms;              /* g and rate of the solid held, and of the one asked for */
+    double eta, radius, stop_speed;
+    int64_t n_arms, most_arms;
+    struct rst_run run[rst_most_halvings + 1];
+    struct sync_store store;
+    double *store_room, *walk_room;
+    size_t store_size, walk_size;
+};
+
+/* The motion that a workspace keeps; NULL: out of memory. */
+struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
+
+/* Take the solid of the problem. keep: what was solved stays if it was for the same solid. Nonzero: out of memory. */
+int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep);
+
+/* The normal motion with panels of at most (pi/2)/2^halvings; NULL: out of memory. */
+const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings);
+
+/* What the polynomials of U' may miss, over psi. */
+double rst_piece_roughness(const struct rst_problem *problem, int halvings);
+
+/* The tangential motion on a run: U' at the end, over psi as the problem has it. Nonzero: out of memory. */
+int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
+                       int halvings, double *velocity, int64_t *found);
+
+#endif

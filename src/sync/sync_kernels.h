@@ -1,0 +1,73 @@
+/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_KERNELS_H
+#define RST_SYNC_KERNELS_H
+
+#include <stdint.h>
+
+/* Points of a panel beside its start. */
+enum { rst_stages = 6, rst_points = rst_stages + 1 };
+
+/* Twin of panel_type. */
+struct sync_panel {
+    double from, to; /* edge angle */
+    double radius[rst_points], time[rst_points], depth[rst_points], velocity[rst_points], force[rst_points],
+        pace[rst_points];
+};
+
+/* Twin of normal_control_type. */
+struct sync_normal_control {
+    double roughness, stop_speed;
+    int64_t halvings, capacity;
+};
+
+/* Twin of normal_arrays_type. */
+struct sync_normal {
+    double eta;
+    int64_t n_arms;
+    double radius, closeness;
+    int64_t n_compression, n_panels;
+    double *g, *rate;
+    struct sync_panel *panel;
+    double *memory, *loading;
+};
+
+/* Twin of contact_type. */
+struct sync_contact {
+    double chi, psi, roughness, noise, closeness;
+    int64_t no_slip;
+};
+
+/* Twin of record_type. */
+struct sync_record {
+    double from, to, end;
+    double radius[rst_points], time[rst_points], sink[rst_points], shear[rst_points];
+};
+
+/* Twin of piece_type. */
+struct sync_piece {
+    int64_t panel, rooted;
+    double from, to;
+    double velocity[rst_points], force[rst_points], stick[rst_points];
+};
+
+/* Twin of store_arrays_type. */
+struct sync_store {
+    int64_t capacity, n_records, n_pieces;
+    struct sync_record *record;
+    struct sync_piece *piece;
+    double *mz, *lz, *mx, *lx, *kernel, *decay, *now_z, *now_x, *now_l;
+};
+
+/* What rst_follow_normal and rst_follow_contact found. */
+enum { RST_REBOUNDS = 0, RST_STOPS = 1, RST_LACKS_ROOM = 2, RST_DOES_NOT_CONVERGE = 3 };
+enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2 };
+
+void rst_follow_normal(const struct sync_normal_control *control, struct sync_normal *normal, double *entry,
+                       int64_t *found);
+void rst_follow_contact(const struct sync_normal *normal, const struct sync_contact *contact, struct sync_store *store,
+                        double *velocity, int64_t *found);
+void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);
+void rst_sync_weights_at(double x, double *weight);
+
+#endif

@@ -1,0 +1,152 @@
+/* The walk over elements (walk.h): levels at which the edge is on a node, from the panels of the normal motion.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "walk.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "walk_kernels.h"
+
+/* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
+struct ladder {
+    int64_t n_marks, parts, start; /* start: level at which gross slip ends, 0: none */
+    double *mark;                  /* n_marks + 1 */
+};
+
+/* What the walk works on. */
+struct room {
+    double *mark, *time, *memory, *body, *stress;
+    struct walk_level *level;
+    struct walk_shear *shear;
+    struct walk_term *term;
+    int64_t capacity;
+};
+
+static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, size_t terms, struct room *r)
+{
+    const size_t n = (size_t)most, levels = 2 * n + 1, marks = (size_t)n_panels + 2;
+    const size_t capacity = (n + walk_lanes) / walk_lanes * walk_lanes;
+    const size_t of_level = sizeof(struct walk_level) / sizeof(double), of_shear = sizeof(struct walk_shear) / sizeof(double);
+    const size_t of_term = sizeof(struct walk_term) / sizeof(double);
+    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + (terms + 1) * of_term +
+                         capacity * (walk_columns + 2 * (terms + 1));
+    if (count > motion->walk_size) {
+        double *larger = malloc(count * sizeof(double));
+        if (!larger) return 1;
+        free(motion->walk_room);
+        motion->walk_room = larger;
+        motion->walk_size = count;
+    }
+    r->capacity = (int64_t)capacity;
+    r->mark = motion->walk_room;
+    r->time = r->mark + marks;
+    r->level = (struct walk_level *)(r->time + levels);
+    r->shear = (struct walk_shear *)((double *)r->level + levels * of_level);
+    r->memory = (double *)r->shear + levels * of_shear;
+    r->term = (struct walk_term *)(r->memory + levels * terms);
+    r->body = (double *)r->term + (terms + 1) * of_term;
+    r->stress = r->body + capacity * walk_columns;
+    return 0;
+}
+
+/* The angle at which gross slip ends splits the panel that it is in, unless it is at an end of it. */
+static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, enum rst_walk_kind sliding,
+                      struct ladder *ladder)
+{
+    static const double apart = 1e-6; /* of a panel */
+    const int split = sliding == RST_STICKS_SOMETIME && problem->mode == RST_GROSS_SLIP;
+    double angle = -1;
+    int64_t returning = 0, at = 0;
+    ladder->n_marks = 0;
+    ladder->mark[0] = 0;
+    if (split)
+        rst_sync_find_velocity(normal, (2 * problem->chi - problem->psi) / (2 * problem->chi - 1), &angle, &returning);
+    for (int64_t p = 0; p < normal->n_compression; p++) {
+        const struct sync_panel *panel = &normal->panel[p];
+        const double margin = apart * (panel->to - panel->from);
+        if (angle > panel->from + margin && angle < panel->to - margin) {
+            ladder->mark[++ladder->n_marks] = angle;
+            at = ladder->n_marks;
+        }
+        ladder->mark[++ladder->n_marks] = panel->to;
+        if (split && fabs(angle - panel->to) <= margin) at = ladder->n_marks;
+    }
+    ladder->start = at * ladder->parts;
+    if (returning) ladder->start = 2 * ladder->n_marks * ladder->parts - ladder->start;
+}
+
+static double angle_of(const struct ladder *ladder, int64_t i)
+{
+    const int64_t m = i / ladder->parts, rest = i % ladder->parts;
+    if (rest == 0) return ladder->mark[m];
+    return ladder->mark[m] + (ladder->mark[m + 1] - ladder->mark[m]) * (double)rest / (double)ladder->parts;
+}
+
+static double value(const double *weight, const double *y)
+{
+    double sum = 0;
+    for (int j = 0; j < rst_points; j++)
+        sum += weight[j] * y[j];
+    return sum;
+}
+
+/* The level at an angle on a panel, without its step. The first arms may be a spring, which the walk has apart. */
+static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, struct walk_level *level,
+                      double *time, double *memory)
+{
+    const struct sync_panel *panel = &normal->panel[p];
+    const size_t first = (size_t)normal->n_arms - terms;
+    double weight[rst_points];
+    rst_sync_weights_at((angle - panel->from) / (panel->to - panel->from), weight);
+    level->radius = value(weight, panel->radius);
+    level->depth = value(weight, panel->depth);
+    level->velocity = value(weight, panel->velocity);
+    level->force = value(weight, panel->force);
+    *time = value(weight, panel->time);
+    for (size_t k = 0; k < terms; k++)
+        memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
+}
+
+static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, size_t terms, struct room *r)
+{
+    const int64_t n = ladder->n_marks * ladder->parts;
+    int64_t p = 0;
+    for (int64_t l = 0; l <= 2 * n; l++) {
+        const double angle = angle_of(ladder, l <= n ? l : 2 * n - l);
+        while (p < normal->n_panels - 1 &&
+               (p < normal->n_compression ? angle > normal->panel[p].to || l > n : angle < normal->panel[p].to))
+            p++;
+        set_level(normal, p, angle, terms, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
+        if (l > n) r->level[l].radius = r->level[2 * n - l].radius;
+        r->level[l].step = l > 0 ? r->time[l] - r->time[l - 1] : 0;
+    }
+}
+
+int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
+             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk)
+{
+    const struct rst_solid *s = &problem->solid;
+    const struct sync_normal *normal = &run->normal;
+    const size_t terms = (size_t)s->n_terms;
+    struct room r;
+    if (lay_out(motion, normal->n_compression, (normal->n_compression + 1) * parts, terms, &r)) return 1;
+    struct ladder ladder = {.parts = parts, .mark = r.mark};
+    set_marks(normal, problem, sliding, &ladder);
+    set_levels(normal, &ladder, terms, &r);
+    const int64_t n = ladder.n_marks * parts;
+    const struct walk w = {.n = n,
+                           .n_terms = s->n_terms,
+                           .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
+                           .start = sliding == RST_STICKS_SOMETIME ? ladder.start : 2 * n,
+                           .no_slip = problem->mode == RST_NO_SLIP,
+                           .chi = sliding == RST_WITHOUT_FRICTION ? 0 : problem->chi,
+                           .psi = problem->psi,
+                           .g_inf = s->g_inf,
+                           .eta = s->eta};
+    rst_follow_elements(&w, s->g, s->tau, r.level, r.memory, r.shear, r.term, r.body, r.stress, &walk->ledger);
+    walk->n = n;
+    walk->velocity = r.shear[2 * n].velocity;
+    walk->time = r.time;
+    walk->shear = r.shear;
+    return 0;
+}

@@ -1,0 +1,25 @@
+/* The walk over elements, where a front does not describe slip, and for the energy ledger (docs/sync.md).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_WALK_H
+#define RST_SYNC_WALK_H
+
+#include "motion.h"
+
+/* What a walk found: U' at the end, over psi as the problem has it, and the ledger. Its levels stay in the motion: `n` of
+ * each phase, with their times, and U' and S at each of the 2 n + 1. */
+struct rst_walk {
+    int64_t n;
+    double velocity;
+    const double *time;
+    const struct walk_shear *shear;
+    struct euler_ledger ledger;
+};
+
+/* Whether the contact slips to the end, sticks at some time, or has no friction. */
+enum rst_walk_kind { RST_WITHOUT_FRICTION, RST_SLIDES, RST_STICKS_SOMETIME };
+
+/* Walk with `parts` elements in each panel of the compression. Nonzero: out of memory. */
+int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
+             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk);
+
+#endif

@@ -1,0 +1,210 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
+!> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
+module sync_probe
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use rst_precision, only: dp, ip
+  use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, slope_of, root_between
+  use rst_arms, only: solid_type, respond
+  use rst_panel, only: panel_type, mesh_type
+  use rst_normal_motion, only: normal_control_type, follow_normal
+  use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type
+  use rst_front, only: slack_type, find_front
+  use rst_tangential_motion, only: follow_contact
+  implicit none (type, external)
+  private
+
+  integer(ip), parameter :: arms = 4, room = 300, points = stages + 1
+
+  type(solid_type) :: solid
+  type(mesh_type) :: mesh
+  type(normal_type) :: normal
+  type(store_type) :: store
+  real(dp), target :: g_room(arms), rate_room(arms), entry_room(2*stages*arms)
+  real(dp), target, dimension(points*arms*room) :: memory_room, loading_room, mz_room, lz_room, mx_room, lx_room
+  real(dp), target :: kernel_room(stages*stages*arms), decay_room(stages*arms)
+  real(dp), target, dimension(points*arms) :: now_z_room, now_x_room, now_l_room
+  type(panel_type), target :: panel_room(room)
+  type(record_type), target :: record_room(room)
+  type(piece_type), target :: piece_room(room)
+
+contains
+
+  subroutine probe_collocation(x, a) bind(c)
+    real(c_double), intent(out) :: x(0:stages), a(stages, stages)
+    x = point
+    a = integral
+  end subroutine probe_collocation
+
+  subroutine probe_weights(x, weight) bind(c)
+    real(c_double), value :: x
+    real(c_double), intent(out) :: weight(0:stages)
+    weight = weights_at(x)
+  end subroutine probe_weights
+
+  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before the point i.
+  subroutine probe_polynomial(y, i, last, start, slope, root) bind(c)
+    real(c_double), intent(in) :: y(0:stages)
+    integer(c_int64_t), value :: i
+    real(c_double), intent(out) :: last, start, slope(stages), root
+    last = last_coefficient(y)
+    start = start_of(y(1:))
+    slope = slope_of(y(1:))
+    root = root_between(i, y)
+  end subroutine probe_polynomial
+
+  function probe_respond(rate, span, kernel, decay) bind(c) result(failed)
+    real(c_double), value :: rate
+    real(c_double), intent(in) :: span(stages)
+    real(c_double), intent(out) :: kernel(stages, stages), decay(stages)
+    integer(c_int64_t) :: failed
+    logical :: fails
+    call respond(rate, span, kernel, decay, fails)
+    failed = merge(1_ip, 0_ip, fails)
+  end function probe_respond
+
+  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the compression and of all.
+  function probe_normal(eta, n, g, rate, depth, halvings, roughness, counts) bind(c) result(found)
+    real(c_double), value :: eta, depth, roughness
+    integer(c_int64_t), value :: n, halvings
+    real(c_double), intent(in) :: g(n), rate(n)
+    integer(c_int64_t), intent(out) :: counts(2)
+    integer(c_int64_t) :: found
+    call hold(eta, n, g, rate)
+    mesh%radius = sqrt(0.4_dp*depth)
+    mesh%closeness = 1.0e-12_dp
+    call follow_normal(solid, g_room(:n), rate_room(:n), normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, &
+                       halvings=halvings, capacity=room), mesh, panel_room, memory_room, loading_room, entry_room, found)
+    normal%n_compression = mesh%n_compression
+    normal%n_panels = mesh%n_panels
+    counts = [mesh%n_compression, mesh%n_panels]
+  end function probe_normal
+
+  !> The solid, and the views of the rooms that its number of arms asks for.
+  subroutine hold(eta, n, g, rate)
+    real(dp), intent(in) :: eta
+    integer(ip), intent(in) :: n
+    real(dp), intent(in) :: g(n), rate(n)
+    g_room(:n) = g
+    rate_room(:n) = rate
+    solid = solid_type(eta, n)
+    normal%eta = eta
+    normal%n_arms = n
+    normal%g => g_room(:n)
+    normal%rate => rate_room(:n)
+    normal%panel => panel_room
+    normal%memory(0:stages, 1:n, 1:room) => memory_room
+    normal%loading(0:stages, 1:n, 1:room) => loading_room
+    store%n_records = 0
+    store%n_pieces = 0
+    store%record => record_room
+    store%piece => piece_room
+    store%mz(0:stages, 1:n, 1:room) => mz_room
+    store%lz(0:stages, 1:n, 1:room) => lz_room
+    store%mx(0:stages, 1:n, 1:room) => mx_room
+    store%lx(0:stages, 1:n, 1:room) => lx_room
+    store%kernel(1:stages, 1:stages, 1:n) => kernel_room
+    store%decay(1:stages, 1:n) => decay_room
+    store%now_z(0:stages, 1:n) => now_z_room
+    store%now_x(0:stages, 1:n) => now_x_room
+    store%now_l(0:stages, 1:n) => now_l_room
+  end subroutine hold
+
+  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth, velocity, force.
+  subroutine probe_motion(p, x, motion) bind(c)
+    integer(c_int64_t), value :: p
+    real(c_double), value :: x
+    real(c_double), intent(out) :: motion(6)
+    real(dp) :: weight(0:stages)
+    weight = weights_at(x)
+    associate (on => panel_room(p))
+      motion = [on%from + x*(on%to - on%from), sum(weight*on%radius), sum(weight*on%time), sum(weight*on%depth), &
+                sum(weight*on%velocity), sum(weight*on%force)]
+    end associate
+  end subroutine probe_motion
+
+  !> The tangential motion on the normal one that was followed last.
+  function probe_contact(chi, psi, roughness, velocity, n_pieces) bind(c) result(found)
+    real(c_double), value :: chi, psi, roughness
+    real(c_double), intent(out) :: velocity
+    integer(c_int64_t), intent(out) :: n_pieces
+    integer(c_int64_t) :: found
+    call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, closeness=1.0e-12_dp, &
+                                             no_slip=0_ip), store, velocity, found)
+    n_pieces = store%n_pieces
+  end function probe_contact
+
+  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S, stick radius at y of the piece.
+  subroutine probe_piece(i, y, panel, range, rooted, motion) bind(c)
+    integer(c_int64_t), value :: i
+    real(c_double), value :: y
+    integer(c_int64_t), intent(out) :: panel, rooted
+    real(c_double), intent(out) :: range(2), motion(3)
+    real(dp) :: weight(0:stages)
+    weight = weights_at(y)
+    associate (on => piece_room(i))
+      panel = on%panel
+      rooted = on%rooted
+      range = [on%from, on%to]
+      motion = [sum(weight*on%velocity), sum(weight*on%force), sum(weight*on%stick)]
+    end associate
+  end subroutine probe_piece
+
+  !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has the
+  !> memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
+  subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, side, out) bind(c)
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: g(n), rate(n), m(n, 2)
+    real(c_double), value :: eta, shear, loaded, time, slip, side
+    real(c_double), intent(out) :: out(4)
+    type(slack_type) :: slack
+    real(dp) :: stress, force
+    integer(ip) :: i, j, k
+    integer(ip), parameter :: records = 4
+    call hold(eta, n, g, rate)
+    store%n_records = records
+    do j = 1, records
+      associate (r => record_room(j))
+        r%from = sqrt(loaded)*real(j - 1, dp)/records
+        r%to = sqrt(loaded)*real(j, dp)/records
+        r%end = r%to
+        r%radius = r%from + (r%to - r%from)*point
+        r%time = r%radius**2
+        r%sink = 2*r%radius
+        r%shear = shear*r%sink
+        do i = 0, stages
+          do k = 1, n
+            call load(g(k), rate(k), r%time(i), stress, force)
+            store%mz(i, k, j) = stress
+            store%mx(i, k, j) = shear*stress
+            store%lz(i, k, j) = force
+            store%lx(i, k, j) = shear*force
+          end do
+        end do
+      end associate
+    end do
+    store%now_z(1, :) = m(:, 1)
+    store%now_x(1, :) = m(:, 2)
+    slack%angle = 0
+    call find_front(normal, store, 1_ip, time, side, slip, sqrt(loaded), slack)
+    out = [slack%radius, slack%force, slack%centre, slack%edge]
+  end subroutine probe_front
+
+  !> M and P at the time t under D' = 1, A = sqrt(t), by the series of the exponential (rate t < 2).
+  pure subroutine load(g, rate, t, stress, force)
+    real(dp), intent(in) :: g, rate, t
+    real(dp), intent(out) :: stress, force
+    real(dp) :: term, wide
+    integer(ip) :: j
+    term = g*t             ! g int_0^t exp(-rate v) dv = sum g t (-rate t)^j/(j + 1)!
+    wide = 2*g*t*sqrt(t)/3 ! g int_0^t sqrt(v) exp(-rate (t - v)) dv: terms t^(3/2) (-rate t)^j/((3/2)(5/2)...(3/2 + j))
+    stress = 0
+    force = 0
+    do j = 0, 40
+      stress = stress + term
+      force = force + wide
+      term = -term*rate*t/real(j + 2, dp)
+      wide = -wide*rate*t/(real(j, dp) + 2.5_dp)
+    end do
+  end subroutine load
+end module sync_probe
