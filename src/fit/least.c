@@ -99,7 +99,8 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     const size_t n = least->rows, p = least->unknowns;
     double *memory = calloc(p + n + n * p, sizeof *memory);
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
-    parameters.solver = gsl_multifit_nlinear_solver_svd; /* the one that takes a Jacobian without full rank */
+    parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
+                                         : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
     int status = RESTITUTE_ERROR_MEMORY;
     if (memory && w) {

@@ -14,6 +14,7 @@ struct rst_least {
     int most;       /* iterations */
     double exact;   /* a sum of squares below this is the end */
     double settled; /* so is one that two steps in a row lower by less than this part */
+    int full_rank;  /* the Jacobian has it: the fast way will do */
 };
 
 /* GSL ends the program at an error; between these two calls, which may nest and meet in several threads, it does not. */

@@ -122,8 +122,9 @@ int rst_fit_scan(struct rst_fit_search *s)
 /* A fit from x; kept if it is better than what is there. */
 static int fit_from(struct rst_fit_search *s, double *x, int most, double tolerance)
 {
-    const struct rst_least least = {s->data->rows, s->model.free, residuals, jacobian, s, most,
-                                    (double)s->data->rows * tolerance * tolerance, 1e-5};
+    const struct rst_least least = {.rows = s->data->rows, .unknowns = s->model.free, .residuals = residuals,
+                                    .jacobian = jacobian, .own = s, .most = most,
+                                    .exact = (double)s->data->rows * tolerance * tolerance, .settled = 1e-5};
     double sum = INFINITY;
     int converged = 0;
     s->data->solver.tolerance = tolerance;
