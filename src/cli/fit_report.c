@@ -189,7 +189,7 @@ static struct chart *new_chart(const struct fit_settings *s, const char *x, cons
 static bool figure(const struct fit_settings *s, const struct fit_input *input, const restitute_fitter *fitter,
                    const restitute_fit_result *r, struct reason *why)
 {
-    static const char *const names[] = {"ez", "ex", "contact time, relative"};
+    static const char *const names[] = {"ez", "ex", "time (rel.)"};
     const size_t n = input->n;
     double *fitted = allocate(3 * n, sizeof *fitted);
     struct pairs *pairs = allocate(n, sizeof *pairs);

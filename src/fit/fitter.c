@@ -36,6 +36,7 @@ static void add_rival(restitute_fitter *f, int kind, const double *known, const 
     const struct rst_fit_model *m = &f->search.model;
     rst_fit_model_make(&f->data, kind, known, &r->model);
     if (r->model.free == m->free || r->model.free > f->data.rows) return;
+    if (r->model.free > m->free && f->certainty.judged > f->certainty.noise) return; /* nothing is left to explain */
     for (size_t k = 0; k < r->model.free; k++) {
         const size_t i = r->model.index[k]; /* friction and shifts stand behind the constants of the solid */
         const double value = i < r->model.solid ? start[i] : f->start[i + m->solid - r->model.solid];

@@ -47,17 +47,20 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     *time = exp(times);
 }
 
-/* Moduli within 3 decades of the scale, relaxation times likewise of the contact's. A viscosity is their product. */
+/* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
+ * shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow to solve; the local fits may go there. */
 static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
 {
     double modulus, time;
     find_scales(d, m, &modulus, &time);
     for (size_t i = 0; i < m->count; i++) {
         m->centre[i] = i < m->solid ? log(modulus) : 0;
-        m->spread[i] = i < m->solid ? log(1e3) : log(10);
+        m->spread[i] = i < m->solid ? log(300) : log(10);
     }
-    if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC)
+    if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC) {
         m->centre[m->solid - 1] = log(modulus * time);
+        m->spread[m->solid - 1] = log(30);
+    }
     if (!m->scaled) m->spread[0] = 0; /* any scale would do */
     if (m->friction < m->count) m->centre[m->friction] = log(0.3);
 }

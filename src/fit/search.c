@@ -12,7 +12,7 @@
 
 /* SCAN sets are solved for the starts: 64 find the valley of three constants; more cost more than a further start.
  * STEP is that of central differences in the logarithm: 1e-3 keeps both the truncation and the solver's 1e-7 below 1e-4.
- * ROUGH and FINE: iterations of a fit from a start and of the last one from the best. Most need ten. Two starts that end
+ * ROUGH and FINE: iterations of a fit from a start and of the last one from the best. Most need five. Two starts that end
  * with sums alike within ALIKE have found the same valley: the others are left out. */
 enum { SCAN = 64, ROUGH = 25, FINE = 60 };
 static const double STEP = 1e-3, ALIKE = 1e-3;
@@ -120,11 +120,11 @@ int rst_fit_scan(struct rst_fit_search *s)
 }
 
 /* A fit from x; kept if it is better than what is there. */
-static int fit_from(struct rst_fit_search *s, double *x, int most, double tolerance)
+static int fit_from(struct rst_fit_search *s, double *x, int most, double tolerance, double settled)
 {
     const struct rst_least least = {.rows = s->data->rows, .unknowns = s->model.free, .residuals = residuals,
                                     .jacobian = jacobian, .own = s, .most = most,
-                                    .exact = (double)s->data->rows * tolerance * tolerance, .settled = 1e-5};
+                                    .exact = (double)s->data->rows * tolerance * tolerance, .settled = settled};
     double sum = INFINITY;
     int converged = 0;
     s->data->solver.tolerance = tolerance;
@@ -142,7 +142,7 @@ static int fit_from(struct rst_fit_search *s, double *x, int most, double tolera
 int rst_fit_local(struct rst_fit_search *s, size_t start)
 {
     if (s->agreed || s->model.free == 0) return RESTITUTE_OK;
-    return fit_from(s, s->start + start * s->model.free, ROUGH, MIDDLE);
+    return fit_from(s, s->start + start * s->model.free, ROUGH, MIDDLE, 1e-3);
 }
 
 int rst_fit_again(struct rst_fit_search *s)
@@ -150,7 +150,7 @@ int rst_fit_again(struct rst_fit_search *s)
     double x[RESTITUTE_FIT_CONSTANTS], *r;
     memcpy(x, s->logs, sizeof x);
     s->sum = INFINITY;
-    if (s->model.free) return fit_from(s, x, FINE, PRECISE);
+    if (s->model.free) return fit_from(s, x, FINE, PRECISE, 1e-6);
     int status = RESTITUTE_ERROR_MEMORY; /* nothing to fit: the sum alone */
     if ((r = malloc(s->data->rows * sizeof *r))) status = residuals(s, x, r);
     s->sum = 0, s->converged = 1;
