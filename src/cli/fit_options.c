@@ -40,7 +40,7 @@ static const struct poptOption own_options[] = {
     FLAG("tension", CODE_TENSION, "with --dma: the moduli are those of tension"),
     TEXT(FIT_STARTS, "starts", "N", "local fits, 1 to 100; default 4"),
     TEXT(FIT_SEED, "seed", "N", "of the scan for starts; default 1"),
-    TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default all processors"),
+    TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default 1, all processors from 200 rows on"),
     TEXT(FIT_NAME, "name", "TEXT", "name in the material file; default the input's"),
     TEXT(FIT_FORMAT, "format", "text|json", "of the report on standard output; default text"),
     TEXT(FIT_OUTPUT, "output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json"),
@@ -190,7 +190,7 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     static const char *const models[] = {"elastic", "kelvin_voigt", "standard_solid", "maxwell", "prony", NULL};
     static const char *const losses[] = {"squares", "huber", "cauchy", NULL}, *const formats[] = {"text", "json", NULL};
     restitute_fit_options *o = &s->options;
-    double starts = o->starts, seed = (double)o->seed, threads = 0;
+    double starts = o->starts, seed = (double)o->seed, threads = -1;
     int json = 0;
     if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
         return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");

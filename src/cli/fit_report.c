@@ -98,6 +98,9 @@ static json_t *json_result(const struct fit_settings *s, const restitute_fit_res
 
 static void text_result(FILE *stream, const struct fit_settings *s, const restitute_fit_result *r)
 {
+    size_t wanted = 0;
+    for (size_t i = 0; i < r->constants; i++)
+        wanted += r->low[i] < r->high[i];
     fprintf(stream, "%s: %s, %zu measured values\n\n  %-26s %-13s %g %% interval\n", source_of(s), model_of(s), r->values, "",
             "", 100 * s->options.confidence);
     for (size_t i = 0; i < r->constants; i++) {
@@ -113,8 +116,8 @@ static void text_result(FILE *stream, const struct fit_settings *s, const restit
             fprintf(stream, " %6.3f", r->correlation[i][k]);
         fputc('\n', stream);
     }
-    fprintf(stream, "\n  rms of the residuals %.3g, noise %.3g; %zu of %zu combinations determined; %lld impacts solved\n", r->rms,
-            r->noise, r->rank, r->constants, (long long)r->impacts);
+    fprintf(stream, "\n  rms of the residuals %.3g, noise %.3g; %zu of %zu constants or combinations of them determined; %lld impacts solved\n",
+            r->rms, r->noise, r->rank, wanted, (long long)r->impacts);
 }
 
 /* Report on standard output; material and record, both or none. Takes over the objects. */
