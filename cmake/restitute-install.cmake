@@ -79,6 +79,15 @@ if(RESTITUTE_WITH_FORTRAN)
           DESTINATION "${fortran_dir}")
   install(FILES "${PROJECT_SOURCE_DIR}/fortran/public/restitute.f90"
           DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
+  if(RESTITUTE_WITH_FIT)
+    install(TARGETS restitute_fitting_module EXPORT restitute-fortran_fit ARCHIVE DESTINATION "${fortran_dir}")
+    install(FILES "$<TARGET_PROPERTY:restitute_fitting_module,Fortran_MODULE_DIRECTORY>/restitute_fitting.mod"
+            DESTINATION "${fortran_dir}")
+    install(FILES "${PROJECT_SOURCE_DIR}/fortran/public/restitute_fitting.f90"
+            DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
+    install(EXPORT restitute-fortran_fit FILE restitute-fortran_fit.cmake NAMESPACE restitute::
+            DESTINATION "${package_dir}")
+  endif()
   install(EXPORT restitute-fortran FILE restitute-fortran.cmake NAMESPACE restitute:: DESTINATION "${package_dir}")
   file(RELATIVE_PATH prefix_to_fortran "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_PREFIX}/${fortran_dir}")
   restitute_install_pkg_config(restitute-fortran.pc)

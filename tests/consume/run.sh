@@ -93,9 +93,10 @@ echo "== find_package without components takes all that are installed"
 if [ "$WITH_FORTRAN" != OFF ]; then
     echo "== find_package from Fortran alone"
     "$CMAKE" -S "$SOURCE_DIR/tests/consume/project_fortran" -B user-fortran -G "$GENERATOR" \
-        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC"
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" -DCONSUMER_FIT="$WITH_FIT"
     "$CMAKE" --build user-fortran
     user-fortran/consumer_fortran
+    [ "$WITH_FIT" = OFF ] || user-fortran/consumer_fitting
 
     echo "== the installed source of the module, for another compiler than ours"
     (mkdir user-fortran/source && cd user-fortran/source &&
