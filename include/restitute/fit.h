@@ -23,7 +23,9 @@
  *  times by their relative error, and the noise is estimated from the residuals. Equal input gives equal bits.
  *
  *  The rules of restitute.h hold. GSL has one error handler for the process, and its own ends the program:
- *  it is switched off while a call of this component runs and restored afterwards.
+ *  it is switched off while a call of this component runs and restored afterwards. GSL may also raise floating-point
+ *  flags: do not trap them in these calls. Where there is no memory left this component returns ERROR_MEMORY; GSL may
+ *  then lose some blocks.
  *
  *  SPDX-License-Identifier: BSD-3-Clause (this file and the component's source)
  */
@@ -88,7 +90,7 @@ typedef struct restitute_fit_options {
     const double *known;            /**< optional: as many values as the solid has constants, NaN: to be fitted; copied */
     double poisson_ratio;           /**< in [0, 0.5]; default 0.5 */
     int loss;                       /**< a @ref restitute_fit_loss */
-    int noise_known;                /**< nonzero: the sigmas are the noise itself; default 0: only weights */
+    int noise_known;                /**< nonzero: the sigmas, all given, are the noise itself; default 0: only weights */
     double confidence;              /**< of the intervals, in [0.5, 0.999]; default 0.95 */
     double reference_temperature;   /**< where a_T = 1; NaN (default): that of the first point */
     double wlf_c1, wlf_c2;          /**< log10 a_T = -c1 (T - T_r)/(c2 + T - T_r); NaN (default): a_T of every other

@@ -161,6 +161,11 @@ static bool read_point(const struct fit_settings *s, struct fit_input *input, si
     set_sigmas(number, p);
     if (isnan(p->ez) && isnan(p->ex) && isnan(p->contact_time))
         return refuse(why, "nothing is measured: ez, ex or contact_time_s must be given");
+    const double sigmas[] = {p->sigma_ez, p->sigma_ex, p->sigma_contact_time};
+    const double measured[] = {p->ez, p->ex, p->contact_time};
+    for (int i = 0; i < 3 && s->options.noise_known; i++)
+        if (!isnan(measured[i]) && isnan(sigmas[i]))
+            return refuse(why, "%s is missing: must be > 0 for all that is measured, or for nothing", measures[SIGMA_EZ + i].name);
     return build_scene(&values, input, p, why);
 }
 
@@ -175,9 +180,10 @@ static bool read_points(struct fit_settings *s, struct fit_input *input, struct 
     if (find(csv, "ez") == none && find(csv, "rebound_height_m") == none && find(csv, "ex") == none &&
         find(csv, "contact_time_s") == none)
         return refuse(why, "%.200s: column ez (or rebound_height_m, ex, contact_time_s) is missing", source);
-    s->options.noise_known = find(csv, "sigma_ez") < none || find(csv, "sigma_ex") < none;
+    s->options.noise_known = find(csv, "sigma_ez") < none || find(csv, "sigma_ex") < none ||
+                             find(csv, "sigma_contact_time_s") < none;
     if (s->options.noise_known && find(csv, "weight") < none)
-        return refuse(why, "%.200s: columns weight and sigma_ez or sigma_ex: give one kind", source);
+        return refuse(why, "%.200s: columns weight and sigma_...: give one kind", source);
     input->points = allocate(input->n, sizeof *input->points);
     for (size_t row = 0; row < input->n; row++)
         if (!read_point(s, input, row, why)) return at_line(source, csv, row, why);

@@ -184,6 +184,23 @@ static bool read_wlf(struct fit_settings *s, struct reason *why)
     return true;
 }
 
+/* Options of the other kind of input would be passed over without a word. */
+static bool check_kind(const struct fit_settings *s, struct reason *why)
+{
+    static const enum fit_text of_impacts[] = {FIT_PARTNER, FIT_MODEL, FIT_TERMS, FIT_KNOWN, FIT_LOSS, FIT_CONFIDENCE,
+                                               FIT_STARTS, FIT_SEED, FIT_THREADS};
+    if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
+        return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
+    if (!s->text[FIT_DMA] && (s->tension || s->text[FIT_NOISE])) return refuse(why, "--tension, --noise: need --dma");
+    for (size_t i = 0; s->text[FIT_DMA] && i < sizeof of_impacts / sizeof *of_impacts; i++)
+        for (const struct poptOption *o = own_options; s->text[of_impacts[i]] && o->longName; o++)
+            if (o->val == CODE_TEXT + (int)of_impacts[i]) return refuse(why, "--%s: not with --dma", o->longName);
+    for (enum field field = 0; s->text[FIT_DMA] && field < FIELD_COUNT; field++)
+        if (s->values.given[field] && field != FIELD_POISSON)
+            return refuse(why, "--%s: not with --dma", field_rules[field].option);
+    return true;
+}
+
 /* Texts into the options of the library. */
 static bool take_texts(struct fit_settings *s, struct reason *why)
 {
@@ -192,8 +209,6 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     restitute_fit_options *o = &s->options;
     double starts = o->starts, seed = (double)o->seed, threads = -1;
     int json = 0;
-    if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
-        return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
     const bool good = word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
                       word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
                       word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) &&
@@ -237,7 +252,7 @@ static bool read_arguments(poptContext context, struct fit_settings *s, bool *he
     if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
     const char *more = poptGetArg(context);
     if (more) return refuse(why, "unexpected argument \"%.100s\"; see --help", more);
-    return take_fields(s, why) && take_texts(s, why);
+    return take_fields(s, why) && check_kind(s, why) && take_texts(s, why);
 }
 
 enum fit_reading fit_options_read(int count, char **arguments, struct fit_settings *settings)

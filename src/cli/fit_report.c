@@ -159,11 +159,8 @@ static int by_x(const void *a, const void *b)
 /* Data as points, the fit as a line, in the first panel; what is left of the data in the second. */
 static void plot(struct chart *chart, struct pairs *pairs, size_t n, size_t style, const char *what, bool relative)
 {
-    char name[48];
     qsort(pairs, n, sizeof *pairs, by_x);
-    snprintf(name, sizeof name, "%s", what);
     struct series *data = chart_series(&chart->panel[0], MARK_POINTS, style, n, "");
-    snprintf(name, sizeof name, "%s fitted", what);
     struct series *fit = chart_series(&chart->panel[0], MARK_LINE, style, n, "");
     struct series *rest = chart_series(&chart->panel[1], MARK_POINTS, style, n, what);
     for (size_t i = 0; i < n && data && fit && rest; i++) {

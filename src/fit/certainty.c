@@ -63,23 +63,24 @@ static int plain_residuals(struct rst_fit_search *s, double *r)
     return status;
 }
 
-double rst_fit_reweigh(const struct rst_fit_search *search, double *weight)
+int rst_fit_reweigh(struct rst_fit_search *s, double *weight, double *change)
 {
-    struct rst_fit_search *s = (struct rst_fit_search *)search;
     const size_t rows = s->data->rows;
-    double *r = malloc(2 * rows * sizeof *r), change = 0, psi, slope;
-    if (!r || plain_residuals(s, r) < 0) {
+    double *r = malloc(2 * rows * sizeof *r), psi, slope;
+    const int status = r ? plain_residuals(s, r) : RESTITUTE_ERROR_MEMORY;
+    *change = 0;
+    if (status < 0) {
         free(r);
-        return 0;
+        return status;
     }
     const double scale = s->data->options.noise_known ? 1 : robust_scale(s->data, r, s->model.free, r + rows);
     for (size_t i = 0; i < rows; i++) {
         const double w = fmax(1e-6, weigh(s->data->options.loss, r[i] / scale, &psi, &slope));
-        change = fmax(change, fabs(w - weight[i]));
+        *change = fmax(*change, fabs(w - weight[i]));
         weight[i] = w;
     }
     free(r);
-    return change;
+    return status;
 }
 
 /* Variance of a residual. With a robust loss that of Huber's M-estimate: scale^2 sum psi^2/dof over mean(psi')^2. */

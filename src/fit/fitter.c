@@ -146,10 +146,11 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
 /* Robust weights until they settle, then the intervals and who may be a rival. */
 static int settle(restitute_fitter *f)
 {
+    double change = 1;
     int status = rst_fit_again(&f->search);
-    for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0; round++) {
-        if (rst_fit_reweigh(&f->search, f->weight) < 1e-4) break;
-        status = rst_fit_again(&f->search);
+    for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0 && change > 1e-4; round++) {
+        status = rst_fit_reweigh(&f->search, f->weight, &change);
+        if (status >= 0) status = rst_fit_again(&f->search);
     }
     if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
     if (status >= 0) add_rivals(f);

@@ -95,7 +95,7 @@ static double measured(const restitute_fit_point *p, enum rst_fit_kind kind, dou
     return kind == RST_FIT_EZ ? p->ez : kind == RST_FIT_EX ? p->ex : p->contact_time;
 }
 
-static int check_point(size_t i, const restitute_fit_point *p, restitute_error *error)
+static int check_point(size_t i, const restitute_fit_point *p, int noise_known, restitute_error *error)
 {
     static const char *const names[] = {"ez", "ex", "contact_time"};
     static const double low[] = {0, -1, 1e-100}, high[] = {1, 1, 1e100};
@@ -109,7 +109,7 @@ static int check_point(size_t i, const restitute_fit_point *p, restitute_error *
         snprintf(name, sizeof name, "points[%zu].%s", i, names[kind]);
         int status = outside(name, value, low[kind], high[kind], error);
         snprintf(name, sizeof name, "points[%zu].sigma_%s", i, names[kind]);
-        if (!status && !isnan(sigma)) status = outside(name, sigma, 1e-100, 1e100, error);
+        if (!status && (!isnan(sigma) || noise_known)) status = outside(name, sigma, 1e-100, 1e100, error);
         if (status) return status;
     }
     if (values == 0)
@@ -134,18 +134,18 @@ static int check_scene(size_t i, const restitute_fit_point *p, const restitute_m
     return RESTITUTE_OK;
 }
 
-static int check_points(size_t n, const restitute_fit_point *points, restitute_error *error)
+static int check_points(size_t n, const restitute_fit_point *points, int noise_known, restitute_error *error)
 {
-    restitute_material *any;
+    restitute_material *any = NULL;
     int status = restitute_material_elastic(1, 0.5, &any, error);
     for (size_t i = 0; !status && i < n; i++) {
         if (points[i].struct_size != sizeof *points)
             status = rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "points[%zu].struct_size = %zu: must be %zu", i,
                                 points[i].struct_size, sizeof *points);
-        if (!status) status = check_point(i, &points[i], error);
+        if (!status) status = check_point(i, &points[i], noise_known, error);
         if (!status) status = check_scene(i, &points[i], any, error);
     }
-    if (status >= 0) restitute_material_destroy(any);
+    restitute_material_destroy(any);
     return status;
 }
 
@@ -224,7 +224,7 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
     if (!points) return rst_report(error, RESTITUTE_ERROR_NULL, "points is NULL");
     if (n == 0 || n > 1000000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "n = %zu: must be in [1, 1000000]", n);
     int status = check_options(options, error);
-    if (!status) status = check_points(n, points, error);
+    if (!status) status = check_points(n, points, options->noise_known, error);
     if (!status && (status = copy(n, points, options, data)))
         rst_report(error, status, "out of memory for %zu points", n);
     if (!status) {

@@ -48,7 +48,7 @@ struct rst_fit_certainty {
 
 int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *certainty);
 
-/* Weights of a robust loss from residuals at the best; the largest change of a weight. */
-double rst_fit_reweigh(const struct rst_fit_search *search, double *weight);
+/* Weights of a robust loss from residuals at the best, and the largest change of a weight. */
+int rst_fit_reweigh(struct rst_fit_search *search, double *weight, double *change);
 
 #endif

@@ -90,6 +90,11 @@ refused 'column loss_Pa is missing' fit --dma bad.csv
 printf 'frequency_Hz,storage_Pa,loss_Pa\n1,2,3\n2,3,-4\n3,4,5\n' >bad.csv
 refused 'line 3 (row 2): loss_Pa = -4' fit --dma bad.csv
 refused 'give --input' fit
+refused '--model: not with --dma' fit --dma curve.csv --model elastic
+refused '--radius: not with --dma' fit --dma curve.csv --radius 1
+refused '--noise: need --dma' fit --input drop.csv --noise 0.1
+bad 'row 2): sigma_ez is missing' speed_m_s,ez,sigma_ez 1,0.5,0.01 2,0.4, 3,0.3,0.01
+bad 'columns weight and sigma_' speed_m_s,ez,sigma_ez,weight 1,0.5,0.01,1
 refused '--model = "rubber"' fit --input drop.csv --model rubber
 refused 'must end in .json' fit --input drop.csv $ball --output solid.txt
 cp drop.csv clash.json
