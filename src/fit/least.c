@@ -99,6 +99,7 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     const size_t n = least->rows, p = least->unknowns;
     double *memory = calloc(p + n + n * p, sizeof *memory);
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+    parameters.scale = gsl_multifit_nlinear_scale_levenberg; /* unknowns are logarithms: of one scale */
     parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
                                          : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);

@@ -14,11 +14,11 @@
  * STEP is that of central differences in the logarithm: 1e-3 keeps both the truncation and the solver's 1e-7 below 1e-4.
  * ROUGH and FINE: iterations of a fit from a start and of the last one from the best. Most need five. Two starts that end
  * with sums alike within ALIKE have found the same valley: the others are left out. */
-enum { SCAN = 64, ROUGH = 25, FINE = 60 };
-static const double STEP = 1e-3, ALIKE = 1e-3;
+enum { SCAN = 64, ROUGH = 8, FINE = 40 };
+static const double STEP = 1e-3, ALIKE = 1e-2;
 
-/* Tolerance of the impacts: of the scan, of the starts, and of the end: below every measurement. */
-static const double COARSE = 1e-4, MIDDLE = 1e-5, PRECISE = 1e-6;
+/* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. */
+static const double COARSE = 1e-4, PRECISE = 1e-6;
 
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
                           size_t starts, struct rst_fit_search *s)
@@ -124,7 +124,7 @@ static int fit_from(struct rst_fit_search *s, double *x, int most, double tolera
 {
     const struct rst_least least = {.rows = s->data->rows, .unknowns = s->model.free, .residuals = residuals,
                                     .jacobian = jacobian, .own = s, .most = most,
-                                    .exact = (double)s->data->rows * tolerance * tolerance, .settled = settled};
+                                    .exact = 0.01 * (double)s->data->rows * tolerance * tolerance, .settled = settled};
     double sum = INFINITY;
     int converged = 0;
     s->data->solver.tolerance = tolerance;
@@ -142,7 +142,7 @@ static int fit_from(struct rst_fit_search *s, double *x, int most, double tolera
 int rst_fit_local(struct rst_fit_search *s, size_t start)
 {
     if (s->agreed || s->model.free == 0) return RESTITUTE_OK;
-    return fit_from(s, s->start + start * s->model.free, ROUGH, MIDDLE, 1e-3);
+    return fit_from(s, s->start + start * s->model.free, ROUGH, COARSE, 1e-3);
 }
 
 int rst_fit_again(struct rst_fit_search *s)
@@ -150,7 +150,7 @@ int rst_fit_again(struct rst_fit_search *s)
     double x[RESTITUTE_FIT_CONSTANTS], *r;
     memcpy(x, s->logs, sizeof x);
     s->sum = INFINITY;
-    if (s->model.free) return fit_from(s, x, FINE, PRECISE, 1e-6);
+    if (s->model.free) return fit_from(s, x, FINE, PRECISE, 1e-5);
     int status = RESTITUTE_ERROR_MEMORY; /* nothing to fit: the sum alone */
     if ((r = malloc(s->data->rows * sizeof *r))) status = residuals(s, x, r);
     s->sum = 0, s->converged = 1;
