@@ -67,15 +67,15 @@ typedef enum restitute_fit_flag {
 
 /** One measured impact. NaN stands for what was not measured; at least one of ez, ex and contact_time was. */
 typedef struct restitute_fit_point {
-    size_t struct_size;    /**< set by @ref restitute_fit_point_init */
-    restitute_scene scene; /**< all but the material: that is the partner's, or NULL if it has none of its own (rigid, or
-                              of the fitted material with BOTH_BODIES_DEFORM). friction NaN: to be fitted, from ex */
-    double temperature;    /**< any scale with degrees of 1 K; NaN (default): that of reference */
-    double ez;             /**< in [0, 1] */
-    double ex;             /**< in [-1, 1], of the contact point */
-    double contact_time;   /**< s, > 0 */
-    double sigma_ez, sigma_ex;  /**< standard deviations, > 0; NaN (default): 1, a common one */
-    double sigma_contact_time;  /**< s, > 0; NaN: contact_time itself, so that its relative error counts like e's */
+    size_t struct_size;        /**< set by @ref restitute_fit_point_init */
+    restitute_scene scene;     /**< its material is the partner's, or NULL: rigid, or BOTH_BODIES_DEFORM, of the fitted
+                              solid. friction NaN: to be fitted, from ex */
+    double temperature;        /**< any scale with degrees of 1 K; NaN (default): that of reference */
+    double ez;                 /**< in [0, 1] */
+    double ex;                 /**< in [-1, 1], of the contact point */
+    double contact_time;       /**< s, > 0 */
+    double sigma_ez, sigma_ex; /**< standard deviations, > 0; NaN (default): 1, a common one */
+    double sigma_contact_time; /**< s, > 0; NaN: contact_time itself, so that its relative error counts like e's */
 } restitute_fit_point;
 
 /** Prepare with a scene as by restitute_scene_init and NaN for all that is measured. */
@@ -83,21 +83,21 @@ RESTITUTE_API void restitute_fit_point_init(restitute_fit_point *point);
 
 /** How to fit. */
 typedef struct restitute_fit_options {
-    size_t struct_size;             /**< set by @ref restitute_fit_options_init */
-    int model;                      /**< a @ref restitute_fit_model */
-    size_t terms;                   /**< PRONY: 1 to 20 */
-    const double *relaxation_time;  /**< PRONY: tau_k, s, no two alike; terms values, copied */
-    const double *known;            /**< optional: as many values as the solid has constants, NaN: to be fitted; copied */
-    double poisson_ratio;           /**< in [0, 0.5]; default 0.5 */
-    int loss;                       /**< a @ref restitute_fit_loss */
-    int noise_known;                /**< nonzero: the sigmas, all given, are the noise itself; default 0: only weights */
-    double confidence;              /**< of the intervals, in [0.5, 0.999]; default 0.95 */
-    double reference_temperature;   /**< where a_T = 1; NaN (default): that of the first point */
-    double wlf_c1, wlf_c2;          /**< log10 a_T = -c1 (T - T_r)/(c2 + T - T_r); NaN (default): a_T of every other
+    size_t struct_size;            /**< set by @ref restitute_fit_options_init */
+    int model;                     /**< a @ref restitute_fit_model */
+    size_t terms;                  /**< PRONY: 1 to 20 */
+    const double *relaxation_time; /**< PRONY: tau_k, s, no two alike; terms values, copied */
+    const double *known;          /**< optional: as many values as the solid has constants, NaN: to be fitted; copied */
+    double poisson_ratio;         /**< in [0, 0.5]; default 0.5 */
+    int loss;                     /**< a @ref restitute_fit_loss */
+    int noise_known;              /**< nonzero: the sigmas, all given, are the noise itself; default 0: only weights */
+    double confidence;            /**< of the intervals, in [0.5, 0.999]; default 0.95 */
+    double reference_temperature; /**< where a_T = 1; NaN (default): that of the first point */
+    double wlf_c1, wlf_c2;        /**< log10 a_T = -c1 (T - T_r)/(c2 + T - T_r); NaN (default): a_T of every other
                                        temperature is fitted. a_T multiplies all relaxation times */
-    int starts;                     /**< local fits from the best of the scan, 1 to 100; default 4; fewer if two agree */
-    uint64_t seed;                  /**< shifts the quasi-random scan; default 1 */
-    int threads;                    /**< as in @ref restitute_solve_many; default 1 */
+    int starts;                   /**< local fits from the best of the scan, 1 to 100; default 4; fewer if two agree */
+    uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
+    int threads;                  /**< as in @ref restitute_solve_many; default 1 */
     double speed_limit, radius_limit; /**< v/c_s and a/R that are remarked, default 0.1 */
 } restitute_fit_options;
 
@@ -105,21 +105,21 @@ RESTITUTE_API void restitute_fit_options_init(restitute_fit_options *options);
 
 /** What came out: the constants of the model, then "friction" and "shift_<temperature>" where they are fitted. */
 typedef struct restitute_fit_result {
-    size_t struct_size;         /**< set by @ref restitute_fit_result_init */
-    size_t constants;           /**< how many */
+    size_t struct_size; /**< set by @ref restitute_fit_result_init */
+    size_t constants;   /**< how many */
     char name[RESTITUTE_FIT_CONSTANTS][RESTITUTE_FIT_NAME];
     double value[RESTITUTE_FIT_CONSTANTS];
-    double low[RESTITUTE_FIT_CONSTANTS], high[RESTITUTE_FIT_CONSTANTS]; /**< 0 and infinity: not determined; both the
+    double low[RESTITUTE_FIT_CONSTANTS], high[RESTITUTE_FIT_CONSTANTS];   /**< 0 and infinity: not determined; both the
                                    value: known */
     double correlation[RESTITUTE_FIT_CONSTANTS][RESTITUTE_FIT_CONSTANTS]; /**< of the logarithms */
-    size_t values;              /**< measured values of ez, ex and contact_time that were fitted */
-    size_t rank;                /**< combinations of constants that the data determine */
-    double rms;                 /**< root of the mean squared weighted residual */
-    double noise;               /**< its standard deviation for the degrees of freedom left, values - rank; NaN: none left */
-    double condition;           /**< largest over smallest singular value of the weighted Jacobian */
-    int64_t impacts;            /**< that were solved */
-    int flags;                  /**< bits of @ref restitute_fit_flag */
-    char remarks[2000];         /**< a line a remark, each ending with a newline */
+    size_t values;      /**< measured values of ez, ex and contact_time that were fitted */
+    size_t rank;        /**< combinations of constants that the data determine */
+    double rms;         /**< root of the mean squared weighted residual */
+    double noise;       /**< its standard deviation for the degrees of freedom left, values - rank; NaN: none left */
+    double condition;   /**< largest over smallest singular value of the weighted Jacobian */
+    int64_t impacts;    /**< that were solved */
+    int flags;          /**< bits of @ref restitute_fit_flag */
+    char remarks[2000]; /**< a line a remark, each ending with a newline */
     restitute_material *material; /**< the solid at the reference temperature, for restitute_material_destroy */
 } restitute_fit_result;
 
@@ -165,12 +165,12 @@ RESTITUTE_API void restitute_fitter_destroy(restitute_fitter *fitter);
 
 /** How to turn storage and loss moduli into a Prony series. */
 typedef struct restitute_dma_options {
-    size_t struct_size;           /**< set by @ref restitute_dma_options_init */
-    double poisson_ratio;         /**< in [0, 0.5]; default 0.5 */
-    int tension;                  /**< nonzero: the moduli are E' and E''; G = E/(2(1 + nu)). Default 0: shear */
-    double noise;                 /**< relative standard deviation of the moduli, in [1e-4, 0.5]; default 0.01. Terms that
+    size_t struct_size;   /**< set by @ref restitute_dma_options_init */
+    double poisson_ratio; /**< in [0, 0.5]; default 0.5 */
+    int tension;          /**< nonzero: the moduli are E' and E''; G = E/(2(1 + nu)). Default 0: shear */
+    double noise;         /**< relative standard deviation of the moduli, in [1e-4, 0.5]; default 0.01. Terms that
                                      buy less are left out */
-    int solid;                    /**< nonzero: an equilibrium modulus may be fitted; default 1 */
+    int solid;            /**< nonzero: an equilibrium modulus may be fitted; default 1 */
     double reference_temperature; /**< where a_T = 1; NaN (default): that of the first row */
     double wlf_c1, wlf_c2;        /**< NaN (default): a free shift a temperature; else log10 a_T is given by them */
 } restitute_dma_options;
@@ -179,15 +179,15 @@ RESTITUTE_API void restitute_dma_options_init(restitute_dma_options *options);
 
 /** A series with positive terms only, as few as the data carry. */
 typedef struct restitute_dma_result {
-    size_t struct_size; /**< set by @ref restitute_dma_result_init */
+    size_t struct_size;         /**< set by @ref restitute_dma_result_init */
     double equilibrium_modulus; /**< Pa; 0: none */
     size_t terms;
     double relaxation_time[RESTITUTE_DMA_TERMS], modulus[RESTITUTE_DMA_TERMS]; /**< s ascending, Pa */
-    size_t temperatures;        /**< distinct ones, ascending; 0: none were given */
+    size_t temperatures; /**< distinct ones, ascending; 0: none were given */
     double temperature[RESTITUTE_DMA_SHIFTS], shift[RESTITUTE_DMA_SHIFTS]; /**< a_T: times are multiplied by it */
-    double wlf_c1, wlf_c2;      /**< given, or fitted to the shifts; NaN: fewer than three temperatures, or no such law */
-    double rms, worst;          /**< relative residuals of the moduli: root mean square and largest */
-    int flags;                  /**< MISFIT: worst residuals far above the noise; UNDETERMINED: temperatures do not overlap */
+    double wlf_c1, wlf_c2; /**< given, or fitted to the shifts; NaN: fewer than three temperatures, or no such law */
+    double rms, worst;     /**< relative residuals of the moduli: root mean square and largest */
+    int flags; /**< MISFIT: worst residuals far above the noise; UNDETERMINED: temperatures do not overlap */
     char remarks[1000];
     restitute_material *material; /**< for restitute_material_destroy */
 } restitute_dma_result;

@@ -69,7 +69,8 @@ static void remark(const char *remarks)
 static int exit_of(int flags, const char *remarks)
 {
     remark(remarks);
-    return flags & (RESTITUTE_FIT_UNDETERMINED | RESTITUTE_FIT_MISFIT | RESTITUTE_FIT_UNFINISHED) ? EXIT_SOME_FAILED : EXIT_DONE;
+    return flags & (RESTITUTE_FIT_UNDETERMINED | RESTITUTE_FIT_MISFIT | RESTITUTE_FIT_UNFINISHED) ? EXIT_SOME_FAILED
+                                                                                                  : EXIT_DONE;
 }
 
 static int fit_points(const struct fit_settings *s, const struct fit_input *input)
@@ -121,8 +122,9 @@ int fit_main(int count, char **arguments)
         signal(SIGINT, on_signal);
         signal(SIGTERM, on_signal);
         const bool good = fit_input_read(&settings, &input, &why) && check_outputs(&settings, &input, &why);
-        status = !good ? complain("%s", why.text)
-                       : settings.text[FIT_INPUT] ? fit_points(&settings, &input) : fit_curve(&settings, &input);
+        status = !good                      ? complain("%s", why.text)
+                 : settings.text[FIT_INPUT] ? fit_points(&settings, &input)
+                                            : fit_curve(&settings, &input);
         fit_input_release(&input);
     }
     fit_options_release(&settings);

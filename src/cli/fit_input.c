@@ -17,17 +17,16 @@ struct column_rule {
     const char *range;
 };
 
-static const struct column_rule measures[MEASURES] = {
-    {"ez", 0, 1, "must be in [0, 1]"},
-    {"ex", -1, 1, "must be in [-1, 1]"},
-    {"contact_time_s", 1e-100, 1e100, "must be > 0"},
-    {"sigma_ez", 1e-100, 1e100, "must be > 0"},
-    {"sigma_ex", 1e-100, 1e100, "must be > 0"},
-    {"sigma_contact_time_s", 1e-100, 1e100, "must be > 0"},
-    {"weight", 1e-100, 1e100, "must be > 0"},
-    {"temperature_C", -273.15, 1e4, "must be in [-273.15, 1e4]"},
-    {"drop_height_m", 1e-100, 1e50, "must be > 0"},
-    {"rebound_height_m", 0, 1e50, "must be >= 0"}};
+static const struct column_rule measures[MEASURES] = {{"ez", 0, 1, "must be in [0, 1]"},
+                                                      {"ex", -1, 1, "must be in [-1, 1]"},
+                                                      {"contact_time_s", 1e-100, 1e100, "must be > 0"},
+                                                      {"sigma_ez", 1e-100, 1e100, "must be > 0"},
+                                                      {"sigma_ex", 1e-100, 1e100, "must be > 0"},
+                                                      {"sigma_contact_time_s", 1e-100, 1e100, "must be > 0"},
+                                                      {"weight", 1e-100, 1e100, "must be > 0"},
+                                                      {"temperature_C", -273.15, 1e4, "must be in [-273.15, 1e4]"},
+                                                      {"drop_height_m", 1e-100, 1e50, "must be > 0"},
+                                                      {"rebound_height_m", 0, 1e50, "must be >= 0"}};
 
 static const struct column_rule curves[CURVES] = {{"frequency_Hz", 1e-30, 1e30, "must be > 0"},
                                                   {"storage_Pa", 1e-30, 1e30, "must be > 0"},
@@ -46,14 +45,16 @@ static size_t find(const restitute_csv *csv, const char *name)
 }
 
 /* A cell by its rule; empty or no such column: NaN. */
-static bool cell(const restitute_csv *csv, size_t row, const struct column_rule *rule, double *value, struct reason *why)
+static bool cell(const restitute_csv *csv, size_t row, const struct column_rule *rule, double *value,
+                 struct reason *why)
 {
     const char *text = restitute_csv_cell(csv, row, find(csv, rule->name));
     *value = NAN;
     if (!text || !*text) return true;
     if (restitute_number_read(text, value) != RESTITUTE_OK)
         return refuse(why, "%s = \"%.64s\" is not a number: %s", rule->name, text, rule->range);
-    return *value >= rule->low && *value <= rule->high ? true : refuse(why, "%s = %.64s: %s", rule->name, text, rule->range);
+    return *value >= rule->low && *value <= rule->high ? true
+                                                       : refuse(why, "%s = %.64s: %s", rule->name, text, rule->range);
 }
 
 static bool at_line(const char *source, const restitute_csv *csv, size_t row, struct reason *why)
@@ -79,8 +80,8 @@ static bool check_columns(const restitute_csv *csv, const char *source, const st
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", rules[i].name);
     for (size_t i = 0; i < restitute_csv_columns(csv); i++)
         if (!known_column(restitute_csv_name(csv, i), rules, count, scene))
-            return refuse(why, "%.100s: unknown column \"%.40s\"; known are %s%s", source, restitute_csv_name(csv, i), names,
-                          scene ? " and those of a scene; see --help" : "");
+            return refuse(why, "%.100s: unknown column \"%.40s\"; known are %s%s", source, restitute_csv_name(csv, i),
+                          names, scene ? " and those of a scene; see --help" : "");
     if (restitute_csv_rows(csv) == 0) return refuse(why, "%.200s: has column names but no rows", source);
     return true;
 }
@@ -111,7 +112,8 @@ static bool scene_cells(const restitute_csv *csv, size_t row, const struct fit_s
 /* Heights in the place of speed and ez. */
 static bool take_heights(double *number, struct values *values, struct reason *why)
 {
-    if (isnan(number[DROP])) return isnan(number[REBOUND]) ? true : refuse(why, "rebound_height_m without drop_height_m");
+    if (isnan(number[DROP]))
+        return isnan(number[REBOUND]) ? true : refuse(why, "rebound_height_m without drop_height_m");
     if (values->given[FIELD_SPEED]) return refuse(why, "drop_height_m and speed_m_s both give the speed");
     values->number[FIELD_SPEED] = sqrt(2 * gravity * number[DROP]);
     values->given[FIELD_SPEED] = true;
@@ -119,7 +121,8 @@ static bool take_heights(double *number, struct values *values, struct reason *w
     if (!isnan(number[EZ])) return refuse(why, "rebound_height_m and ez both give ez");
     number[EZ] = sqrt(number[REBOUND] / number[DROP]);
     return number[EZ] <= 1 ? true
-                           : refuse(why, "rebound_height_m = %g: must be in [0, drop_height_m = %g]", number[REBOUND], number[DROP]);
+                           : refuse(why, "rebound_height_m = %g: must be in [0, drop_height_m = %g]", number[REBOUND],
+                                    number[DROP]);
 }
 
 static void set_sigmas(const double *number, restitute_fit_point *p)
@@ -165,7 +168,8 @@ static bool read_point(const struct fit_settings *s, struct fit_input *input, si
     const double measured[] = {p->ez, p->ex, p->contact_time};
     for (int i = 0; i < 3 && s->options.noise_known; i++)
         if (!isnan(measured[i]) && isnan(sigmas[i]))
-            return refuse(why, "%s is missing: must be > 0 for all that is measured, or for nothing", measures[SIGMA_EZ + i].name);
+            return refuse(why, "%s is missing: must be > 0 for all that is measured, or for nothing",
+                          measures[SIGMA_EZ + i].name);
     return build_scene(&values, input, p, why);
 }
 
@@ -180,8 +184,8 @@ static bool read_points(struct fit_settings *s, struct fit_input *input, struct 
     if (find(csv, "ez") == none && find(csv, "rebound_height_m") == none && find(csv, "ex") == none &&
         find(csv, "contact_time_s") == none)
         return refuse(why, "%.200s: column ez (or rebound_height_m, ex, contact_time_s) is missing", source);
-    s->options.noise_known = find(csv, "sigma_ez") < none || find(csv, "sigma_ex") < none ||
-                             find(csv, "sigma_contact_time_s") < none;
+    s->options.noise_known =
+        find(csv, "sigma_ez") < none || find(csv, "sigma_ex") < none || find(csv, "sigma_contact_time_s") < none;
     if (s->options.noise_known && find(csv, "weight") < none)
         return refuse(why, "%.200s: columns weight and sigma_...: give one kind", source);
     input->points = allocate(input->n, sizeof *input->points);
@@ -202,7 +206,8 @@ static bool read_curve(const struct fit_settings *s, struct fit_input *input, st
         if (there) *arrays[i] = allocate(input->n, sizeof **arrays[i]);
         for (size_t row = 0; there && row < input->n; row++) {
             bool good = cell(csv, row, &curves[i], &(*arrays[i])[row], why);
-            if (good && isnan((*arrays[i])[row])) good = refuse(why, "%s is empty: %s", curves[i].name, curves[i].range);
+            if (good && isnan((*arrays[i])[row]))
+                good = refuse(why, "%s is empty: %s", curves[i].name, curves[i].range);
             if (!good) return at_line(source, csv, row, why);
         }
     }
@@ -238,7 +243,8 @@ void fit_input_place(const struct fit_settings *settings, const struct fit_input
     const char *rest = strchr(message, ']');
     size_t row = 0;
     refuse(why, "%.120s: %s", source, message);
-    if (rest && (sscanf(message, "points[%zu]", &row) == 1 || sscanf(message, "row[%zu]", &row) == 1) && row < input->n) {
+    if (rest && (sscanf(message, "points[%zu]", &row) == 1 || sscanf(message, "row[%zu]", &row) == 1) &&
+        row < input->n) {
         refuse(why, "%s", rest + 1 + strspn(rest + 1, ".: "));
         at_line(source, input->csv, row, why);
     }

@@ -30,7 +30,8 @@ static const struct poptOption own_options[] = {
          "one of the two bodies deforms (default), both do and are of the solid, or the partner's material"),
     TEXT(FIT_MODEL, "model", "NAME", "elastic, kelvin_voigt, standard_solid (default), maxwell or prony"),
     TEXT(FIT_TERMS, "terms", "TAU,...", "relaxation times of the model prony, s, 1 to 20"),
-    TEXT(FIT_KNOWN, "known", "NAME=VALUE,...", "constants that are not fitted: modulus1, modulus2, modulus, viscosity; "
+    TEXT(FIT_KNOWN, "known", "NAME=VALUE,...",
+         "constants that are not fitted: modulus1, modulus2, modulus, viscosity; "
          "equilibrium, term1, term2, ..."),
     TEXT(FIT_LOSS, "loss", "squares|huber|cauchy", "how large residuals count; default squares"),
     TEXT(FIT_CONFIDENCE, "confidence", "P", "of the intervals, in [0.5, 0.999]; default 0.95"),
@@ -60,7 +61,8 @@ static const char footer[] =
 
 static bool of_scene(enum field field)
 {
-    return field > FIELD_LAST_DIMENSIONLESS && (field <= FIELD_FRICTION || field == FIELD_POISSON) && field != FIELD_SPEED;
+    return field > FIELD_LAST_DIMENSIONLESS && (field <= FIELD_FRICTION || field == FIELD_POISSON) &&
+           field != FIELD_SPEED;
 }
 
 static struct poptOption *option_table(void)
@@ -70,9 +72,13 @@ static struct poptOption *option_table(void)
         const struct field_rule *rule = &field_rules[field];
         for (int alias = 0; alias < 2 && of_scene(field); alias++)
             if (alias ? rule->alias : rule->option)
-                *entry++ = (struct poptOption){alias ? rule->alias : rule->option, '\0',
-                                               POPT_ARG_STRING | (alias ? POPT_ARGFLAG_DOC_HIDDEN : 0), NULL,
-                                               CODE_FIELD + (int)field, rule->help, "NUMBER"};
+                *entry++ = (struct poptOption){alias ? rule->alias : rule->option,
+                                               '\0',
+                                               POPT_ARG_STRING | (alias ? POPT_ARGFLAG_DOC_HIDDEN : 0),
+                                               NULL,
+                                               CODE_FIELD + (int)field,
+                                               rule->help,
+                                               "NUMBER"};
     }
     memcpy(entry, own_options, sizeof own_options);
     return table;
@@ -106,7 +112,8 @@ static bool whole(const char *option, const char *text, double low, double high,
 }
 
 /* The place of a word in a list, from `first` on. */
-static bool word(const char *option, const char *text, const char *const *words, int first, int *value, struct reason *why)
+static bool word(const char *option, const char *text, const char *const *words, int first, int *value,
+                 struct reason *why)
 {
     char all[120] = "";
     if (!text) return true;
@@ -165,7 +172,8 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         if (!equals || place < 0)
             good = refuse(why, "--known: \"%.40s\" is no NAME=VALUE of a constant of this model; see --help", item);
         else
-            good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30, &s->known[place], why);
+            good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30,
+                          &s->known[place], why);
     }
     free(list);
     s->options.known = s->known;
@@ -187,8 +195,8 @@ static bool read_wlf(struct fit_settings *s, struct reason *why)
 /* Options of the other kind of input would be passed over without a word. */
 static bool check_kind(const struct fit_settings *s, struct reason *why)
 {
-    static const enum fit_text of_impacts[] = {FIT_PARTNER, FIT_MODEL, FIT_TERMS, FIT_KNOWN, FIT_LOSS, FIT_CONFIDENCE,
-                                               FIT_STARTS, FIT_SEED, FIT_THREADS};
+    static const enum fit_text of_impacts[] = {FIT_PARTNER,    FIT_MODEL,  FIT_TERMS, FIT_KNOWN,  FIT_LOSS,
+                                               FIT_CONFIDENCE, FIT_STARTS, FIT_SEED,  FIT_THREADS};
     if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
         return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
     if (!s->text[FIT_DMA] && (s->tension || s->text[FIT_NOISE])) return refuse(why, "--tension, --noise: need --dma");
@@ -209,16 +217,16 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     restitute_fit_options *o = &s->options;
     double starts = o->starts, seed = (double)o->seed, threads = -1;
     int json = 0;
-    const bool good = word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
-                      word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
-                      word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) &&
-                      read_known(s, why) && read_wlf(s, why) &&
-                      number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, &o->confidence, why) &&
-                      number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, &o->reference_temperature, why) &&
-                      number("noise", s->text[FIT_NOISE], 1e-4, 0.5, &s->dma.noise, why) &&
-                      whole("starts", s->text[FIT_STARTS], 1, 100, &starts, why) &&
-                      whole("seed", s->text[FIT_SEED], 0, 4294967295.0, &seed, why) &&
-                      whole("threads", s->text[FIT_THREADS], 1, 1024, &threads, why);
+    const bool good =
+        word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
+        word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
+        word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) && read_known(s, why) &&
+        read_wlf(s, why) && number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, &o->confidence, why) &&
+        number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, &o->reference_temperature, why) &&
+        number("noise", s->text[FIT_NOISE], 1e-4, 0.5, &s->dma.noise, why) &&
+        whole("starts", s->text[FIT_STARTS], 1, 100, &starts, why) &&
+        whole("seed", s->text[FIT_SEED], 0, 4294967295.0, &seed, why) &&
+        whole("threads", s->text[FIT_THREADS], 1, 1024, &threads, why);
     if (!good) return false;
     o->relaxation_time = s->terms, o->starts = (int)starts, o->seed = (uint64_t)seed, o->threads = (int)threads;
     if (s->values.given[FIELD_POISSON]) o->poisson_ratio = s->dma.poisson_ratio = s->values.number[FIELD_POISSON];

@@ -87,13 +87,15 @@ static json_t *json_result(const struct fit_settings *s, const restitute_fit_res
         for (size_t k = 0; k < r->constants; k++)
             json_array_append_new(line, json_real(r->correlation[i][k]));
         json_array_append_new(correlations, line);
-        json_array_append_new(constants, json_pack("{s:s, s:o, s:o, s:o}", "name", r->name[i], "value", json_of_number(r->value[i]),
-                                                   "low", json_of_number(r->low[i]), "high", json_of_number(r->high[i])));
+        json_array_append_new(constants, json_pack("{s:s, s:o, s:o, s:o}", "name", r->name[i], "value",
+                                                   json_of_number(r->value[i]), "low", json_of_number(r->low[i]),
+                                                   "high", json_of_number(r->high[i])));
     }
-    return json_pack("{s:s, s:o, s:f, s:o, s:I, s:I, s:f, s:o, s:o, s:i, s:o}", "model", model_of(s), "constants", constants,
-                     "confidence", s->options.confidence, "correlation", correlations, "values", (json_int_t)r->values,
-                     "rank", (json_int_t)r->rank, "rms", r->rms, "noise", json_of_number(r->noise), "condition",
-                     json_of_number(r->condition), "flags", r->flags, "remarks", lines_of(r->remarks));
+    return json_pack("{s:s, s:o, s:f, s:o, s:I, s:I, s:f, s:o, s:o, s:i, s:o}", "model", model_of(s), "constants",
+                     constants, "confidence", s->options.confidence, "correlation", correlations, "values",
+                     (json_int_t)r->values, "rank", (json_int_t)r->rank, "rms", r->rms, "noise",
+                     json_of_number(r->noise), "condition", json_of_number(r->condition), "flags", r->flags, "remarks",
+                     lines_of(r->remarks));
 }
 
 static void text_result(FILE *stream, const struct fit_settings *s, const restitute_fit_result *r)
@@ -101,13 +103,16 @@ static void text_result(FILE *stream, const struct fit_settings *s, const restit
     size_t wanted = 0;
     for (size_t i = 0; i < r->constants; i++)
         wanted += r->low[i] < r->high[i];
-    fprintf(stream, "%s: %s, %zu measured values\n\n  %-26s %-13s %g %% interval\n", source_of(s), model_of(s), r->values, "",
-            "", 100 * s->options.confidence);
+    fprintf(stream, "%s: %s, %zu measured values\n\n  %-26s %-13s %g %% interval\n", source_of(s), model_of(s),
+            r->values, "", "", 100 * s->options.confidence);
     for (size_t i = 0; i < r->constants; i++) {
         fprintf(stream, "  %-26s %-13.6g ", r->name[i], r->value[i]);
-        if (isinf(r->high[i])) fputs("not determined\n", stream);
-        else if (r->low[i] == r->high[i]) fputs("known\n", stream);
-        else fprintf(stream, "%.6g to %.6g\n", r->low[i], r->high[i]);
+        if (isinf(r->high[i]))
+            fputs("not determined\n", stream);
+        else if (r->low[i] == r->high[i])
+            fputs("known\n", stream);
+        else
+            fprintf(stream, "%.6g to %.6g\n", r->low[i], r->high[i]);
     }
     fputs("\n  correlations of the logarithms\n", stream);
     for (size_t i = 1; i < r->constants; i++) {
@@ -116,12 +121,15 @@ static void text_result(FILE *stream, const struct fit_settings *s, const restit
             fprintf(stream, " %6.3f", r->correlation[i][k]);
         fputc('\n', stream);
     }
-    fprintf(stream, "\n  rms of the residuals %.3g, noise %.3g; %zu of %zu constants or combinations of them determined; %lld impacts solved\n",
+    fprintf(stream,
+            "\n  rms of the residuals %.3g, noise %.3g; %zu of %zu constants or combinations of them determined; %lld "
+            "impacts solved\n",
             r->rms, r->noise, r->rank, wanted, (long long)r->impacts);
 }
 
 /* Report on standard output; material and record, both or none. Takes over the objects. */
-static bool write_files(const struct fit_settings *s, const char *report, json_t *file, json_t *result, struct reason *why)
+static bool write_files(const struct fit_settings *s, const char *report, json_t *file, json_t *result,
+                        struct reason *why)
 {
     struct output outputs[3] = {{0}};
     const struct settings line = {.argument_count = s->argument_count, .arguments = s->arguments};
@@ -180,7 +188,8 @@ static struct chart *new_chart(const struct fit_settings *s, const char *x, cons
     for (int i = 0; i < 2; i++) {
         snprintf(chart->panel[i].xlabel, sizeof chart->panel[i].xlabel, "%s", x);
         snprintf(chart->panel[i].ylabel, sizeof chart->panel[i].ylabel, "%s", i ? rest : y);
-        snprintf(chart->panel[i].title, sizeof chart->panel[i].title, "%s", i ? "residuals" : "data (points) and fit (lines)");
+        snprintf(chart->panel[i].title, sizeof chart->panel[i].title, "%s",
+                 i ? "residuals" : "data (points) and fit (lines)");
         chart->panel[i].xlog = true;
     }
     return chart;
@@ -196,8 +205,9 @@ static bool figure(const struct fit_settings *s, const struct fit_input *input, 
     struct chart *chart = new_chart(s, "normal speed  (m/s)", "ez, ex", "measured - fitted");
     restitute_fitter_values(fitter, fitted, fitted + n, fitted + 2 * n, NULL);
     for (size_t i = 0; i < r->constants; i++)
-        snprintf(chart->description + strlen(chart->description), sizeof chart->description - strlen(chart->description),
-                 "%s%s = %.4g", i ? ",  " : "", r->name[i], r->value[i]);
+        snprintf(chart->description + strlen(chart->description),
+                 sizeof chart->description - strlen(chart->description), "%s%s = %.4g", i ? ",  " : "", r->name[i],
+                 r->value[i]);
     for (size_t kind = 0; kind < 3; kind++) {
         size_t used = 0;
         for (size_t i = 0; i < n; i++) {
@@ -229,8 +239,8 @@ bool fit_write(const struct fit_settings *s, const struct fit_input *input, cons
     if (!stream) out_of_memory();
     text_result(stream, s, r);
     fclose(stream);
-    snprintf(source, sizeof source, "restitute %s fit of %.200s: rms %.3g, %s", restitute_version(), source_of(s), r->rms,
-             r->flags ? "with remarks, see the record beside this file" : "no remarks");
+    snprintf(source, sizeof source, "restitute %s fit of %.200s: rms %.3g, %s", restitute_version(), source_of(s),
+             r->rms, r->flags ? "with remarks, see the record beside this file" : "no remarks");
     const bool good = (!s->text[FIT_FIGURE] || figure(s, input, fitter, r, why)) &&
                       write_files(s, report, material_file(s, r, r->material, source), json_result(s, r), why);
     free(report);
@@ -243,15 +253,16 @@ static json_t *json_dma(const restitute_dma_result *r)
     double equilibrium;
     for (size_t t = 0; t < r->temperatures; t++)
         json_array_append_new(shifts, json_pack("{s:f, s:f}", "temperature_C", r->temperature[t], "a_T", r->shift[t]));
-    return json_pack("{s:s, s:o, s:f, s:o, s:o, s:o, s:f, s:f, s:i, s:o}", "model", "prony", "terms", terms_of(r->material, &equilibrium),
-                     "equilibrium_modulus_pa", r->equilibrium_modulus, "shifts", shifts, "wlf_c1", json_of_number(r->wlf_c1),
-                     "wlf_c2", json_of_number(r->wlf_c2), "rms", r->rms, "worst", r->worst, "flags", r->flags, "remarks",
-                     lines_of(r->remarks));
+    return json_pack("{s:s, s:o, s:f, s:o, s:o, s:o, s:f, s:f, s:i, s:o}", "model", "prony", "terms",
+                     terms_of(r->material, &equilibrium), "equilibrium_modulus_pa", r->equilibrium_modulus, "shifts",
+                     shifts, "wlf_c1", json_of_number(r->wlf_c1), "wlf_c2", json_of_number(r->wlf_c2), "rms", r->rms,
+                     "worst", r->worst, "flags", r->flags, "remarks", lines_of(r->remarks));
 }
 
 static void text_dma(FILE *stream, const struct fit_settings *s, const restitute_dma_result *r)
 {
-    fprintf(stream, "%s: Prony series of %zu terms\n\n  equilibrium modulus %.6g Pa\n", source_of(s), r->terms, r->equilibrium_modulus);
+    fprintf(stream, "%s: Prony series of %zu terms\n\n  equilibrium modulus %.6g Pa\n", source_of(s), r->terms,
+            r->equilibrium_modulus);
     for (size_t k = 0; k < r->terms; k++)
         fprintf(stream, "  tau %-12.6g s   G %-12.6g Pa\n", r->relaxation_time[k], r->modulus[k]);
     for (size_t t = 0; t < r->temperatures; t++)
@@ -271,7 +282,8 @@ static double modulus_at(const restitute_dma_result *r, double x, bool loss)
     return sum;
 }
 
-static bool figure_dma(const struct fit_settings *s, const struct fit_input *input, const restitute_dma_result *r, struct reason *why)
+static bool figure_dma(const struct fit_settings *s, const struct fit_input *input, const restitute_dma_result *r,
+                       struct reason *why)
 {
     struct pairs *pairs = allocate(input->n, sizeof *pairs);
     struct chart *chart = new_chart(s, "frequency times a_T  (Hz)", "shear moduli  (Pa)", "measured/fitted - 1");
@@ -295,7 +307,8 @@ static bool figure_dma(const struct fit_settings *s, const struct fit_input *inp
     return good;
 }
 
-bool fit_write_dma(const struct fit_settings *s, const struct fit_input *input, const restitute_dma_result *r, struct reason *why)
+bool fit_write_dma(const struct fit_settings *s, const struct fit_input *input, const restitute_dma_result *r,
+                   struct reason *why)
 {
     char *report = NULL, source[512];
     size_t size;
@@ -303,8 +316,8 @@ bool fit_write_dma(const struct fit_settings *s, const struct fit_input *input, 
     if (!stream) out_of_memory();
     text_dma(stream, s, r);
     fclose(stream);
-    snprintf(source, sizeof source, "restitute %s fit of %.200s: %zu terms, relative rms %.3g", restitute_version(), source_of(s),
-             r->terms, r->rms);
+    snprintf(source, sizeof source, "restitute %s fit of %.200s: %zu terms, relative rms %.3g", restitute_version(),
+             source_of(s), r->terms, r->rms);
     const bool good = (!s->text[FIT_FIGURE] || figure_dma(s, input, r, why)) &&
                       write_files(s, report, material_file(s, NULL, r->material, source), json_dma(r), why);
     free(report);

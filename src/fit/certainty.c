@@ -1,7 +1,7 @@
 /* How well the data determine the constants: noise, singular values, covariance; and the weights of robust losses.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <gsl/gsl_statistics_double.h>
 #include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -113,8 +113,7 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
         for (size_t j = 0; j < p; j++) {
             c->variance[i * p + j] = 0;
             for (size_t k = 0; k < c->rank; k++)
-                c->variance[i * p + j] +=
-                    c->vector[k * p + i] * c->vector[k * p + j] * pow(c->noise / c->values[k], 2);
+                c->variance[i * p + j] += c->vector[k * p + i] * c->vector[k * p + j] * pow(c->noise / c->values[k], 2);
         }
     }
 }

@@ -15,8 +15,13 @@ static const double pi = 3.14159265358979323846;
 void restitute_dma_options_init(restitute_dma_options *options)
 {
     if (!options) return;
-    *options = (restitute_dma_options){.struct_size = sizeof *options, .poisson_ratio = 0.5, .noise = 0.01, .solid = 1,
-                                       .reference_temperature = NAN, .wlf_c1 = NAN, .wlf_c2 = NAN};
+    *options = (restitute_dma_options){.struct_size = sizeof *options,
+                                       .poisson_ratio = 0.5,
+                                       .noise = 0.01,
+                                       .solid = 1,
+                                       .reference_temperature = NAN,
+                                       .wlf_c1 = NAN,
+                                       .wlf_c2 = NAN};
 }
 
 void restitute_dma_result_init(restitute_dma_result *result)
@@ -29,14 +34,14 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
 {
     const double *const arrays[] = {frequency, storage, loss};
     static const char *const names[] = {"frequency", "storage", "loss"};
-    if (!frequency || !storage || !loss) return rst_report(error, RESTITUTE_ERROR_NULL, "frequency, storage or loss is NULL");
-    if (n < 3 || n > 100000)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu rows: must be in [3, 100000]", n);
+    if (!frequency || !storage || !loss)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "frequency, storage or loss is NULL");
+    if (n < 3 || n > 100000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu rows: must be in [3, 100000]", n);
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < 3; k++)
             if (!(arrays[k][i] >= 1e-30 && arrays[k][i] <= 1e30))
-                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: %s = %g: must be in [1e-30, 1e30]", i, names[k],
-                                  arrays[k][i]);
+                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: %s = %g: must be in [1e-30, 1e30]", i,
+                                  names[k], arrays[k][i]);
         if (temperature && !isfinite(temperature[i]))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: temperature must be finite", i);
     }
@@ -46,9 +51,11 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
 static int check_options(const restitute_dma_options *o, restitute_error *error)
 {
     if (o->struct_size != sizeof *o)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size, sizeof *o);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
+                          sizeof *o);
     if (!(o->poisson_ratio >= 0 && o->poisson_ratio <= 0.5))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.poisson_ratio = %g: must be in [0, 0.5]", o->poisson_ratio);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.poisson_ratio = %g: must be in [0, 0.5]",
+                          o->poisson_ratio);
     if (!(o->noise >= 1e-4 && o->noise <= 0.5))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.noise = %g: must be in [1e-4, 0.5]", o->noise);
     if (isnan(o->wlf_c1) != isnan(o->wlf_c2))
@@ -73,7 +80,8 @@ static int sort_temperatures(struct rst_dma *d, const double *temperature, const
         for (k = 0; k < r->temperatures && r->temperature[k] != temperature[i];)
             k++;
         if (k == RESTITUTE_DMA_SHIFTS)
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: more than %d temperatures", i, RESTITUTE_DMA_SHIFTS);
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: more than %d temperatures", i,
+                              RESTITUTE_DMA_SHIFTS);
         if (k == r->temperatures) r->temperature[r->temperatures++] = temperature[i];
     }
     qsort(r->temperature, r->temperatures, sizeof *r->temperature, ascending);
@@ -154,7 +162,8 @@ static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
         aa += a * a, ab += a * difference, bb += difference * difference;
         ay -= a * a * difference, by -= a * difference * difference;
     }
-    const double determinant = aa * bb - ab * ab, c2 = (ay * bb - by * ab) / determinant, c1 = (aa * by - ab * ay) / determinant;
+    const double determinant = aa * bb - ab * ab, c2 = (ay * bb - by * ab) / determinant,
+                 c1 = (aa * by - ab * ay) / determinant;
     if (d->temperatures < 3 || !(determinant > 1e-12 * aa * bb)) return;
     if (c1 > 0 && c2 + r->temperature[0] - r->temperature[d->reference] > 0) r->wlf_c1 = c1, r->wlf_c2 = c2;
 }
@@ -179,12 +188,14 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
         r->flags |= RESTITUTE_FIT_MISFIT;
-        snprintf(r->remarks + used, sizeof r->remarks - used,
-                 "the data do not follow a series with positive terms within %.2g: rms %.2g, worst %.2g (temperatures that "
-                 "no shift of time explains, or moduli that are not linear)\n", d->noise, r->rms, r->worst);
+        snprintf(
+            r->remarks + used, sizeof r->remarks - used,
+            "the data do not follow a series with positive terms within %.2g: rms %.2g, worst %.2g (temperatures that "
+            "no shift of time explains, or moduli that are not linear)\n",
+            d->noise, r->rms, r->worst);
     }
-    return restitute_material_prony(d->equilibrium, 0, d->terms, r->relaxation_time, r->modulus, o->poisson_ratio, &r->material,
-                                    error);
+    return restitute_material_prony(d->equilibrium, 0, d->terms, r->relaxation_time, r->modulus, o->poisson_ratio,
+                                    &r->material, error);
 }
 
 static int fit(struct rst_dma *d, const double *temperature, const restitute_dma_options *o, restitute_dma_result *r,
@@ -201,8 +212,9 @@ static int fit(struct rst_dma *d, const double *temperature, const restitute_dma
     return write_result(d, o, r, rest, error);
 }
 
-int restitute_dma_fit(size_t n, const double *frequency, const double *storage, const double *loss, const double *temperature,
-                      const restitute_dma_options *options, restitute_dma_result *result, restitute_error *error)
+int restitute_dma_fit(size_t n, const double *frequency, const double *storage, const double *loss,
+                      const double *temperature, const restitute_dma_options *options, restitute_dma_result *result,
+                      restitute_error *error)
 {
     restitute_dma_options o;
     restitute_dma_result r;
@@ -211,7 +223,8 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     if (options) o = *options;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     if (result->struct_size != sizeof r)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu", result->struct_size, sizeof r);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
+                          result->struct_size, sizeof r);
     int status = check_options(&o, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;

@@ -18,7 +18,7 @@ struct rst_dma {
     double shift[RESTITUTE_DMA_SHIFTS]; /* log a_T */
     size_t terms;
     double g[RESTITUTE_DMA_TERMS], tau[RESTITUTE_DMA_TERMS], equilibrium; /* logarithms; equilibrium itself, 0: none */
-    double sum; /* of squared residuals */
+    double sum;                                                           /* of squared residuals */
 };
 
 /* dma_terms.c: from shifts to a first series; refine it; make it as short as the data allow. */

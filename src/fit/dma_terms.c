@@ -101,8 +101,15 @@ static int jacobian(void *own, const double *x, double *j)
 
 static int refine(struct rst_dma *d)
 {
-    const struct rst_least least = {.rows = 2 * d->n, .unknowns = unknowns(d), .residuals = residuals, .jacobian = jacobian,
-                                    .own = d, .most = ITERATIONS, .exact = 1e-12, .settled = 1e-4, .full_rank = 1};
+    const struct rst_least least = {.rows = 2 * d->n,
+                                    .unknowns = unknowns(d),
+                                    .residuals = residuals,
+                                    .jacobian = jacobian,
+                                    .own = d,
+                                    .most = ITERATIONS,
+                                    .exact = 1e-12,
+                                    .settled = 1e-4,
+                                    .full_rank = 1};
     double x[2 * RESTITUTE_DMA_TERMS + RESTITUTE_DMA_SHIFTS + 1];
     int converged;
     if (least.unknowns == 0 || least.unknowns > least.rows) return RESTITUTE_OK;
@@ -190,7 +197,8 @@ static void make_candidate(const struct rst_dma *d, size_t which, struct rst_dma
     *candidate = *d;
     if (i == d->terms)
         candidate->equilibrium = 0;
-    else if (which % 2 == 0 && i + 1 < d->terms) merge(candidate, i);
+    else if (which % 2 == 0 && i + 1 < d->terms)
+        merge(candidate, i);
     else if (d->terms > 1) {
         candidate->terms--;
         memmove(candidate->g + i, d->g + i + 1, (candidate->terms - i) * sizeof *d->g);

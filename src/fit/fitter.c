@@ -90,11 +90,12 @@ static int check_counts(const restitute_fitter *f, restitute_error *error)
 {
     const struct rst_fit_model *m = &f->search.model;
     if (m->count > RESTITUTE_FIT_CONSTANTS)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu constants, shifts of temperatures included: must be at most %d",
-                          m->count, RESTITUTE_FIT_CONSTANTS);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "%zu constants, shifts of temperatures included: must be at most %d", m->count,
+                          RESTITUTE_FIT_CONSTANTS);
     if (f->data.rows < m->free)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu measured values are fewer than the %zu constants of the model",
-                          f->data.rows, m->free);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "%zu measured values are fewer than the %zu constants of the model", f->data.rows, m->free);
     return RESTITUTE_OK;
 }
 
@@ -177,7 +178,8 @@ static int try_rival(restitute_fitter *f, size_t index)
 static double quantile(const restitute_fitter *f)
 {
     const double upper = 0.5 + 0.5 * f->data.options.confidence;
-    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper) : gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof);
+    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
+                                       : gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof);
 }
 
 static void write_constants(restitute_fitter *f)
@@ -215,7 +217,8 @@ static int finish(restitute_fitter *f, restitute_error *error)
     r->rms = sqrt(f->search.sum / (double)f->data.rows);
     r->noise = f->data.options.noise_known ? (c->dof ? sqrt(f->search.sum / (double)c->dof) : NAN) : c->noise;
     r->condition = p ? c->values[0] / c->values[p - 1] : 1;
-    if (!f->search.converged) rst_fit_remark(r, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
+    if (!f->search.converged)
+        rst_fit_remark(r, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     rst_fit_remark_directions(&f->search, c, r);
     int status = rst_fit_remark_pattern(&f->search, c, r);
     if (status >= 0) status = rst_fit_remark_limits(&f->search, r);
@@ -262,8 +265,8 @@ int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *res
     if (status) return status;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     if (result->struct_size != sizeof *result)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu", result->struct_size,
-                          sizeof *result);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
+                          result->struct_size, sizeof *result);
     copy = f->result;
     restitute_material_series(copy.material, &g_inf, &eta, tau, g);
     status = restitute_material_prony(g_inf, eta, restitute_material_terms(copy.material), tau, g,
@@ -273,7 +276,8 @@ int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *res
     return rst_done(error);
 }
 
-int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, double *contact_time, restitute_error *error)
+int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, double *contact_time,
+                            restitute_error *error)
 {
     int status = check_finished(f, error);
     if (status) return status;

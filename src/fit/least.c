@@ -76,7 +76,8 @@ static double square(const gsl_vector *f)
  * valley whose floor is flat the constants would wander for ever. */
 static int iterate(gsl_multifit_nlinear_workspace *w, struct bridge *b, double *x, double *sum, int *converged)
 {
-    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = jacobian, .n = b->least->rows, .p = b->least->unknowns, .params = b};
+    gsl_multifit_nlinear_fdf fdf = {
+        .f = residuals, .df = jacobian, .n = b->least->rows, .p = b->least->unknowns, .params = b};
     gsl_vector_const_view start = gsl_vector_const_view_array(x, b->least->unknowns);
     int status = gsl_multifit_nlinear_init(&start.vector, &fdf, w), still = 0;
     *sum = square(gsl_multifit_nlinear_residual(w));
@@ -149,7 +150,7 @@ static int solve_set(struct active *s)
             s->q[i * s->count + k] = s->a[i * s->unknowns + s->set[k]];
     if (gsl_linalg_QR_decomp(&q.matrix, &tau.vector)) return RESTITUTE_ERROR_INTERNAL;
     return gsl_linalg_QR_lssolve(&q.matrix, &tau.vector, &b.vector, &z.vector, &r.vector) ? RESTITUTE_ERROR_INTERNAL
-                                                                                        : RESTITUTE_OK;
+                                                                                          : RESTITUTE_OK;
 }
 
 static void list_set(struct active *s)

@@ -31,8 +31,7 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
 {
     double logs = 0, times = 0;
     size_t n = 0;
-    const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid
-                          : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
+    const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
     for (size_t i = 0; i < d->n; i++)
         if (!isnan(d->points[i].contact_time))
             logs += log(modulus_of_time(&d->points[i].scene, d->options.poisson_ratio, d->points[i].contact_time)), n++;
@@ -153,8 +152,9 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
     return status;
 }
 
-static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, int tangential,
-                        restitute_material *const *solids, restitute_scene *scenes, restitute_result *results)
+static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
+                        int tangential, restitute_material *const *solids, restitute_scene *scenes,
+                        restitute_result *results)
 {
     for (size_t i = 0; i < d->n; i++) {
         const restitute_fit_point *p = &d->points[i];
@@ -167,13 +167,14 @@ static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model
     }
 }
 
-int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants, int tangential,
-                  restitute_result *results, restitute_error *error)
+int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
+                  int tangential, restitute_result *results, restitute_error *error)
 {
     restitute_scene *scenes = calloc(sets * d->n, sizeof *scenes);
     restitute_material **solids = calloc(sets * d->groups, sizeof *solids);
     int *statuses = malloc(sets * d->n * sizeof *statuses);
-    int status = scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    int status =
+        scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     for (size_t s = 0; s < sets && status >= 0; s++) {
         status = make_solids(d, m, constants + s * m->count, solids + s * d->groups, error);
         if (status >= 0)
@@ -195,7 +196,9 @@ int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t 
 
 double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result)
 {
-    const double value = row->kind == RST_FIT_EZ ? result->ez : row->kind == RST_FIT_EX ? result->ex : result->contact_time;
+    const double value = row->kind == RST_FIT_EZ   ? result->ez
+                         : row->kind == RST_FIT_EX ? result->ex
+                                                   : result->contact_time;
     if (isnan(result->ez) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
     return (value - row->measured) / row->sigma;
 }

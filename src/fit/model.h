@@ -21,7 +21,7 @@ struct rst_fit_data {
     restitute_fit_options options;
     double *memory; /* relaxation times and known constants */
     struct rst_fit_row *row;
-    size_t *group, *first; /* group of a point; first point of a group */
+    size_t *group, *first;                    /* group of a point; first point of a group */
     double temperature[RESTITUTE_DMA_SHIFTS]; /* distinct ones, the reference first */
     restitute_options solver;
     int64_t impacts;
@@ -31,11 +31,11 @@ struct rst_fit_data {
 struct rst_fit_model {
     int kind;
     size_t solid, count;
-    size_t friction, shift; /* places; friction = count: none. shift: that of the second temperature */
-    double known[RESTITUTE_FIT_CONSTANTS];              /* NaN: fitted */
+    size_t friction, shift;                /* places; friction = count: none. shift: that of the second temperature */
+    double known[RESTITUTE_FIT_CONSTANTS]; /* NaN: fitted */
     double centre[RESTITUTE_FIT_CONSTANTS], spread[RESTITUTE_FIT_CONSTANTS]; /* of the logarithm, for the starts */
     int scaled; /* contact times or a known constant set a scale; else 1 MPa is assumed */
-    size_t free, index[RESTITUTE_FIT_CONSTANTS];        /* which are fitted */
+    size_t free, index[RESTITUTE_FIT_CONSTANTS]; /* which are fitted */
 };
 
 /* points.c */
@@ -57,8 +57,8 @@ void rst_fit_name(const struct rst_fit_data *data, const struct rst_fit_model *m
 /* All constants from logarithms of the fitted ones, which are kept within the range where impacts can be solved. */
 void rst_fit_constants(const struct rst_fit_model *model, const double *logs, double *constants);
 
-int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants, double shift,
-                  restitute_material **material, restitute_error *error);
+int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
+                  double shift, restitute_material **material, restitute_error *error);
 
 /* What `sets` sets of constants give at every point: results[set * n + point], `tangential`: e_x of all points. A result
  * whose impact could not be solved has ez = NaN. */

@@ -9,18 +9,32 @@
 void restitute_fit_point_init(restitute_fit_point *point)
 {
     if (!point) return;
-    *point = (restitute_fit_point){.struct_size = sizeof *point, .temperature = NAN, .ez = NAN, .ex = NAN,
-                                   .contact_time = NAN, .sigma_ez = NAN, .sigma_ex = NAN, .sigma_contact_time = NAN};
+    *point = (restitute_fit_point){.struct_size = sizeof *point,
+                                   .temperature = NAN,
+                                   .ez = NAN,
+                                   .ex = NAN,
+                                   .contact_time = NAN,
+                                   .sigma_ez = NAN,
+                                   .sigma_ex = NAN,
+                                   .sigma_contact_time = NAN};
     restitute_scene_init(&point->scene);
 }
 
 void restitute_fit_options_init(restitute_fit_options *options)
 {
     if (!options) return;
-    *options = (restitute_fit_options){.struct_size = sizeof *options, .model = RESTITUTE_FIT_STANDARD_SOLID,
-                                       .poisson_ratio = 0.5, .confidence = 0.95, .reference_temperature = NAN,
-                                       .wlf_c1 = NAN, .wlf_c2 = NAN, .starts = 4, .seed = 1, .threads = 1,
-                                       .speed_limit = 0.1, .radius_limit = 0.1};
+    *options = (restitute_fit_options){.struct_size = sizeof *options,
+                                       .model = RESTITUTE_FIT_STANDARD_SOLID,
+                                       .poisson_ratio = 0.5,
+                                       .confidence = 0.95,
+                                       .reference_temperature = NAN,
+                                       .wlf_c1 = NAN,
+                                       .wlf_c2 = NAN,
+                                       .starts = 4,
+                                       .seed = 1,
+                                       .threads = 1,
+                                       .speed_limit = 0.1,
+                                       .radius_limit = 0.1};
 }
 
 void restitute_fit_result_init(restitute_fit_result *result)
@@ -62,7 +76,8 @@ static int check_known(const restitute_fit_options *o, restitute_error *error)
         if (status) return status;
         for (size_t l = 0; l < k; l++)
             if (o->relaxation_time[l] == o->relaxation_time[k])
-                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g: is there twice", name, o->relaxation_time[k]);
+                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %g: is there twice", name,
+                                  o->relaxation_time[k]);
     }
     return RESTITUTE_OK;
 }
@@ -130,7 +145,8 @@ static int check_scene(size_t i, const restitute_fit_point *p, const restitute_m
     const int status = restitute_scene_numbers(&scene, &numbers, &inner);
     if (status < 0) return rst_report(error, status, "points[%zu]: %s", i, inner.message);
     if (p->scene.material && p->scene.deformable == RESTITUTE_BOTH_BODIES_DEFORM)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: a partner's material with BOTH_BODIES_DEFORM", i);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: a partner's material with BOTH_BODIES_DEFORM",
+                          i);
     return RESTITUTE_OK;
 }
 
@@ -174,11 +190,13 @@ static int make_groups(struct rst_fit_data *d, restitute_error *error)
         if (isnan(t[0]) && !isnan(p->temperature))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                               "points[%zu].temperature = %g: the first point or options.reference_temperature must "
-                              "have one too", i, p->temperature);
+                              "have one too",
+                              i, p->temperature);
         while (k < d->temperatures && t[k] != p->temperature && !isnan(p->temperature))
             k++;
         if (k == RESTITUTE_DMA_SHIFTS)
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: more than %d temperatures", i, RESTITUTE_DMA_SHIFTS);
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: more than %d temperatures", i,
+                              RESTITUTE_DMA_SHIFTS);
         if (k == d->temperatures) t[d->temperatures++] = p->temperature;
         while (g < d->groups && (d->points[d->first[g]].scene.material != p->scene.material ||
                                  (d->points[d->first[g]].temperature != p->temperature && !isnan(p->temperature))))
@@ -189,7 +207,8 @@ static int make_groups(struct rst_fit_data *d, restitute_error *error)
     return RESTITUTE_OK;
 }
 
-static int copy(size_t n, const restitute_fit_point *points, const restitute_fit_options *options, struct rst_fit_data *d)
+static int copy(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
+                struct rst_fit_data *d)
 {
     const size_t terms = options->model == RESTITUTE_FIT_PRONY ? options->terms : 0;
     const size_t known = options->known ? rst_fit_solid_constants(options->model, terms) : 0;

@@ -66,9 +66,10 @@ void rst_fit_remark_directions(const struct rst_fit_search *s, const struct rst_
                            "the data do not tell these apart: %s for any factor f gives the same", text);
     }
     if (c->rank < s->model.free && !s->model.scaled)
-        rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED,
-                       "e has no unit, so it gives no modulus, and about 1 MPa is assumed: measure a contact time or name a known "
-                       "constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
+        rst_fit_remark(
+            result, RESTITUTE_FIT_UNDETERMINED,
+            "e has no unit, so it gives no modulus, and about 1 MPa is assumed: measure a contact time or name a known "
+            "constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
 }
 
 static int compare_speeds(const void *a, const void *b)
@@ -82,8 +83,10 @@ static double chance_of_runs(const double *pairs, size_t n)
 {
     double up = 0, down = 0, runs = 1;
     for (size_t i = 0; i < n; i++) {
-        if (pairs[2 * i + 1] > 0) up++;
-        else down++;
+        if (pairs[2 * i + 1] > 0)
+            up++;
+        else
+            down++;
         if (i && (pairs[2 * i + 1] > 0) != (pairs[2 * i - 1] > 0)) runs++;
     }
     if (up < 3 || down < 3) return 1;
@@ -106,7 +109,8 @@ int rst_fit_remark_pattern(struct rst_fit_search *s, const struct rst_fit_certai
     if (chance < WRONG_BELOW && c->noise >= c->judged)
         rst_fit_remark(result, RESTITUTE_FIT_MISFIT,
                        "the data do not follow the model: residuals of ez keep their sign over ranges of speed (chance "
-                       "%.1g), their standard deviation is %.2g", chance, c->noise);
+                       "%.1g), their standard deviation is %.2g",
+                       chance, c->noise);
     if (d->options.noise_known && c->dof && gsl_cdf_chisq_Q(s->sum, (double)c->dof) < WRONG_BELOW)
         rst_fit_remark(result, RESTITUTE_FIT_MISFIT,
                        "the data do not follow the model: residuals are %.3g times the given standard deviations",
@@ -132,16 +136,21 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
             worst = fmax(worst, b ? r->radius_ratio : r->speed_ratio);
         }
         if (count)
-            rst_fit_remark(result, RESTITUTE_FIT_LIMITS, "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s",
-                           count, s->data->n, ratios[b], worst, restitute_flag_text(bits[b]));
+            rst_fit_remark(result, RESTITUTE_FIT_LIMITS,
+                           "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s", count, s->data->n,
+                           ratios[b], worst, restitute_flag_text(bits[b]));
     }
     return status;
 }
 
 static const char *kind_text(const struct rst_fit_model *m)
 {
-    static const char *const texts[] = {"", "an elastic solid", "a Kelvin-Voigt solid", "a standard solid",
-                                        "a Maxwell body", "a series without its weakest term"};
+    static const char *const texts[] = {"",
+                                        "an elastic solid",
+                                        "a Kelvin-Voigt solid",
+                                        "a standard solid",
+                                        "a Maxwell body",
+                                        "a series without its weakest term"};
     return texts[m->kind];
 }
 
@@ -154,13 +163,18 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_c
     const double left = simpler ? (double)c->dof : rows - (double)rival->model.free;
     if (left < 1 || more < 1) return;
     /* F of the drop against the noise, which is not below what a measurement has */
-    const double floor = s->data->options.noise_known ? 1 : fmax(better / left, isnan(c->noise) || c->judged > c->noise ? c->judged * c->judged : 0);
+    const double floor = s->data->options.noise_known
+                             ? 1
+                             : fmax(better / left, isnan(c->noise) || c->judged > c->noise ? c->judged * c->judged : 0);
     const double f = fmax(0, worse - better) / more / floor;
-    const double chance = s->data->options.noise_known ? gsl_cdf_chisq_Q(f * more, more) : gsl_cdf_fdist_Q(f, more, left);
+    const double chance =
+        s->data->options.noise_known ? gsl_cdf_chisq_Q(f * more, more) : gsl_cdf_fdist_Q(f, more, left);
     if (simpler && chance > SIMPLER_FROM)
-        rst_fit_remark(result, RESTITUTE_FIT_SIMPLER, "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
+        rst_fit_remark(result, RESTITUTE_FIT_SIMPLER,
+                       "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
                        kind_text(&rival->model), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)
-        rst_fit_remark(result, RESTITUTE_FIT_MISFIT, "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
+        rst_fit_remark(result, RESTITUTE_FIT_MISFIT,
+                       "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
                        kind_text(&rival->model), sqrt(better / rows), sqrt(worse / rows));
 }

@@ -122,9 +122,14 @@ int rst_fit_scan(struct rst_fit_search *s)
 /* A fit from x; kept if it is better than what is there. */
 static int fit_from(struct rst_fit_search *s, double *x, int most, double tolerance, double settled)
 {
-    const struct rst_least least = {.rows = s->data->rows, .unknowns = s->model.free, .residuals = residuals,
-                                    .jacobian = jacobian, .own = s, .most = most,
-                                    .exact = 0.01 * (double)s->data->rows * tolerance * tolerance, .settled = settled};
+    const struct rst_least least = {.rows = s->data->rows,
+                                    .unknowns = s->model.free,
+                                    .residuals = residuals,
+                                    .jacobian = jacobian,
+                                    .own = s,
+                                    .most = most,
+                                    .exact = 0.01 * (double)s->data->rows * tolerance * tolerance,
+                                    .settled = settled};
     double sum = INFINITY;
     int converged = 0;
     s->data->solver.tolerance = tolerance;

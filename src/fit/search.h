@@ -40,9 +40,9 @@ struct rst_fit_certainty {
     double noise;  /* standard deviation of a weighted residual; NaN: no degree of freedom is left */
     double judged; /* the same, not below what any measurement has: decides what is determined */
     size_t rank, dof;
-    double values[RESTITUTE_FIT_CONSTANTS];                              /* singular values */
-    double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];    /* directions, as of rst_fit_singular */
-    double variance[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];  /* covariance of the logarithms */
+    double values[RESTITUTE_FIT_CONSTANTS];                             /* singular values */
+    double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];   /* directions, as of rst_fit_singular */
+    double variance[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS]; /* covariance of the logarithms */
     int determined[RESTITUTE_FIT_CONSTANTS];
 };
 

@@ -45,7 +45,8 @@ static int damped(struct given *given)
 
 static int curve(struct given *given)
 {
-    static const double f[] = {0.01, 0.1, 1, 10, 100}, storage[] = {1e5, 2e5, 5e5, 1e6, 1.2e6}, loss[] = {5e4, 1e5, 2e5, 2e5, 1e5};
+    static const double f[] = {0.01, 0.1, 1, 10, 100}, storage[] = {1e5, 2e5, 5e5, 1e6, 1.2e6},
+                        loss[] = {5e4, 1e5, 2e5, 2e5, 1e5};
     restitute_dma_result r;
     restitute_error error;
     int status;

@@ -24,7 +24,8 @@ static void round_trip_without_noise(void **state)
     }
     assert_int_equal(r.rank, 3);
     assert_int_equal(r.flags & ~RESTITUTE_FIT_LIMITS, 0);
-    CHECK_NEAR(restitute_material_modulus(r.material, 1e-4), restitute_material_modulus(solid, 1e-4), 400, "the solid itself");
+    CHECK_NEAR(restitute_material_modulus(r.material, 1e-4), restitute_material_modulus(solid, 1e-4), 400,
+               "the solid itself");
     restitute_material_destroy(r.material);
     restitute_material_destroy(solid);
 }
@@ -235,7 +236,8 @@ static void temperatures(void **state)
 }
 
 /* Refused by name; the result stays as it was. */
-static void refused(size_t n, const restitute_fit_point *points, const restitute_fit_options *options, int status, const char *text)
+static void refused(size_t n, const restitute_fit_point *points, const restitute_fit_options *options, int status,
+                    const char *text)
 {
     restitute_fit_result result;
     restitute_error error;

@@ -38,7 +38,7 @@ static restitute_material *draw(int model, uint64_t *state, double *c)
 
 /* Solids whose e comes within three standard deviations of 0 or 1 are refused: the noise would be cut off there. */
 static int measure(const restitute_material *material, double noise, int with_time, restitute_solver *solver,
-                    uint64_t *state, restitute_fit_point *points)
+                   uint64_t *state, restitute_fit_point *points)
 {
     for (int i = 0; i < POINTS; i++) {
         restitute_fit_point *p = &points[i];
@@ -97,8 +97,8 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
     }
     restitute_solver_destroy(solver);
     for (size_t i = with_time ? 0 : 1; i < constants; i++)
-        printf("%d,%g,%s,%s,%.3f,%d,%d\n", model, noise, with_time ? "ez and contact time" : "ez; modulus1 known", names[i],
-               (double)held[i] / draws, open[i], failed);
+        printf("%d,%g,%s,%s,%.3f,%d,%d\n", model, noise, with_time ? "ez and contact time" : "ez; modulus1 known",
+               names[i], (double)held[i] / draws, open[i], failed);
     fflush(stdout);
 }
 

@@ -118,12 +118,14 @@ static double worst_difference(const struct curve *c, const restitute_dma_result
     return worst;
 }
 
-static restitute_dma_result fit_curve(const struct curve *c, const double *temperature, const restitute_dma_options *options)
+static restitute_dma_result fit_curve(const struct curve *c, const double *temperature,
+                                      const restitute_dma_options *options)
 {
     restitute_dma_result r;
     restitute_error error;
     restitute_dma_result_init(&r);
-    CHECK(restitute_dma_fit(c->n, c->f, c->storage, c->loss, temperature, options, &r, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_dma_fit(c->n, c->f, c->storage, c->loss, temperature, options, &r, &error) == RESTITUTE_OK, "%s",
+          error.message);
     for (size_t k = 0; k < r.terms; k++)
         CHECK(r.modulus[k] > 0, "term %zu", k);
     return r;
@@ -202,7 +204,8 @@ static void curve_refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ice), cmocka_unit_test(golf_ball), cmocka_unit_test(polyisobutylene),
-                                       cmocka_unit_test(master_curve), cmocka_unit_test(curve_refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ice), cmocka_unit_test(golf_ball),
+                                       cmocka_unit_test(polyisobutylene), cmocka_unit_test(master_curve),
+                                       cmocka_unit_test(curve_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,8 @@ static inline restitute_fit_options fit_options(int model)
 }
 
 /* A fit that must be done; its solid is the caller's. */
-static inline restitute_fit_result fitted(size_t n, const restitute_fit_point *points, const restitute_fit_options *options)
+static inline restitute_fit_result fitted(size_t n, const restitute_fit_point *points,
+                                          const restitute_fit_options *options)
 {
     restitute_fit_result result;
     restitute_error error;
