@@ -27,8 +27,8 @@ void rst_fit_remark(restitute_fit_result *result, int flag, const char *format, 
         memcpy(result->remarks + used + length, "\n", 2);
 }
 
-/* "modulus1_pa x f, viscosity_pa_s x f^0.6" for the direction v; how many constants it has. */
-static size_t direction_text(const struct rst_fit_search *s, const double *v, char *text, size_t size)
+/* "modulus1_pa x f, viscosity_pa_s x f^0.6" for the direction v. */
+static void direction_text(const struct rst_fit_search *s, const double *v, char *text, size_t size)
 {
     char name[RESTITUTE_FIT_NAME];
     size_t largest = 0, named = 0;
@@ -46,26 +46,64 @@ static size_t direction_text(const struct rst_fit_search *s, const double *v, ch
             snprintf(text + used, size - used, "%s%s x f^%.2g", named ? ", " : "", name, power);
         named++;
     }
-    return named;
+}
+
+/* Constants that lie wholly in the open directions may be anything by themselves: named once, and taken out of these. */
+static void remark_constants(const struct rst_fit_search *s, const struct rst_fit_certainty *c, double *open,
+                             restitute_fit_result *result)
+{
+    const size_t p = s->model.free;
+    char text[600] = "", name[RESTITUTE_FIT_NAME];
+    for (size_t i = 0; i < p; i++) {
+        double part = 0;
+        for (size_t k = c->rank; k < p; k++)
+            part += open[k * p + i] * open[k * p + i];
+        if (part < 0.99) continue;
+        rst_fit_name(s->data, &s->model, s->model.index[i], name);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", *text ? ", " : "", name);
+        for (size_t k = c->rank; k < p; k++)
+            open[k * p + i] = 0;
+    }
+    if (*text) rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %s", text);
+}
+
+/* w without its part along v; nothing for v = 0. */
+static void subtract_part(size_t n, const double *v, double *w)
+{
+    double square = 0, product = 0;
+    for (size_t i = 0; i < n; i++)
+        square += v[i] * v[i], product += v[i] * w[i];
+    for (size_t i = 0; i < n && square > 0; i++)
+        w[i] -= product / square * v[i];
 }
 
 void rst_fit_remark_directions(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
                                restitute_fit_result *result)
 {
+    const size_t p = s->model.free;
+    double open[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];
     char text[600];
     if (isnan(c->noise))
         rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED,
                        "%zu measured values for %zu constants leave nothing to estimate the noise: no intervals",
-                       s->data->rows, s->model.free);
-    for (size_t k = c->rank; k < s->model.free; k++) {
-        if (direction_text(s, c->vector + k * s->model.free, text, sizeof text) == 1)
-            rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %.*s",
-                           (int)(strlen(text) - strlen(" x f")), text);
-        else
-            rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED,
-                           "the data do not tell these apart: %s for any factor f gives the same", text);
+                       s->data->rows, p);
+    memcpy(open, c->vector, p * p * sizeof *open);
+    remark_constants(s, c, open, result);
+    for (size_t k = c->rank; k < p; k++) {
+        double left = 0;
+        for (size_t l = c->rank; l < k; l++) /* what is left of two directions may be one */
+            subtract_part(p, open + l * p, open + k * p);
+        for (size_t i = 0; i < p; i++)
+            left += open[k * p + i] * open[k * p + i];
+        if (left < 0.1) {
+            memset(open + k * p, 0, p * sizeof *open);
+            continue;
+        }
+        direction_text(s, open + k * p, text, sizeof text);
+        rst_fit_remark(result, RESTITUTE_FIT_UNDETERMINED,
+                       "the data do not tell these apart: %s for any factor f gives the same", text);
     }
-    if (c->rank < s->model.free && !s->model.scaled)
+    if (c->rank < p && !s->model.scaled)
         rst_fit_remark(
             result, RESTITUTE_FIT_UNDETERMINED,
             "e has no unit, so it gives no modulus, and about 1 MPa is assumed: measure a contact time or name a known "
