@@ -228,10 +228,13 @@ static int copy(size_t n, const restitute_fit_point *points, const restitute_fit
     return RESTITUTE_OK;
 }
 
+/* A usual impact takes one to three thousand updates. Those of solids far from the data may take without end: they get
+ * no more than a hundred thousand, and count as they then are. */
 static void set_solver(struct rst_fit_data *d)
 {
     restitute_options_init(&d->solver);
     d->solver.method = restitute_method_sync();
+    d->solver.max_updates = 100000;
     d->solver.speed_limit = d->options.speed_limit;
     d->solver.radius_limit = d->options.radius_limit;
 }
