@@ -6,11 +6,11 @@
  *
  *  Five lines:
  *
- *      restitute_fit_point drop[20];                           // each by restitute_fit_point_init; scene and ez filled in
+ *      restitute_fit_point drop[20];                // each by restitute_fit_point_init; scene and ez filled in
  *      restitute_fit_options options; restitute_fit_options_init(&options);       // a standard solid
  *      restitute_fit_result result; restitute_fit_result_init(&result);
  *      restitute_fit(20, drop, &options, &result, &error);
- *      // result.value[0] in [result.low[0], result.high[0]] is result.name[0] = "modulus1_pa"; result.material: the solid
+ *      // result.name[0] = "modulus1_pa" is result.value[0], in [result.low[0], result.high[0]]; result.material
  *
  *  What can be known. e_z and e_x are numbers without a unit: all moduli times f and all times times f^(-2/5) leave
  *  them as they are, at every speed and for every sphere. So e_z(v) alone never gives a modulus. One contact time,
@@ -131,8 +131,8 @@ RESTITUTE_API void restitute_fit_result_init(restitute_fit_result *result);
  *  @param options   NULL: the defaults
  *  @param result    prepared by @ref restitute_fit_result_init
  *  @param error     optional; names the point, e.g. "points[3].ez = 1.2: must be in [0, 1]"
- *  @return OK, also if flags are raised; ERROR_DOMAIN (also for fewer values than constants), ERROR_NULL, ERROR_STRUCT_SIZE,
- *          ERROR_MEMORY, ERROR_INTERNAL */
+ *  @return OK, also if flags are raised; ERROR_DOMAIN (also for fewer values than constants), ERROR_NULL,
+ *          ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_INTERNAL */
 RESTITUTE_API int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
                                 restitute_fit_result *result, restitute_error *error);
 
@@ -147,7 +147,8 @@ RESTITUTE_API int restitute_fitter_create(size_t n, const restitute_fit_point *p
                                           const restitute_fit_options *options, restitute_fitter **fitter,
                                           restitute_error *error);
 
-/** One piece of the work, some hundredths of a second for twenty points. @param done  out: the part done, 1 at the end */
+/** One piece of the work, some hundredths of a second for twenty points.
+ *  @param done  out: the part done, 1 at the end */
 RESTITUTE_API int restitute_fitter_run(restitute_fitter *fitter, double *done, restitute_error *error);
 
 /** The result, after the end. */
