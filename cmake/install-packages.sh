@@ -11,7 +11,7 @@
 set -eu
 
 run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
-    libhdf5-dev libfftw3-dev gnuplot-nox"
+    libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox"
 test_packages="g++ libcmocka-dev liggghts libliggghts-dev mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;

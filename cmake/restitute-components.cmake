@@ -96,6 +96,14 @@ restitute_decide(RESTITUTE_BEM "the component bem" RESTITUTE_WITH_BEM #
                  FFTW_FOUND "FFTW (Debian: libfftw3-dev, found by pkg-config)" #
                  Threads_FOUND "POSIX threads")
 
+if(RESTITUTE_FIT)
+  restitute_find_pkg_config_library(GSL "gsl>=2.7")
+  find_package(Threads QUIET)
+endif()
+restitute_decide(RESTITUTE_FIT "the component fit" RESTITUTE_WITH_FIT #
+                 GSL_FOUND "GSL 2.7 (Debian: libgsl-dev, found by pkg-config)" #
+                 Threads_FOUND "POSIX threads")
+
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
 endif()

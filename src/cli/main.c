@@ -9,6 +9,7 @@
 
 #include "batch.h"
 #include "bench.h"
+#include "fit.h"
 #include "history.h"
 #include "single.h"
 #include "sweep.h"
@@ -20,18 +21,22 @@ static const char usage[] =
     "       restitute sweep NAME|all [OPTION...]  the figures of the paper and more, remade and checked\n"
     "       restitute bench [OPTION...]      error against run time of the methods, on a fixed set of impacts\n"
     "       restitute table ACTION [OPTION...]  build tables of pairs, look up in them\n"
-    "       restitute pair --help, restitute history --help, and likewise for sweep, bench and table,\n"
+    "       restitute fit [OPTION...]        material constants from measured impacts or a DMA curve\n"
+    "       restitute pair --help, restitute history --help, and likewise for sweep, bench, table and fit,\n"
     "       restitute --version\n"
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
 
+static const char licence[] = "Licence: BSD-3-Clause."
 #ifdef RESTITUTE_WITH_BEM
-static const char licence[] =
-    "Licence: BSD-3-Clause. This build links FFTW, which is under the GNU General Public License, version 2 or\n"
-    "later, for the method bem: it can be passed on under that licence only.\n";
-#else
-static const char licence[] = "Licence: BSD-3-Clause.\n";
+                              " This build links FFTW, which is under the GNU General Public License, version 2 or\n"
+                              "later, for the method bem: it can be passed on under that licence only."
 #endif
+#ifdef RESTITUTE_WITH_FIT
+                              " This build links GSL, which is under the GNU General Public License, version 3 or\n"
+                              "later, for the command fit: it can be passed on under that licence only."
+#endif
+                              "\n";
 
 static int run_subcommand(int count, char **arguments)
 {
@@ -66,6 +71,8 @@ int main(int count, char **arguments)
         status = bench_main(count, arguments);
     else if (strcmp(word, "table") == 0)
         status = table_main(count, arguments);
+    else if (strcmp(word, "fit") == 0)
+        status = fit_main(count, arguments);
     else if (strcmp(word, "--help") == 0)
         fputs(usage, stdout);
     else if (strcmp(word, "--version") == 0)
@@ -73,9 +80,9 @@ int main(int count, char **arguments)
     else
         status =
             *word ? complain(
-                        "unknown command \"%.64s\": must be pair, history, sweep, bench or table; see restitute --help",
+                        "unknown command \"%.64s\": must be pair, history, sweep, bench, table or fit; see restitute --help",
                         word)
-                  : complain("a command is missing: pair, history, sweep, bench or table; see restitute --help");
+                  : complain("a command is missing: pair, history, sweep, bench, table or fit; see restitute --help");
     errno = 0;
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
         status = complain("standard output cannot be written: %s", strerror(errno ? errno : EIO));

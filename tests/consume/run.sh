@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FORTRAN OPENMP
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT FORTRAN OPENMP
 # The working directory is used up.
 set -eu
 
@@ -34,7 +34,7 @@ else
     "$CMAKE" -S "$SOURCE_DIR" -B other -G "$GENERATOR" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=$wanted \
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
         -DRESTITUTE_CONTACT="$WITH_CONTACT" -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
-        -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" \
+        -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" -DRESTITUTE_FIT="$WITH_FIT" \
         -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
@@ -53,6 +53,12 @@ else
     grep -q "linked with FFTW" "$copyright" && grep -q "GPL-2+" "$copyright" || fail "$copyright does not name the GPL"
 fi
 
+if [ "$WITH_FIT" = OFF ]; then
+    ! grep "GNU Scientific Library" "$copyright" || fail "$copyright names a library that is not linked"
+else
+    grep -q "GNU Scientific Library" "$copyright" && grep -q "GPL-3+" "$copyright" || fail "$copyright does not name GSL"
+fi
+
 echo "== find_package"
 components=core
 [ "$WITH_FILES" = OFF ] || components="core;files"
@@ -61,6 +67,7 @@ components=core
 [ "$WITH_TABLE_FILES" = OFF ] || components="$components;table_files"
 [ "$WITH_CVODE" = OFF ] || components="$components;cvode"
 [ "$WITH_BEM" = OFF ] || components="$components;bem"
+[ "$WITH_FIT" = OFF ] || components="$components;fit"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
@@ -76,6 +83,7 @@ if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
 fi
 [ "$WITH_CVODE" = OFF ] || user/consumer_cvode
 [ "$WITH_BEM" = OFF ] || user/consumer_bem
+[ "$WITH_FIT" = OFF ] || user/consumer_fit
 
 echo "== find_package without components takes all that are installed"
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user-all -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -85,9 +93,10 @@ echo "== find_package without components takes all that are installed"
 if [ "$WITH_FORTRAN" != OFF ]; then
     echo "== find_package from Fortran alone"
     "$CMAKE" -S "$SOURCE_DIR/tests/consume/project_fortran" -B user-fortran -G "$GENERATOR" \
-        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC"
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" -DCONSUMER_FIT="$WITH_FIT"
     "$CMAKE" --build user-fortran
     user-fortran/consumer_fortran
+    [ "$WITH_FIT" = OFF ] || user-fortran/consumer_fitting
 
     echo "== the installed source of the module, for another compiler than ours"
     (mkdir user-fortran/source && cd user-fortran/source &&
@@ -149,6 +158,12 @@ if [ "$WITH_BEM" != OFF ]; then
     "$CC" -o user/bem_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_bem.c" \
         $(pkg-config --cflags --libs $static restitute-bem)
     user/bem_by_pkg_config
+fi
+if [ "$WITH_FIT" != OFF ]; then
+    # shellcheck disable=SC2046
+    "$CC" -o user/fit_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_fit.c" \
+        $(pkg-config --cflags --libs $static restitute-fit)
+    user/fit_by_pkg_config
 fi
 if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046

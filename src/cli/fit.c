@@ -1,0 +1,140 @@
+/* `restitute fit`: a thin caller of restitute/fit.h.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
+#include "fit.h"
+
+#ifdef RESTITUTE_WITH_FIT
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "figure.h"
+#include "fit_settings.h"
+#include "output.h"
+#include "places.h"
+
+static volatile sig_atomic_t stopped;
+
+static void on_signal(int number)
+{
+    (void)number;
+    stopped = 1;
+}
+
+static bool check_outputs(const struct fit_settings *s, const struct fit_input *input, struct reason *why)
+{
+    struct places places = {0};
+    const char *output = s->text[FIT_OUTPUT], *figure = s->text[FIT_FIGURE];
+    const char *ending = output ? strrchr(output, '.') : NULL;
+    if (output && (!ending || strcmp(ending, ".json") != 0))
+        return refuse(why, "--output = %.200s: a material file must end in .json", output);
+    if (!output_check(output, "--output", why) || (figure && !figure_check(figure, why))) return false;
+    places_read(&places, "--input", s->text[FIT_INPUT]);
+    places_read(&places, "--dma", s->text[FIT_DMA]);
+    places_read_materials(&places, &input->materials);
+    if (output) {
+        places_write(&places, "--output", output);
+        places_write_beside(&places, "--output", output, ".meta.json");
+    }
+    if (figure) places_write(&places, "--figure", figure);
+    return places_check(&places, why);
+}
+
+/* All pieces, with progress; false: failed or stopped by a signal. */
+static bool run(restitute_fitter *fitter, struct reason *why)
+{
+    restitute_error error;
+    double done = 0;
+    char text[60];
+    int status = RESTITUTE_OK;
+    while (done < 1 && !status && !stopped) {
+        status = restitute_fitter_run(fitter, &done, &error);
+        snprintf(text, sizeof text, "fit: %.0f %%", 100 * done);
+        bench_progress(text);
+    }
+    bench_progress(NULL);
+    return status ? refuse(why, "%s", error.message) : !stopped;
+}
+
+static void remark(const char *remarks)
+{
+    for (const char *line = remarks, *end; (end = strchr(line, '\n')); line = end + 1)
+        complain("remark: %.*s", (int)(end - line), line);
+}
+
+/* What a caller in a script must not overlook. */
+static int exit_of(int flags, const char *remarks)
+{
+    remark(remarks);
+    return flags & (RESTITUTE_FIT_UNDETERMINED | RESTITUTE_FIT_MISFIT | RESTITUTE_FIT_UNFINISHED) ? EXIT_SOME_FAILED
+                                                                                                  : EXIT_DONE;
+}
+
+static int fit_points(const struct fit_settings *s, const struct fit_input *input)
+{
+    restitute_fitter *fitter;
+    restitute_fit_result result;
+    restitute_error error;
+    struct reason why = {""};
+    restitute_fit_result_init(&result);
+    if (restitute_fitter_create(input->n, input->points, &s->options, &fitter, &error) < 0) {
+        fit_input_place(s, input, error.message, &why);
+        return complain("%s", why.text);
+    }
+    bool done = run(fitter, &why);
+    if (done && restitute_fitter_result(fitter, &result, &error) < 0) done = refuse(&why, "%s", error.message);
+    done = done && fit_write(s, input, fitter, &result, &why);
+    restitute_fitter_destroy(fitter);
+    restitute_material_destroy(result.material);
+    if (!done && stopped && !why.text[0]) return EXIT_INTERRUPTED;
+    return done ? exit_of(result.flags, result.remarks) : complain("%s", why.text);
+}
+
+static int fit_curve(const struct fit_settings *s, const struct fit_input *input)
+{
+    restitute_dma_result *result = allocate(1, sizeof *result);
+    restitute_error error;
+    struct reason why;
+    restitute_dma_result_init(result);
+    bool done = restitute_dma_fit(input->n, input->frequency, input->storage, input->loss, input->temperature, &s->dma,
+                                  result, &error) >= 0;
+    if (!done)
+        fit_input_place(s, input, error.message, &why);
+    else
+        done = fit_write_dma(s, input, result, &why);
+    const int status = done ? exit_of(result->flags, result->remarks) : complain("%s", why.text);
+    restitute_material_destroy(result->material);
+    free(result);
+    return status;
+}
+
+int fit_main(int count, char **arguments)
+{
+    struct fit_settings settings;
+    struct fit_input input;
+    struct reason why;
+    const enum fit_reading reading = fit_options_read(count, arguments, &settings);
+    int status = reading == FIT_STOP ? EXIT_DONE : EXIT_USAGE;
+    if (reading == FIT_GO_ON) {
+        signal(SIGINT, on_signal);
+        signal(SIGTERM, on_signal);
+        const bool good = fit_input_read(&settings, &input, &why) && check_outputs(&settings, &input, &why);
+        status = !good                      ? complain("%s", why.text)
+                 : settings.text[FIT_INPUT] ? fit_points(&settings, &input)
+                                            : fit_curve(&settings, &input);
+        fit_input_release(&input);
+    }
+    fit_options_release(&settings);
+    return status;
+}
+#else
+int fit_main(int count, char **arguments)
+{
+    (void)count;
+    (void)arguments;
+    return complain("fit: this build has no component fit, which needs GSL");
+}
+#endif

@@ -1,0 +1,297 @@
+/* The options of `restitute fit`, read with popt.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+
+#include <math.h>
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <restitute/files.h>
+
+#include "fit_settings.h"
+
+enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_TENSION };
+
+#define TEXT(which, name, argument, help)                                                                              \
+    {                                                                                                                  \
+        (name), '\0', POPT_ARG_STRING, NULL, CODE_TEXT + (which), (help), (argument)                                   \
+    }
+#define FLAG(name, code, help)                                                                                         \
+    {                                                                                                                  \
+        (name), '\0', POPT_ARG_NONE, NULL, (code), (help), NULL                                                        \
+    }
+
+static const struct poptOption own_options[] = {
+    TEXT(FIT_INPUT, "input", "DROP.csv", "measured impacts, one a row, columns by name"),
+    TEXT(FIT_DMA, "dma", "CURVE.csv", "instead: storage and loss modulus over frequency"),
+    TEXT(FIT_PARTNER, "partner", "rigid|same|FILE",
+         "one of the two bodies deforms (default), both do and are of the solid, or the partner's material"),
+    TEXT(FIT_MODEL, "model", "NAME", "elastic, kelvin_voigt, standard_solid (default), maxwell or prony"),
+    TEXT(FIT_TERMS, "terms", "TAU,...", "relaxation times of the model prony, s, 1 to 20"),
+    TEXT(FIT_KNOWN, "known", "NAME=VALUE,...",
+         "constants that are not fitted: modulus1, modulus2, modulus, viscosity; "
+         "equilibrium, term1, term2, ..."),
+    TEXT(FIT_LOSS, "loss", "squares|huber|cauchy", "how large residuals count; default squares"),
+    TEXT(FIT_CONFIDENCE, "confidence", "P", "of the intervals, in [0.5, 0.999]; default 0.95"),
+    TEXT(FIT_REFERENCE, "reference-temperature", "T", "in C, of the constants; default that of the first row"),
+    TEXT(FIT_WLF, "wlf", "C1:C2", "shifts of times by temperature; default: a free shift a temperature"),
+    TEXT(FIT_NOISE, "noise", "RATIO", "with --dma: relative error of the moduli, in [1e-4, 0.5]; default 0.01"),
+    FLAG("tension", CODE_TENSION, "with --dma: the moduli are those of tension"),
+    TEXT(FIT_STARTS, "starts", "N", "local fits, 1 to 100; default 4"),
+    TEXT(FIT_SEED, "seed", "N", "of the scan for starts; default 1"),
+    TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default 1, all processors from 200 rows on"),
+    TEXT(FIT_NAME, "name", "TEXT", "name in the material file; default the input's"),
+    TEXT(FIT_FORMAT, "format", "text|json", "of the report on standard output; default text"),
+    TEXT(FIT_OUTPUT, "output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json"),
+    TEXT(FIT_FIGURE, "figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs gnuplot"),
+    FLAG("help", CODE_HELP, "show this and stop"),
+    POPT_TABLEEND};
+
+static const char footer[] =
+    "\n  restitute fit --input drop.csv --radius 0.01 --density 7800 --output rubber.json --figure rubber.svg\n"
+    "  restitute fit --dma curve.csv --output rubber.json\n"
+    "\nColumns of DROP.csv: ez, or rebound_height_m; speed_m_s, or drop_height_m; and optional ex, angle_deg,\n"
+    "contact_time_s, temperature_C, weight, sigma_ez, sigma_ex, sigma_contact_time_s, friction, partner, radius1_m,\n"
+    "mass1_kg, density1_kg_m3 and the others of restitute pair. With ex and without friction, friction is fitted.\n"
+    "Columns of CURVE.csv: frequency_Hz, storage_Pa, loss_Pa and optional temperature_C.\n"
+    "\nExit status: 0 done, 1 done, but the data do not follow the model or leave constants open (remarks say which),\n"
+    "2 bad usage or input, nothing written, 130 interrupted.\n";
+
+static bool of_scene(enum field field)
+{
+    return field > FIELD_LAST_DIMENSIONLESS && (field <= FIELD_FRICTION || field == FIELD_POISSON) &&
+           field != FIELD_SPEED;
+}
+
+static struct poptOption *option_table(void)
+{
+    struct poptOption *table = allocate(2 * FIELD_COUNT + FIT_TEXTS + 8, sizeof *table), *entry = table;
+    for (enum field field = 0; field < FIELD_COUNT; field++) {
+        const struct field_rule *rule = &field_rules[field];
+        for (int alias = 0; alias < 2 && of_scene(field); alias++)
+            if (alias ? rule->alias : rule->option)
+                *entry++ = (struct poptOption){alias ? rule->alias : rule->option,
+                                               '\0',
+                                               POPT_ARG_STRING | (alias ? POPT_ARGFLAG_DOC_HIDDEN : 0),
+                                               NULL,
+                                               CODE_FIELD + (int)field,
+                                               rule->help,
+                                               "NUMBER"};
+    }
+    memcpy(entry, own_options, sizeof own_options);
+    return table;
+}
+
+static bool keep(char **place, poptContext context, struct reason *why)
+{
+    char *text = poptGetOptArg(context);
+    if (!*place) {
+        *place = text;
+        return true;
+    }
+    free(text);
+    return refuse(why, "%.60s is given twice", poptBadOption(context, POPT_BADOPTION_NOALIAS));
+}
+
+static bool number(const char *option, const char *text, double low, double high, double *value, struct reason *why)
+{
+    double found;
+    if (!text) return true;
+    if (restitute_number_read(text, &found) != RESTITUTE_OK || !(found >= low && found <= high))
+        return refuse(why, "--%s = \"%.64s\": must be a number in [%g, %g]", option, text, low, high);
+    *value = found;
+    return true;
+}
+
+static bool whole(const char *option, const char *text, double low, double high, double *value, struct reason *why)
+{
+    if (!number(option, text, low, high, value, why)) return false;
+    return *value == floor(*value) ? true : refuse(why, "--%s = %.64s: must be a whole number", option, text);
+}
+
+/* The place of a word in a list, from `first` on. */
+static bool word(const char *option, const char *text, const char *const *words, int first, int *value,
+                 struct reason *why)
+{
+    char all[120] = "";
+    if (!text) return true;
+    for (int i = 0; words[i]; i++) {
+        if (strcmp(text, words[i]) == 0) {
+            *value = first + i;
+            return true;
+        }
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", words[i]);
+    }
+    return refuse(why, "--%s = \"%.64s\": must be one of %s", option, text, all);
+}
+
+/* "1e-4,1e-3" into the relaxation times. */
+static bool read_terms(struct fit_settings *s, struct reason *why)
+{
+    char *list = s->text[FIT_TERMS] ? copy_of(s->text[FIT_TERMS]) : NULL, *rest = NULL;
+    bool good = true;
+    for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item && good; item = strtok_r(NULL, ",", &rest))
+        good = s->options.terms < 20 ? number("terms", item, 1e-30, 1e30, &s->terms[s->options.terms++], why)
+                                     : refuse(why, "--terms: more than 20 relaxation times");
+    free(list);
+    if (good && (s->options.model == RESTITUTE_FIT_PRONY) != (s->options.terms > 0))
+        return refuse(why, "--terms and --model prony belong together");
+    return good;
+}
+
+/* The place of a constant in the model. */
+static int constant_place(const restitute_fit_options *o, const char *name)
+{
+    static const char *const names[][4] = {[RESTITUTE_FIT_ELASTIC] = {"modulus"},
+                                           [RESTITUTE_FIT_KELVIN_VOIGT] = {"modulus1", "viscosity"},
+                                           [RESTITUTE_FIT_STANDARD_SOLID] = {"modulus1", "modulus2", "viscosity"},
+                                           [RESTITUTE_FIT_MAXWELL] = {"modulus", "viscosity"},
+                                           [RESTITUTE_FIT_PRONY] = {"equilibrium"}};
+    char term[16];
+    for (int i = 0; i < 4 && names[o->model][i]; i++)
+        if (strcmp(names[o->model][i], name) == 0) return i;
+    for (int k = 1; k <= (int)o->terms; k++) {
+        snprintf(term, sizeof term, "term%d", k);
+        if (strcmp(term, name) == 0) return k;
+    }
+    return -1;
+}
+
+static bool read_known(struct fit_settings *s, struct reason *why)
+{
+    char *list = s->text[FIT_KNOWN] ? copy_of(s->text[FIT_KNOWN]) : NULL, *rest = NULL;
+    bool good = true;
+    for (int i = 0; i < RESTITUTE_FIT_CONSTANTS; i++)
+        s->known[i] = NAN;
+    for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item && good; item = strtok_r(NULL, ",", &rest)) {
+        char *equals = strchr(item, '=');
+        if (equals) *equals = '\0';
+        const int place = constant_place(&s->options, item);
+        if (!equals || place < 0)
+            good = refuse(why, "--known: \"%.40s\" is no NAME=VALUE of a constant of this model; see --help", item);
+        else
+            good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30,
+                          &s->known[place], why);
+    }
+    free(list);
+    s->options.known = s->known;
+    return good;
+}
+
+static bool read_wlf(struct fit_settings *s, struct reason *why)
+{
+    const char *text = s->text[FIT_WLF], *colon = text ? strchr(text, ':') : NULL;
+    char first[64];
+    if (!text) return true;
+    snprintf(first, sizeof first, "%.*s", colon ? (int)(colon - text) : 0, text);
+    if (!colon || !number("wlf", first, 0, 1e6, &s->options.wlf_c1, why) ||
+        !number("wlf", colon + 1, 1e-6, 1e6, &s->options.wlf_c2, why))
+        return refuse(why, "--wlf = \"%.64s\": must be C1:C2, two positive numbers", text);
+    return true;
+}
+
+/* Options of the other kind of input would be passed over without a word. */
+static bool check_kind(const struct fit_settings *s, struct reason *why)
+{
+    static const enum fit_text of_impacts[] = {FIT_PARTNER,    FIT_MODEL,  FIT_TERMS, FIT_KNOWN,  FIT_LOSS,
+                                               FIT_CONFIDENCE, FIT_STARTS, FIT_SEED,  FIT_THREADS};
+    if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
+        return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
+    if (!s->text[FIT_DMA] && (s->tension || s->text[FIT_NOISE])) return refuse(why, "--tension, --noise: need --dma");
+    for (size_t i = 0; s->text[FIT_DMA] && i < sizeof of_impacts / sizeof *of_impacts; i++)
+        for (const struct poptOption *o = own_options; s->text[of_impacts[i]] && o->longName; o++)
+            if (o->val == CODE_TEXT + (int)of_impacts[i]) return refuse(why, "--%s: not with --dma", o->longName);
+    for (enum field field = 0; s->text[FIT_DMA] && field < FIELD_COUNT; field++)
+        if (s->values.given[field] && field != FIELD_POISSON)
+            return refuse(why, "--%s: not with --dma", field_rules[field].option);
+    return true;
+}
+
+/* Texts into the options of the library. */
+static bool take_texts(struct fit_settings *s, struct reason *why)
+{
+    static const char *const models[] = {"elastic", "kelvin_voigt", "standard_solid", "maxwell", "prony", NULL};
+    static const char *const losses[] = {"squares", "huber", "cauchy", NULL}, *const formats[] = {"text", "json", NULL};
+    restitute_fit_options *o = &s->options;
+    double starts = o->starts, seed = (double)o->seed, threads = -1;
+    int json = 0;
+    const bool good =
+        word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
+        word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
+        word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) && read_known(s, why) &&
+        read_wlf(s, why) && number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, &o->confidence, why) &&
+        number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, &o->reference_temperature, why) &&
+        number("noise", s->text[FIT_NOISE], 1e-4, 0.5, &s->dma.noise, why) &&
+        whole("starts", s->text[FIT_STARTS], 1, 100, &starts, why) &&
+        whole("seed", s->text[FIT_SEED], 0, 4294967295.0, &seed, why) &&
+        whole("threads", s->text[FIT_THREADS], 1, 1024, &threads, why);
+    if (!good) return false;
+    o->relaxation_time = s->terms, o->starts = (int)starts, o->seed = (uint64_t)seed, o->threads = (int)threads;
+    if (s->values.given[FIELD_POISSON]) o->poisson_ratio = s->dma.poisson_ratio = s->values.number[FIELD_POISSON];
+    s->dma.reference_temperature = o->reference_temperature, s->dma.wlf_c1 = o->wlf_c1, s->dma.wlf_c2 = o->wlf_c2;
+    s->dma.tension = s->tension, s->json = json;
+    return !s->text[FIT_PARTNER] || partner_read(s->text[FIT_PARTNER], "--partner", &s->values, why);
+}
+
+static bool take_fields(struct fit_settings *s, struct reason *why)
+{
+    for (enum field field = 0; field < FIELD_COUNT; field++) {
+        char place[40];
+        if (!s->field[field]) continue;
+        snprintf(place, sizeof place, "--%s", field_rules[field].option);
+        if (!field_read(field, s->field[field], place, &s->values.number[field], why)) return false;
+        s->values.given[field] = true;
+    }
+    return true;
+}
+
+static bool read_arguments(poptContext context, struct fit_settings *s, bool *help, struct reason *why)
+{
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0) {
+        if (code == CODE_HELP) return *help = true;
+        if (code == CODE_TENSION)
+            s->tension = true;
+        else if (!keep(code >= CODE_TEXT ? &s->text[code - CODE_TEXT] : &s->field[code - CODE_FIELD], context, why))
+            return false;
+    }
+    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
+    const char *more = poptGetArg(context);
+    if (more) return refuse(why, "unexpected argument \"%.100s\"; see --help", more);
+    return take_fields(s, why) && check_kind(s, why) && take_texts(s, why);
+}
+
+enum fit_reading fit_options_read(int count, char **arguments, struct fit_settings *settings)
+{
+    struct reason why;
+    bool help = false;
+    *settings = (struct fit_settings){.argument_count = count, .arguments = (const char *const *)arguments};
+    settings->values = values_none();
+    restitute_fit_options_init(&settings->options);
+    restitute_dma_options_init(&settings->dma);
+    const char **words = allocate((size_t)count, sizeof *words); /* popt shows its first word as the program's name */
+    words[0] = "restitute fit";
+    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
+    struct poptOption *table = option_table();
+    poptContext context = poptGetContext("restitute", count - 1, words, table, 0);
+    const bool good = read_arguments(context, settings, &help, &why);
+    if (help) {
+        poptPrintHelp(context, stdout, 0);
+        fputs(footer, stdout);
+    }
+    if (!good) complain("%s", why.text);
+    poptFreeContext(context);
+    free(words);
+    free(table);
+    return help ? FIT_STOP : good ? FIT_GO_ON : FIT_FAILED;
+}
+
+void fit_options_release(struct fit_settings *settings)
+{
+    for (int i = 0; i < FIT_TEXTS; i++)
+        free(settings->text[i]);
+    for (int i = 0; i < FIELD_COUNT; i++)
+        free(settings->field[i]);
+}

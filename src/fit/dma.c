@@ -1,0 +1,251 @@
+/* From a DMA curve to a solid: checks, first shifts of the temperatures, and the result.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "dma.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "least.h"
+#include "model.h"
+#include "report.h"
+
+static const double pi = 3.14159265358979323846;
+
+void restitute_dma_options_init(restitute_dma_options *options)
+{
+    if (!options) return;
+    *options = (restitute_dma_options){.struct_size = sizeof *options,
+                                       .poisson_ratio = 0.5,
+                                       .noise = 0.01,
+                                       .solid = 1,
+                                       .reference_temperature = NAN,
+                                       .wlf_c1 = NAN,
+                                       .wlf_c2 = NAN};
+}
+
+void restitute_dma_result_init(restitute_dma_result *result)
+{
+    if (result) *result = (restitute_dma_result){.struct_size = sizeof *result};
+}
+
+static int check_rows(size_t n, const double *frequency, const double *storage, const double *loss,
+                      const double *temperature, restitute_error *error)
+{
+    const double *const arrays[] = {frequency, storage, loss};
+    static const char *const names[] = {"frequency", "storage", "loss"};
+    if (!frequency || !storage || !loss)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "frequency, storage or loss is NULL");
+    if (n < 3 || n > 100000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu rows: must be in [3, 100000]", n);
+    for (size_t i = 0; i < n; i++) {
+        for (int k = 0; k < 3; k++)
+            if (!(arrays[k][i] >= 1e-30 && arrays[k][i] <= 1e30))
+                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: %s = %g: must be in [1e-30, 1e30]", i,
+                                  names[k], arrays[k][i]);
+        if (temperature && !isfinite(temperature[i]))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: temperature must be finite", i);
+    }
+    return RESTITUTE_OK;
+}
+
+static int check_options(const restitute_dma_options *o, restitute_error *error)
+{
+    if (o->struct_size != sizeof *o)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
+                          sizeof *o);
+    if (!(o->poisson_ratio >= 0 && o->poisson_ratio <= 0.5))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.poisson_ratio = %g: must be in [0, 0.5]",
+                          o->poisson_ratio);
+    if (!(o->noise >= 1e-4 && o->noise <= 0.5))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.noise = %g: must be in [1e-4, 0.5]", o->noise);
+    if (isnan(o->wlf_c1) != isnan(o->wlf_c2))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.wlf_c1, wlf_c2: must be both given or both NaN");
+    return RESTITUTE_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* Distinct temperatures ascending, and which a row has. */
+static int sort_temperatures(struct rst_dma *d, const double *temperature, const restitute_dma_options *o,
+                             restitute_dma_result *r, restitute_error *error)
+{
+    const double wanted = isnan(o->reference_temperature) && temperature ? temperature[0] : o->reference_temperature;
+    d->temperatures = 1;
+    if (!temperature) return RESTITUTE_OK;
+    for (size_t i = 0, k; i < d->n; i++) {
+        for (k = 0; k < r->temperatures && r->temperature[k] != temperature[i];)
+            k++;
+        if (k == RESTITUTE_DMA_SHIFTS)
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: more than %d temperatures", i,
+                              RESTITUTE_DMA_SHIFTS);
+        if (k == r->temperatures) r->temperature[r->temperatures++] = temperature[i];
+    }
+    qsort(r->temperature, r->temperatures, sizeof *r->temperature, ascending);
+    for (size_t i = 0; i < d->n; i++)
+        while (r->temperature[d->group[i]] != temperature[i])
+            d->group[i]++;
+    d->temperatures = r->temperatures;
+    while (d->reference < d->temperatures && r->temperature[d->reference] != wanted)
+        d->reference++;
+    if (d->reference == d->temperatures)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it", wanted);
+    return RESTITUTE_OK;
+}
+
+/* log y at log x of the rows of a temperature, sorted by frequency; NaN outside of them. */
+static double curve(const struct rst_dma *d, size_t t, const double *modulus, double log_omega)
+{
+    double below = -INFINITY, above = INFINITY, low = NAN, high = NAN;
+    for (size_t i = 0; i < d->n; i++) {
+        const double x = log(d->omega[i]);
+        if (d->group[i] != t) continue;
+        if (x <= log_omega && x > below) below = x, low = log(modulus[i]);
+        if (x >= log_omega && x < above) above = x, high = log(modulus[i]);
+    }
+    if (isinf(below) || isinf(above)) return NAN;
+    return above > below ? low + (high - low) * (log_omega - below) / (above - below) : low;
+}
+
+/* Mean squared difference of the curves of t, moved by `shift`, and of s where both are; too few: infinity. */
+static double mismatch(const struct rst_dma *d, size_t s, size_t t, double shift)
+{
+    double sum = 0;
+    int count = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        if (d->group[i] != t) continue;
+        const double x = log(d->omega[i]) + shift, a = curve(d, s, d->storage, x) - log(d->storage[i]),
+                     b = curve(d, s, d->loss, x) - log(d->loss[i]);
+        if (!isnan(a) && !isnan(b)) sum += a * a + b * b, count++;
+    }
+    return count >= 3 ? sum / count : INFINITY;
+}
+
+/* Curves of neighbouring temperatures laid over each other, from the reference outwards: a start for the refinement. */
+static int overlay(struct rst_dma *d, size_t s, size_t t)
+{
+    double best = INFINITY, range = 0;
+    for (size_t i = 0; i < d->n; i++)
+        range = fmax(range, fabs(log(d->omega[i] / d->omega[0])));
+    for (int i = -400; i <= 400; i++) {
+        const double move = 2 * range * i / 400, value = mismatch(d, s, t, move);
+        if (value < best) best = value, d->shift[t] = d->shift[s] + move;
+    }
+    return !isinf(best);
+}
+
+static void first_shifts(struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r)
+{
+    int laid = 1;
+    d->free_shifts = d->temperatures > 1 && isnan(o->wlf_c1);
+    for (size_t t = 0; !isnan(o->wlf_c1) && t < d->temperatures; t++)
+        d->shift[t] = log(10) * rst_fit_wlf(o->wlf_c1, o->wlf_c2, r->temperature[t] - r->temperature[d->reference]);
+    for (size_t t = d->reference + 1; d->free_shifts && t < d->temperatures; t++)
+        laid &= overlay(d, t - 1, t);
+    for (size_t t = d->reference; d->free_shifts && t-- > 0;)
+        laid &= overlay(d, t + 1, t);
+    if (laid) return;
+    r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
+}
+
+/* c1, c2 of log10 a (c2 + dT) = -c1 dT by linear least squares over the temperatures but the reference. */
+static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
+{
+    double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
+    r->wlf_c1 = r->wlf_c2 = NAN;
+    for (size_t t = 0; t < d->temperatures && r->temperatures; t++) {
+        const double difference = r->temperature[t] - r->temperature[d->reference], a = d->shift[t] / log(10);
+        aa += a * a, ab += a * difference, bb += difference * difference;
+        ay -= a * a * difference, by -= a * difference * difference;
+    }
+    const double determinant = aa * bb - ab * ab, c2 = (ay * bb - by * ab) / determinant,
+                 c1 = (aa * by - ab * ay) / determinant;
+    if (d->temperatures < 3 || !(determinant > 1e-12 * aa * bb)) return;
+    if (c1 > 0 && c2 + r->temperature[0] - r->temperature[d->reference] > 0) r->wlf_c1 = c1, r->wlf_c2 = c2;
+}
+
+static int write_result(const struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r, double *rest,
+                        restitute_error *error)
+{
+    rst_dma_residuals(d, rest);
+    r->terms = d->terms;
+    r->equilibrium_modulus = d->equilibrium;
+    for (size_t k = 0; k < d->terms; k++)
+        r->relaxation_time[k] = exp(d->tau[k]), r->modulus[k] = exp(d->g[k]);
+    for (size_t t = 0; t < r->temperatures; t++)
+        r->shift[t] = exp(d->shift[t]);
+    for (size_t i = 0; i < 2 * d->n; i++) {
+        r->rms += pow(d->noise * rest[i], 2) / (2 * (double)d->n);
+        r->worst = fmax(r->worst, fabs(d->noise * rest[i]));
+    }
+    r->rms = sqrt(r->rms);
+    r->wlf_c1 = o->wlf_c1, r->wlf_c2 = o->wlf_c2;
+    if (isnan(o->wlf_c1)) find_wlf(d, r);
+    if (r->rms > 3 * d->noise) {
+        const size_t used = strlen(r->remarks);
+        r->flags |= RESTITUTE_FIT_MISFIT;
+        snprintf(
+            r->remarks + used, sizeof r->remarks - used,
+            "the data do not follow a series with positive terms within %.2g: rms %.2g, worst %.2g (temperatures that "
+            "no shift of time explains, or moduli that are not linear)\n",
+            d->noise, r->rms, r->worst);
+    }
+    return restitute_material_prony(d->equilibrium, 0, d->terms, r->relaxation_time, r->modulus, o->poisson_ratio,
+                                    &r->material, error);
+}
+
+static int fit(struct rst_dma *d, const double *temperature, const restitute_dma_options *o, restitute_dma_result *r,
+               double *rest, restitute_error *error)
+{
+    int status = sort_temperatures(d, temperature, o, r, error);
+    if (status) return status;
+    first_shifts(d, o, r);
+    rst_fit_gsl_begin();
+    status = rst_dma_begin(d);
+    if (status >= 0) status = rst_dma_shorten(d);
+    rst_fit_gsl_end();
+    if (status >= 0 && d->terms == 0 && d->equilibrium <= 0)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "no positive term comes near these moduli: check their units");
+    if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
+    return write_result(d, o, r, rest, error);
+}
+
+int restitute_dma_fit(size_t n, const double *frequency, const double *storage, const double *loss,
+                      const double *temperature, const restitute_dma_options *options, restitute_dma_result *result,
+                      restitute_error *error)
+{
+    restitute_dma_options o;
+    restitute_dma_result r;
+    restitute_dma_options_init(&o);
+    restitute_dma_result_init(&r);
+    if (options) o = *options;
+    if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
+    if (result->struct_size != sizeof r)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
+                          result->struct_size, sizeof r);
+    int status = check_options(&o, error);
+    if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
+    if (status) return status;
+    struct rst_dma *d = calloc(1, sizeof *d);
+    double *memory = calloc(5 * n, sizeof *memory), *omega = memory;
+    size_t *group = calloc(n, sizeof *group);
+    status = d && memory && group ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (!status) {
+        const double factor = o.tension ? 1 / (2 * (1 + o.poisson_ratio)) : 1;
+        d->n = n, d->noise = o.noise, d->solid = o.solid;
+        d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->group = group;
+        for (size_t i = 0; i < n; i++)
+            omega[i] = 2 * pi * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];
+        status = fit(d, temperature, &o, &r, memory + 3 * n, error);
+    }
+    free(d);
+    free(memory);
+    free(group);
+    if (status < 0) return status;
+    *result = r;
+    return rst_done(error);
+}

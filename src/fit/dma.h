@@ -1,0 +1,29 @@
+/* A Prony series under construction, beside the moduli that it is to follow.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_FIT_DMA_H
+#define RST_FIT_DMA_H
+
+#include <restitute/fit.h>
+
+/* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then loss. */
+struct rst_dma {
+    size_t n;
+    const double *omega;
+    double *storage, *loss; /* shear moduli */
+    size_t *group;          /* temperature of a row */
+    double noise;
+    int solid; /* an equilibrium modulus is among the unknowns */
+    size_t temperatures, reference;
+    int free_shifts;
+    double shift[RESTITUTE_DMA_SHIFTS]; /* log a_T */
+    size_t terms;
+    double g[RESTITUTE_DMA_TERMS], tau[RESTITUTE_DMA_TERMS], equilibrium; /* logarithms; equilibrium itself, 0: none */
+    double sum;                                                           /* of squared residuals */
+};
+
+/* dma_terms.c: from shifts to a first series; refine it; make it as short as the data allow. */
+int rst_dma_begin(struct rst_dma *dma);
+int rst_dma_shorten(struct rst_dma *dma);
+void rst_dma_residuals(const struct rst_dma *dma, double *r);
+
+#endif

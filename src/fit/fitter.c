@@ -1,0 +1,309 @@
+/* The handle of a fit: a scan, local fits, robust weights, rivals, and the result put together from them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "least.h"
+#include "remarks.h"
+#include "report.h"
+
+/* Rounds of robust weights, and starts of a rival, which only has to show that it can fit. */
+enum { ROUNDS = 30, RIVAL_STARTS = 2, MOST_RIVALS = 2 };
+
+struct rst_fit_rival {
+    struct rst_fit_model model;
+    double start[RIVAL_STARTS][RESTITUTE_FIT_CONSTANTS]; /* logarithms of its free constants */
+};
+
+struct restitute_fitter {
+    struct rst_fit_data data;
+    struct rst_fit_search search;
+    double *weight;
+    struct rst_fit_certainty certainty;
+    size_t rivals;
+    struct rst_fit_rival rival[MOST_RIVALS];
+    double start[RESTITUTE_FIT_CONSTANTS]; /* our constants, for them */
+    size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the remarks */
+    restitute_fit_result result;
+};
+
+/* A model of the kind with these known constants; not if it has as many free ones. Its two starts come from ours. */
+static void add_rival(restitute_fitter *f, int kind, const double *known, const double *start, double second)
+{
+    struct rst_fit_rival *r = &f->rival[f->rivals];
+    const struct rst_fit_model *m = &f->search.model;
+    rst_fit_model_make(&f->data, kind, known, &r->model);
+    if (r->model.free == m->free || r->model.free > f->data.rows) return;
+    if (r->model.free > m->free && f->certainty.judged > f->certainty.noise) return; /* nothing is left to explain */
+    for (size_t k = 0; k < r->model.free; k++) {
+        const size_t i = r->model.index[k]; /* friction and shifts stand behind the constants of the solid */
+        const double value = i < r->model.solid ? start[i] : f->start[i + m->solid - r->model.solid];
+        r->start[0][k] = r->start[1][k] = log(value);
+        if (i + 1 == r->model.solid) r->start[1][k] += log(second);
+    }
+    f->rivals++;
+}
+
+/* The series without the term of the largest part in the worst direction. */
+static void add_shorter_series(restitute_fitter *f)
+{
+    const struct rst_fit_model *m = &f->search.model;
+    const double *v = f->certainty.vector + (m->free - 1) * m->free;
+    double known[RESTITUTE_FIT_CONSTANTS];
+    size_t worst = 0;
+    memcpy(known, m->known, sizeof known);
+    for (size_t k = 1; k < m->free; k++)
+        if (m->index[k] < m->solid && fabs(v[k]) > fabs(v[worst])) worst = k;
+    if (m->free < 2 || m->index[worst] >= m->solid) return;
+    known[m->index[worst]] = 0;
+    add_rival(f, RESTITUTE_FIT_PRONY, known, f->start, 1);
+}
+
+/* Who else could have made the data: nested models, from our constants. A second spring begins as strong as the first. */
+static void add_rivals(restitute_fitter *f)
+{
+    const double *k = f->search.model.known, *c = f->start;
+    const int kind = f->search.model.kind;
+    rst_fit_constants(&f->search.model, f->search.logs, f->start);
+    if (kind == RESTITUTE_FIT_STANDARD_SOLID) {
+        const double kv[] = {k[0], k[2]}, kv_start[] = {c[0], c[2]}, maxwell[] = {k[1], k[2]},
+                     maxwell_start[] = {c[0] + c[1], c[2]};
+        if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, kv, kv_start, 0.1);
+        if (isnan(k[0])) add_rival(f, RESTITUTE_FIT_MAXWELL, maxwell, maxwell_start, 10);
+    } else if (kind == RESTITUTE_FIT_KELVIN_VOIGT || kind == RESTITUTE_FIT_MAXWELL) {
+        const int maxwell = kind == RESTITUTE_FIT_MAXWELL;
+        const double known[] = {maxwell ? NAN : k[0], maxwell ? k[0] : NAN, k[1]}, start[] = {c[0], c[0], c[1]};
+        if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_ELASTIC, k, c, 1);
+        add_rival(f, RESTITUTE_FIT_STANDARD_SOLID, known, start, 10);
+    } else if (kind == RESTITUTE_FIT_ELASTIC) {
+        struct rst_fit_model *m = &f->rival[0].model; /* for the scale of a viscosity */
+        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, m);
+        const double known[] = {k[0], NAN}, start[] = {c[0], exp(m->centre[1])};
+        add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, known, start, 0.1);
+    } else
+        add_shorter_series(f);
+}
+
+static int check_counts(const restitute_fitter *f, restitute_error *error)
+{
+    const struct rst_fit_model *m = &f->search.model;
+    if (m->count > RESTITUTE_FIT_CONSTANTS)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "%zu constants, shifts of temperatures included: must be at most %d", m->count,
+                          RESTITUTE_FIT_CONSTANTS);
+    if (f->data.rows < m->free)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "%zu measured values are fewer than the %zu constants of the model", f->data.rows, m->free);
+    return RESTITUTE_OK;
+}
+
+static int prepare(restitute_fitter *f, restitute_error *error)
+{
+    struct rst_fit_model model;
+    rst_fit_model_make(&f->data, f->data.options.model, f->data.options.known, &model);
+    f->weight = malloc(f->data.rows * sizeof *f->weight);
+    for (size_t i = 0; f->weight && i < f->data.rows; i++)
+        f->weight[i] = 1;
+    f->search.model = model;
+    f->turns = (size_t)f->data.options.starts + 3 + MOST_RIVALS;
+    const int status = check_counts(f, error);
+    if (status) return status;
+    if (!f->weight || rst_fit_search_create(&f->data, &model, f->weight, (size_t)f->data.options.starts, &f->search))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", f->data.n);
+    return RESTITUTE_OK;
+}
+
+int restitute_fitter_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
+                            restitute_fitter **fitter, restitute_error *error)
+{
+    restitute_fit_options defaults;
+    restitute_fit_options_init(&defaults);
+    if (!fitter) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
+    restitute_fitter *f = calloc(1, sizeof *f);
+    if (!f) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    int status = rst_fit_data_create(n, points, options ? options : &defaults, &f->data, error);
+    if (!status) status = prepare(f, error);
+    if (status) {
+        restitute_fitter_destroy(f);
+        return status;
+    }
+    restitute_fit_result_init(&f->result);
+    *fitter = f;
+    return rst_done(error);
+}
+
+void restitute_fitter_destroy(restitute_fitter *fitter)
+{
+    if (!fitter) return;
+    rst_fit_search_release(&fitter->search);
+    rst_fit_data_release(&fitter->data);
+    restitute_material_destroy(fitter->result.material);
+    free(fitter->weight);
+    free(fitter);
+}
+
+/* Robust weights until they settle, then the intervals and who may be a rival. */
+static int settle(restitute_fitter *f)
+{
+    double change = 1;
+    int status = rst_fit_again(&f->search);
+    for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0 && change > 1e-4; round++) {
+        status = rst_fit_reweigh(&f->search, f->weight, &change);
+        if (status >= 0) status = rst_fit_again(&f->search);
+    }
+    if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
+    if (status >= 0) add_rivals(f);
+    return status;
+}
+
+static int try_rival(restitute_fitter *f, size_t index)
+{
+    struct rst_fit_search rival;
+    if (index >= f->rivals) return RESTITUTE_OK;
+    int status = rst_fit_search_create(&f->data, &f->rival[index].model, f->weight, RIVAL_STARTS, &rival);
+    if (status) return status;
+    for (size_t i = 0; i < RIVAL_STARTS && status >= 0; i++) {
+        memcpy(rival.start + i * rival.model.free, f->rival[index].start[i], rival.model.free * sizeof(double));
+        status = rst_fit_local(&rival, i);
+    }
+    if (rival.model.free == 0) status = rst_fit_again(&rival);
+    if (status >= 0) rst_fit_remark_rival(&f->search, &f->certainty, &rival, &f->result);
+    rst_fit_search_release(&rival);
+    return status;
+}
+
+/* Half the width of an interval in standard deviations. */
+static double quantile(const restitute_fitter *f)
+{
+    const double upper = 0.5 + 0.5 * f->data.options.confidence;
+    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
+                                       : gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof);
+}
+
+static void write_constants(restitute_fitter *f)
+{
+    const struct rst_fit_model *m = &f->search.model;
+    const struct rst_fit_certainty *c = &f->certainty;
+    restitute_fit_result *r = &f->result;
+    rst_fit_constants(m, f->search.logs, r->value);
+    r->constants = m->count;
+    for (size_t i = 0; i < m->count; i++) {
+        rst_fit_name(&f->data, m, i, r->name[i]);
+        r->low[i] = r->high[i] = r->value[i];
+        r->correlation[i][i] = 1;
+    }
+    for (size_t k = 0; k < m->free; k++) {
+        const size_t i = m->index[k];
+        const double width = c->determined[k] ? quantile(f) * sqrt(c->variance[k * m->free + k]) : INFINITY;
+        r->low[i] = c->determined[k] ? r->value[i] * exp(-width) : 0;
+        r->high[i] = c->determined[k] ? r->value[i] * exp(width) : INFINITY;
+        for (size_t l = 0; l < m->free; l++) {
+            const double square = c->variance[k * m->free + k] * c->variance[l * m->free + l];
+            if (l != k && square > 0) r->correlation[i][m->index[l]] = c->variance[k * m->free + l] / sqrt(square);
+        }
+    }
+}
+
+static int finish(restitute_fitter *f, restitute_error *error)
+{
+    restitute_fit_result *r = &f->result;
+    const struct rst_fit_certainty *c = &f->certainty;
+    const size_t p = f->search.model.free;
+    write_constants(f);
+    r->values = f->data.rows;
+    r->rank = c->rank;
+    r->rms = sqrt(f->search.sum / (double)f->data.rows);
+    r->noise = f->data.options.noise_known ? (c->dof ? sqrt(f->search.sum / (double)c->dof) : NAN) : c->noise;
+    r->condition = p ? c->values[0] / c->values[p - 1] : 1;
+    if (!f->search.converged)
+        rst_fit_remark(r, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
+    rst_fit_remark_directions(&f->search, c, r);
+    int status = rst_fit_remark_pattern(&f->search, c, r);
+    if (status >= 0) status = rst_fit_remark_limits(&f->search, r);
+    if (status >= 0) status = rst_fit_solid(&f->data, &f->search.model, r->value, 1, &r->material, error);
+    r->impacts = f->data.impacts;
+    return status;
+}
+
+int restitute_fitter_run(restitute_fitter *f, double *done, restitute_error *error)
+{
+    if (!f || !done) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", f ? "done" : "fitter");
+    const size_t starts = (size_t)f->data.options.starts, turn = f->turn;
+    int status = RESTITUTE_OK;
+    rst_fit_gsl_begin();
+    if (turn == 0)
+        status = rst_fit_scan(&f->search);
+    else if (turn <= starts)
+        status = rst_fit_local(&f->search, turn - 1);
+    else if (turn == starts + 1)
+        status = settle(f);
+    else if (turn <= starts + 1 + MOST_RIVALS)
+        status = try_rival(f, turn - starts - 2);
+    else if (turn < f->turns)
+        status = finish(f, error);
+    rst_fit_gsl_end();
+    if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
+    if (f->turn < f->turns) f->turn++;
+    *done = (double)f->turn / (double)f->turns;
+    return rst_done(error);
+}
+
+static int check_finished(const restitute_fitter *f, restitute_error *error)
+{
+    if (!f) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
+    if (f->turn == f->turns) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the fit has not come to its end: call restitute_fitter_run");
+}
+
+int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *result, restitute_error *error)
+{
+    restitute_fit_result copy;
+    double g_inf, eta, tau[RESTITUTE_FIT_CONSTANTS], g[RESTITUTE_FIT_CONSTANTS];
+    int status = check_finished(f, error);
+    if (status) return status;
+    if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
+    if (result->struct_size != sizeof *result)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
+                          result->struct_size, sizeof *result);
+    copy = f->result;
+    restitute_material_series(copy.material, &g_inf, &eta, tau, g);
+    status = restitute_material_prony(g_inf, eta, restitute_material_terms(copy.material), tau, g,
+                                      f->data.options.poisson_ratio, &copy.material, error);
+    if (status < 0) return status;
+    *result = copy;
+    return rst_done(error);
+}
+
+int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, double *contact_time,
+                            restitute_error *error)
+{
+    int status = check_finished(f, error);
+    if (status) return status;
+    restitute_result *results = calloc(f->data.n, sizeof *results);
+    struct rst_fit_data data = f->data; /* a copy: only its count of impacts changes */
+    status = results ? rst_fit_solve(&data, &f->search.model, 1, f->result.value, 1, results, error)
+                     : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < f->data.n && status >= 0; i++) {
+        if (ez) ez[i] = results[i].ez;
+        if (ex) ex[i] = results[i].ex;
+        if (contact_time) contact_time[i] = results[i].contact_time;
+    }
+    free(results);
+    return status < 0 ? status : rst_done(error);
+}
+
+int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
+                  restitute_fit_result *result, restitute_error *error)
+{
+    restitute_fitter *fitter;
+    double done = 0;
+    int status = restitute_fitter_create(n, points, options, &fitter, error);
+    if (status) return status;
+    while (!status && done < 1)
+        status = restitute_fitter_run(fitter, &done, error);
+    if (!status) status = restitute_fitter_result(fitter, result, error);
+    restitute_fitter_destroy(fitter);
+    return status;
+}

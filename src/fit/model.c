@@ -1,0 +1,204 @@
+/* From constants to solids, and from solids to what was measured.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "report.h"
+
+/* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
+static const double widest = 18.4; /* ln 1e8 */
+
+/* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
+static const double elastic_time = 2.9432751843;
+
+/* The modulus that gives a point its contact time if it were elastic, by (24): a_el = sqrt(T R v). */
+static double modulus_of_time(const restitute_scene *s, double nu, double contact_time)
+{
+    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
+    return 15 * m * v * v * r * r * (1 - nu) / (32 * pow(contact_time / elastic_time * r * v, 2.5));
+}
+
+static double time_of_modulus(const restitute_scene *s, double nu, double modulus)
+{
+    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
+    return pow(15 * m * v * v * r * r * (1 - nu) / (32 * modulus), 0.4) / (r * v);
+}
+
+/* Scale of the moduli and of time: from contact times, else from a known modulus, else 1 MPa. */
+static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, double *modulus, double *time)
+{
+    double logs = 0, times = 0;
+    size_t n = 0;
+    const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
+    for (size_t i = 0; i < d->n; i++)
+        if (!isnan(d->points[i].contact_time))
+            logs += log(modulus_of_time(&d->points[i].scene, d->options.poisson_ratio, d->points[i].contact_time)), n++;
+    for (size_t i = 0; n == 0 && i < moduli; i++)
+        if (m->known[i] > 0) logs = log(m->known[i]), n = 1;
+    m->scaled = n > 0;
+    for (size_t i = 0; i < m->solid; i++)
+        m->scaled |= m->known[i] > 0;
+    *modulus = n ? exp(logs / (double)n) : 1e6;
+    for (size_t i = 0; i < d->n; i++)
+        times += log(time_of_modulus(&d->points[i].scene, d->options.poisson_ratio, *modulus)) / (double)d->n;
+    *time = exp(times);
+}
+
+/* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
+ * shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow to solve; the local fits may go there. */
+static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
+{
+    double modulus, time;
+    find_scales(d, m, &modulus, &time);
+    for (size_t i = 0; i < m->count; i++) {
+        m->centre[i] = i < m->solid ? log(modulus) : 0;
+        m->spread[i] = i < m->solid ? log(300) : log(10);
+    }
+    if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC) {
+        m->centre[m->solid - 1] = log(modulus * time);
+        m->spread[m->solid - 1] = log(30);
+    }
+    if (!m->scaled) m->spread[0] = 0; /* any scale would do */
+    if (m->friction < m->count) m->centre[m->friction] = log(0.3);
+}
+
+void rst_fit_model_make(const struct rst_fit_data *d, int kind, const double *known, struct rst_fit_model *m)
+{
+    int friction = 0;
+    *m = (struct rst_fit_model){.kind = kind, .solid = rst_fit_solid_constants(kind, d->options.terms)};
+    for (size_t i = 0; i < d->n; i++)
+        friction |= isnan(d->points[i].scene.friction) && !isnan(d->points[i].ex);
+    m->shift = m->solid + (friction ? 1 : 0);
+    m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperatures - 1 : 0);
+    m->friction = friction ? m->solid : m->count;
+    for (size_t i = 0; i < m->count && i < RESTITUTE_FIT_CONSTANTS; i++) {
+        m->known[i] = known && i < m->solid ? known[i] : NAN;
+        if (isnan(m->known[i])) m->index[m->free++] = i;
+    }
+    if (m->count <= RESTITUTE_FIT_CONSTANTS) set_ranges(d, m);
+}
+
+void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, size_t i, char name[RESTITUTE_FIT_NAME])
+{
+    const int standard = m->kind == RESTITUTE_FIT_STANDARD_SOLID || m->kind == RESTITUTE_FIT_KELVIN_VOIGT;
+    if (i == m->friction)
+        snprintf(name, RESTITUTE_FIT_NAME, "friction");
+    else if (i >= m->solid)
+        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g", d->temperature[i - m->shift + 1]);
+    else if (m->kind == RESTITUTE_FIT_PRONY)
+        snprintf(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
+                 i ? d->options.relaxation_time[i - 1] : 0);
+    else if (i > 0 && i == m->solid - 1)
+        snprintf(name, RESTITUTE_FIT_NAME, "viscosity_pa_s");
+    else
+        snprintf(name, RESTITUTE_FIT_NAME, standard ? "modulus%zu_pa" : "modulus_pa", i + 1);
+}
+
+void rst_fit_constants(const struct rst_fit_model *m, const double *logs, double *constants)
+{
+    for (size_t i = 0; i < m->count; i++)
+        constants[i] = m->known[i];
+    for (size_t k = 0; k < m->free; k++) {
+        const size_t i = m->index[k];
+        constants[i] = exp(fmin(fmax(logs[k], m->centre[i] - widest), m->centre[i] + widest));
+    }
+}
+
+static double shift_of(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, double t)
+{
+    if (isnan(t) || t == d->temperature[0]) return 1;
+    if (!isnan(d->options.wlf_c1))
+        return pow(10, rst_fit_wlf(d->options.wlf_c1, d->options.wlf_c2, t - d->temperature[0]));
+    size_t k = 1;
+    while (d->temperature[k] != t)
+        k++;
+    return constants[m->shift + k - 1];
+}
+
+int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *c, double shift,
+                  restitute_material **material, restitute_error *error)
+{
+    const double nu = d->options.poisson_ratio;
+    double tau[RESTITUTE_FIT_CONSTANTS], g[RESTITUTE_FIT_CONSTANTS];
+    size_t n = 0;
+    if (m->kind == RESTITUTE_FIT_ELASTIC) return restitute_material_elastic(c[0], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_KELVIN_VOIGT)
+        return restitute_material_kelvin_voigt(c[0], shift * c[1], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_MAXWELL) return restitute_material_maxwell(c[0], shift * c[1], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_STANDARD_SOLID)
+        return restitute_material_standard_solid(c[0], c[1], shift * c[2], nu, material, error);
+    for (size_t k = 1; k < m->solid; k++)
+        if (c[k] > 0) tau[n] = shift * d->options.relaxation_time[k - 1], g[n++] = c[k];
+    return restitute_material_prony(c[0], 0, n, tau, g, nu, material, error);
+}
+
+/* The solids of a set, one a group; with the partner's where it has a material of its own. */
+static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
+                       restitute_material **solids, restitute_error *error)
+{
+    int status = RESTITUTE_OK;
+    for (size_t g = 0; g < d->groups && status >= 0; g++) {
+        const restitute_fit_point *p = &d->points[d->first[g]];
+        restitute_material *own = NULL;
+        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, error);
+        if (status >= 0 && p->scene.material) {
+            status = restitute_material_pair(own, p->scene.material, &solids[g], error);
+            restitute_material_destroy(own);
+        } else
+            solids[g] = own;
+    }
+    return status;
+}
+
+static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
+                        int tangential, restitute_material *const *solids, restitute_scene *scenes,
+                        restitute_result *results)
+{
+    for (size_t i = 0; i < d->n; i++) {
+        const restitute_fit_point *p = &d->points[i];
+        scenes[i] = p->scene;
+        scenes[i].material = solids[d->group[i]];
+        if (isnan(p->scene.friction)) scenes[i].friction = m->friction < m->count ? constants[m->friction] : 0;
+        if (isnan(p->ex) && !tangential) scenes[i].friction = 0; /* saves the tangential problem */
+        restitute_result_init(&results[i]);
+        results[i].ez = NAN;
+    }
+}
+
+int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
+                  int tangential, restitute_result *results, restitute_error *error)
+{
+    restitute_scene *scenes = calloc(sets * d->n, sizeof *scenes);
+    restitute_material **solids = calloc(sets * d->groups, sizeof *solids);
+    int *statuses = malloc(sets * d->n * sizeof *statuses);
+    int status =
+        scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    for (size_t s = 0; s < sets && status >= 0; s++) {
+        status = make_solids(d, m, constants + s * m->count, solids + s * d->groups, error);
+        if (status >= 0)
+            make_scenes(d, m, constants + s * m->count, tangential, solids + s * d->groups, scenes + s * d->n,
+                        results + s * d->n);
+    }
+    if (status >= 0) {
+        status = restitute_solve_scenes(&d->solver, sets * d->n, scenes, results, statuses, d->options.threads, error);
+        d->impacts += (int64_t)(sets * d->n);
+        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK; /* an impact that failed has ez = NaN */
+    }
+    for (size_t i = 0; solids && i < sets * d->groups; i++)
+        restitute_material_destroy(solids[i]);
+    free(scenes);
+    free(solids);
+    free(statuses);
+    return status;
+}
+
+double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result)
+{
+    const double value = row->kind == RST_FIT_EZ   ? result->ez
+                         : row->kind == RST_FIT_EX ? result->ex
+                                                   : result->contact_time;
+    if (isnan(result->ez) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    return (value - row->measured) / row->sigma;
+}

@@ -1,0 +1,71 @@
+/* The data and the model of a fit: which constants there are, and what a set of them gives for the measured values.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_FIT_MODEL_H
+#define RST_FIT_MODEL_H
+
+#include <restitute/fit.h>
+
+enum rst_fit_kind { RST_FIT_EZ, RST_FIT_EX, RST_FIT_TIME, RST_FIT_KINDS };
+
+/* One measured value. */
+struct rst_fit_row {
+    size_t point;
+    enum rst_fit_kind kind;
+    double measured, sigma;
+};
+
+/* Copies of the points and options, the rows that follow from them, and points of one temperature and partner. */
+struct rst_fit_data {
+    size_t n, rows, groups, temperatures;
+    restitute_fit_point *points;
+    restitute_fit_options options;
+    double *memory; /* relaxation times and known constants */
+    struct rst_fit_row *row;
+    size_t *group, *first;                    /* group of a point; first point of a group */
+    double temperature[RESTITUTE_DMA_SHIFTS]; /* distinct ones, the reference first */
+    restitute_options solver;
+    int64_t impacts;
+};
+
+/* One solid and which of its constants are fitted. Constants: those of the solid, friction, shifts. */
+struct rst_fit_model {
+    int kind;
+    size_t solid, count;
+    size_t friction, shift;                /* places; friction = count: none. shift: that of the second temperature */
+    double known[RESTITUTE_FIT_CONSTANTS]; /* NaN: fitted */
+    double centre[RESTITUTE_FIT_CONSTANTS], spread[RESTITUTE_FIT_CONSTANTS]; /* of the logarithm, for the starts */
+    int scaled; /* contact times or a known constant set a scale; else 1 MPa is assumed */
+    size_t free, index[RESTITUTE_FIT_CONSTANTS]; /* which are fitted */
+};
+
+/* points.c */
+int rst_fit_data_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
+                        struct rst_fit_data *data, restitute_error *error);
+void rst_fit_data_release(struct rst_fit_data *data);
+
+/* How many constants a solid has. */
+size_t rst_fit_solid_constants(int kind, size_t terms);
+
+/* log10 a_T by the constants of Williams, Landel and Ferry. */
+double rst_fit_wlf(double c1, double c2, double difference);
+
+/* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of theirs. */
+void rst_fit_model_make(const struct rst_fit_data *data, int kind, const double *known, struct rst_fit_model *model);
+void rst_fit_name(const struct rst_fit_data *data, const struct rst_fit_model *model, size_t constant,
+                  char name[RESTITUTE_FIT_NAME]);
+
+/* All constants from logarithms of the fitted ones, which are kept within the range where impacts can be solved. */
+void rst_fit_constants(const struct rst_fit_model *model, const double *logs, double *constants);
+
+int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
+                  double shift, restitute_material **material, restitute_error *error);
+
+/* What `sets` sets of constants give at every point: results[set * n + point], `tangential`: e_x of all points. A result
+ * whose impact could not be solved has ez = NaN. */
+int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, size_t sets, const double *constants,
+                  int tangential, restitute_result *results, restitute_error *error);
+
+/* Weighted residual of a row. */
+double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result);
+
+#endif

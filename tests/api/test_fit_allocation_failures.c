@@ -1,0 +1,81 @@
+/* Allocations of the component fit fail in turn: ERROR_MEMORY, outputs untouched, nothing left behind, and the same call
+ * gives the same bits afterwards. Those of GSL are its own matter: it loses blocks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
+#include "../support/failing_allocator.h"
+#include "../support/fit.h"
+
+enum { N = 4 };
+
+static int fit_with(int model, int loss, struct given *given)
+{
+    static const double times[N] = {3.0e-3, 2.62e-3, 2.40e-3, 2.28e-3};
+    restitute_fit_point points[N];
+    restitute_fit_options options = fit_options(model);
+    restitute_fit_result r;
+    restitute_error error;
+    int status;
+    drops(N, 0.1, 0.4, points);
+    for (int i = 0; i < N; i++)
+        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_ELASTIC ? NAN : 0.9 - 0.01 * i;
+    restitute_fit_result_init(&r);
+    options.starts = 1, options.loss = loss;
+    r.rms = 77;
+    ARMED(status, restitute_fit(N, points, &options, &r, &error));
+    CHECK(status >= 0 || r.rms == 77, "touched");
+    if (status < 0) return status;
+    for (size_t i = 0; i < r.constants; i++)
+        give(given, r.value[i]), give(given, r.low[i]), give(given, r.high[i]);
+    give(given, r.rms);
+    give(given, (double)r.impacts);
+    restitute_material_destroy(r.material);
+    return status;
+}
+
+static int elastic(struct given *given)
+{
+    return fit_with(RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_SQUARES, given);
+}
+
+static int damped(struct given *given)
+{
+    return fit_with(RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_HUBER, given);
+}
+
+static int curve(struct given *given)
+{
+    static const double f[] = {0.01, 0.1, 1, 10, 100}, storage[] = {1e5, 2e5, 5e5, 1e6, 1.2e6},
+                        loss[] = {5e4, 1e5, 2e5, 2e5, 1e5};
+    restitute_dma_result r;
+    restitute_error error;
+    int status;
+    restitute_dma_result_init(&r);
+    r.rms = 77;
+    ARMED(status, restitute_dma_fit(5, f, storage, loss, NULL, NULL, &r, &error));
+    CHECK(status >= 0 || r.rms == 77, "touched");
+    if (status < 0) return status;
+    for (size_t k = 0; k < r.terms; k++)
+        give(given, r.relaxation_time[k]), give(given, r.modulus[k]);
+    give(given, r.rms);
+    restitute_material_destroy(r.material);
+    return status;
+}
+
+static void every_call(void **state)
+{
+    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0},
+                                              {"damped", NULL, damped, NULL, 3, 0},
+                                              {"curve", NULL, curve, NULL, 6, 0}};
+    (void)state;
+    if (!CAN_FAIL) skip();
+    allocator.ours_alone = 1;
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
+        fail_each_allocation(&subjects[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,330 @@
+/* What fit.h promises of measured impacts: round trips, intervals, what the data leave open, refusals.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/fit.h"
+
+enum { N = 20 };
+
+/* Impacts are solved to 1e-6 and the condition is about 10: 1e-4 is ten times what should remain. */
+static void round_trip_without_noise(void **state)
+{
+    static const double truth[] = {1e6, 3e6, 300};
+    restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_fit_point points[N];
+    (void)state;
+    drops(N, 1e-3, 1, points);
+    measure(solid, N, points, 0, 1, 0, 1);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result r = fitted(N, points, &options);
+    assert_int_equal(r.constants, 3);
+    assert_string_equal(r.name[0], "modulus1_pa");
+    assert_string_equal(r.name[2], "viscosity_pa_s");
+    for (int i = 0; i < 3; i++) {
+        CHECK_NEAR(r.value[i] / truth[i], 1, 1e-4, "%s", r.name[i]);
+        CHECK(r.low[i] <= truth[i] && truth[i] <= r.high[i], "%s in [%g, %g]", r.name[i], r.low[i], r.high[i]);
+    }
+    assert_int_equal(r.rank, 3);
+    assert_int_equal(r.flags & ~RESTITUTE_FIT_LIMITS, 0);
+    CHECK_NEAR(restitute_material_modulus(r.material, 1e-4), restitute_material_modulus(solid, 1e-4), 400,
+               "the solid itself");
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(solid);
+}
+
+/* 95 % of the intervals hold the truth: of 24 draws that is 23, and less than 20 has a chance of 0.6 %. They are no wider
+ * than that noise makes them: 5 % noise of 40 values leaves about 10 % of a factor. The campaign fit-coverage has 200. */
+static void intervals_hold_the_truth(void **state)
+{
+    int held[2] = {0, 0};
+    double width = 0;
+    (void)state;
+    for (uint64_t draw = 0; draw < 24; draw++) {
+        restitute_material *solid = kelvin_voigt(1e6, 100);
+        restitute_fit_point points[N];
+        drops(N, 0.01, 1, points);
+        measure(solid, N, points, draw % 2 ? 0.05 : 0.01, 1, 0, 1000 + draw);
+        const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+        restitute_fit_result r = fitted(N, points, &options);
+        held[0] += r.low[0] <= 1e6 && 1e6 <= r.high[0];
+        held[1] += r.low[1] <= 100 && 100 <= r.high[1];
+        width += log(r.high[1] / r.low[1]) / 24;
+        restitute_material_destroy(r.material);
+        restitute_material_destroy(solid);
+    }
+    CHECK(held[0] >= 20 && held[1] >= 20, "%d and %d of 24", held[0], held[1]);
+    CHECK(width < 0.5, "mean width %g of the logarithm", width);
+}
+
+static void equal_input_gives_equal_bits(void **state)
+{
+    restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_fit_point points[N];
+    (void)state;
+    drops(N, 1e-3, 1, points);
+    measure(solid, N, points, 0.01, 1, 0, 7);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result first = fitted(N, points, &options);
+    options.threads = 2;
+    restitute_fit_result second = fitted(N, points, &options);
+    assert_memory_equal(first.value, second.value, sizeof first.value);
+    assert_memory_equal(first.high, second.high, sizeof first.high);
+    restitute_material_destroy(first.material);
+    restitute_material_destroy(second.material);
+    restitute_material_destroy(solid);
+}
+
+/* e has no unit: constants scaled by f and time by f^(-2/5) give the same (docs/fit.md). */
+static void restitution_alone_gives_no_modulus(void **state)
+{
+    restitute_material *solid = standard_solid(1e7, 2e7, 500);
+    restitute_fit_point points[N], others[N];
+    (void)state;
+    drops(N, 0.01, 10, points);
+    measure(solid, N, points, 0, 0, 0, 1);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result r = fitted(N, points, &options);
+    assert_true(r.flags & RESTITUTE_FIT_UNDETERMINED);
+    assert_int_equal(r.rank, 2);
+    for (int i = 0; i < 3; i++)
+        assert_true(r.low[i] == 0 && isinf(r.high[i]));
+    assert_non_null(strstr(r.remarks, "viscosity_pa_s x f^0.6"));
+    /* The fitted solid has the e of other spheres all the same. */
+    drops(N, 0.01, 10, others);
+    for (size_t i = 0; i < N; i++)
+        others[i].scene.radius1 = 0.02, others[i].scene.mass1 = 0.2;
+    memcpy(points, others, sizeof points);
+    measure(solid, N, points, 0, 0, 0, 1);
+    measure(r.material, N, others, 0, 0, 0, 1);
+    for (size_t i = 0; i < N; i++)
+        CHECK_NEAR(others[i].ez, points[i].ez, 1e-4, "at %g m/s", points[i].scene.normal_speed);
+    restitute_material_destroy(r.material);
+    /* One known constant sets the scale. */
+    const double known[] = {1e7, NAN, NAN};
+    restitute_fit_options with = options;
+    with.known = known;
+    measure(solid, N, points, 0, 0, 0, 1);
+    r = fitted(N, points, &with);
+    CHECK_NEAR(r.value[1], 2e7, 2e4, "G2");
+    CHECK_NEAR(r.value[2], 500, 0.5, "eta");
+    assert_true(r.low[0] == 1e7 && r.high[0] == 1e7);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(solid);
+}
+
+static void ambiguous_data_are_recognised(void **state)
+{
+    static const double tau[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+    static const double g[] = {2e6, 1e6, 1e6, 5e5, 5e5};
+    restitute_material *damped = kelvin_voigt(1e6, 100), *series;
+    restitute_fit_point points[N];
+    (void)state;
+    drops(N, 0.01, 1, points);
+    measure(damped, N, points, 0.01, 1, 0, 3);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result r = fitted(N, points, &options);
+    CHECK(r.flags & RESTITUTE_FIT_SIMPLER, "Kelvin-Voigt data by a standard solid: %s", r.remarks);
+    assert_non_null(strstr(r.remarks, "Kelvin-Voigt"));
+    CHECK(isinf(r.high[1]), "G2 up to %g", r.high[1]);
+    CHECK_NEAR(r.value[0], 1e6, 5e4, "G1 is found all the same, within four standard deviations");
+    restitute_material_destroy(r.material);
+
+    drops(N, 0.5, 0.5, points);
+    measure(damped, N, points, 0.01, 0, 0, 3);
+    r = fitted(N, points, &options);
+    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && r.rank == 1, "one speed alone: rank %zu", r.rank);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(damped);
+
+    assert_int_equal(restitute_material_prony(1e6, 0, 5, tau, g, 0.5, &series, NULL), RESTITUTE_OK);
+    drops(N, 0.1, 1, points);
+    measure(series, N, points, 0.01, 1, 0, 3);
+    options = fit_options(RESTITUTE_FIT_PRONY);
+    options.terms = 5, options.relaxation_time = tau;
+    r = fitted(N, points, &options);
+    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && r.rank < 6, "five terms from one decade: rank %zu", r.rank);
+    CHECK(r.flags & RESTITUTE_FIT_SIMPLER, "%s", r.remarks);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(series);
+}
+
+static void a_wrong_model_is_called_wrong(void **state)
+{
+    restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_fit_point points[N];
+    (void)state;
+    drops(N, 0.01, 10, points);
+    measure(solid, N, points, 0.01, 1, 0, 5);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    restitute_fit_result r = fitted(N, points, &options);
+    CHECK(r.flags & RESTITUTE_FIT_MISFIT, "%s", r.remarks);
+    assert_non_null(strstr(r.remarks, "a standard solid fits better"));
+    CHECK(r.flags & RESTITUTE_FIT_LIMITS, "a/R up to 0.8: %s", r.remarks);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(solid);
+}
+
+/* Three of twenty values are off by 0.3, thirty times the noise. */
+static void robust_losses_bear_outliers(void **state)
+{
+    restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_fit_point points[N];
+    double off[3];
+    (void)state;
+    drops(N, 0.01, 1, points);
+    measure(solid, N, points, 0.01, 1, 0, 11);
+    points[3].ez -= 0.3, points[9].ez -= 0.3, points[16].ez -= 0.3;
+    for (int loss = RESTITUTE_FIT_SQUARES; loss <= RESTITUTE_FIT_CAUCHY; loss++) {
+        restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+        options.loss = loss;
+        restitute_fit_result r = fitted(N, points, &options);
+        off[loss] = fabs(log(r.value[1] / 100));
+        restitute_material_destroy(r.material);
+    }
+    CHECK(off[1] < 0.5 * off[0] && off[2] < 0.25 * off[0], "eta off by %g, %g, %g", off[0], off[1], off[2]);
+    restitute_material_destroy(solid);
+}
+
+/* Two radii, an elastic partner, angles, friction not given: 0.3 in measure(). */
+static void spheres_partners_and_friction(void **state)
+{
+    restitute_material *solid = standard_solid(1e6, 3e6, 300), *partner;
+    restitute_fit_point points[N];
+    (void)state;
+    assert_int_equal(restitute_material_elastic(4e6, 0.5, &partner, NULL), RESTITUTE_OK);
+    drops(N, 0.01, 1, points);
+    for (size_t i = 0; i < N; i++) {
+        points[i].scene.friction = NAN;
+        points[i].scene.tangential_speed = 0.6 * points[i].scene.normal_speed;
+        if (i % 2) points[i].scene.radius1 = 0.01, points[i].scene.mass1 = 0.03;
+        if (i % 3 == 0) points[i].scene.material = partner;
+    }
+    measure(solid, N, points, 0, 1, 1, 1);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result r = fitted(N, points, &options);
+    assert_int_equal(r.constants, 4);
+    assert_string_equal(r.name[3], "friction");
+    CHECK_NEAR(r.value[3], 0.3, 1e-3, "friction");
+    CHECK_NEAR(r.value[1], 3e6, 3e3, "G2");
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(partner);
+    restitute_material_destroy(solid);
+}
+
+/* Times three times as long at 0 as at 20 degrees; c1, c2 that give this shift. */
+static void temperatures(void **state)
+{
+    restitute_material *warm = standard_solid(1e6, 3e6, 300), *cold = standard_solid(1e6, 3e6, 900);
+    restitute_fit_point points[2 * N];
+    (void)state;
+    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, points + N);
+    measure(warm, N, points, 0, 1, 0, 1);
+    measure(cold, N, points + N, 0, 1, 0, 1);
+    for (size_t i = 0; i < 2 * N; i++)
+        points[i].temperature = i < N ? 20 : 0;
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_result r = fitted(2 * N, points, &options);
+    assert_string_equal(r.name[3], "shift_0");
+    CHECK_NEAR(r.value[3], 3, 1e-3, "a_T");
+    restitute_material_destroy(r.material);
+    options.wlf_c1 = 2, options.wlf_c2 = 20 * (1 + 2 / log10(3));
+    r = fitted(2 * N, points, &options);
+    assert_int_equal(r.constants, 3);
+    CHECK_NEAR(r.value[2], 300, 0.1, "eta at the reference");
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(warm);
+    restitute_material_destroy(cold);
+}
+
+/* Refused by name; the result stays as it was. */
+static void refused(size_t n, const restitute_fit_point *points, const restitute_fit_options *options, int status,
+                    const char *text)
+{
+    restitute_fit_result result;
+    restitute_error error;
+    restitute_fit_result_init(&result);
+    result.rms = 77;
+    const int found = restitute_fit(n, points, options, &result, &error);
+    CHECK(found == status && error.status == status, "%d: %s", found, error.message);
+    CHECK(strstr(error.message, text), "'%s' is not in: %s", text, error.message);
+    assert_true(result.rms == 77);
+}
+
+static void refusals(void **state)
+{
+    restitute_fit_point points[4], bad[4];
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    (void)state;
+    drops(4, 0.1, 1, points);
+    for (int i = 0; i < 4; i++)
+        points[i].ez = 0.5;
+#define REFUSED(member, value, text)                                                                                   \
+    do {                                                                                                               \
+        memcpy(bad, points, sizeof bad);                                                                               \
+        bad[2].member = (value);                                                                                       \
+        refused(4, bad, &options, RESTITUTE_ERROR_DOMAIN, text);                                                       \
+    } while (0)
+    REFUSED(ez, 1.2, "points[2].ez = 1.2");
+    REFUSED(ez, -0.1, "must be in [0, 1]");
+    REFUSED(ez, NAN, "points[2]: ez, ex or contact_time must be measured");
+    REFUSED(contact_time, -1e-3, "points[2].contact_time = -0.001");
+    REFUSED(sigma_ez, 0, "points[2].sigma_ez = 0");
+    REFUSED(scene.normal_speed, -1, "points[2].scene.normal_speed = -1");
+    REFUSED(scene.radius1, 0, "points[2]: radius1 (m) = 0");
+    REFUSED(temperature, 20, "points[2].temperature = 20");
+    refused(2, points, &options, RESTITUTE_ERROR_DOMAIN, "2 measured values are fewer than the 3 constants");
+    refused(0, points, &options, RESTITUTE_ERROR_DOMAIN, "n = 0");
+    refused(4, NULL, &options, RESTITUTE_ERROR_NULL, "points is NULL");
+    options.model = 6;
+    refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.model = 6");
+    options = fit_options(RESTITUTE_FIT_PRONY);
+    refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.terms = 0");
+    static const double twice[] = {1e-3, 1e-3};
+    options.terms = 2, options.relaxation_time = twice;
+    refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.relaxation_time[1] = 0.001: is there twice");
+    options.struct_size = 8;
+    refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = 8");
+}
+
+static void the_handle(void **state)
+{
+    restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_fit_point points[N];
+    restitute_fit_result result;
+    restitute_fitter *fitter;
+    restitute_error error;
+    double done = 0, last = 0, ez[N];
+    (void)state;
+    drops(N, 0.01, 1, points);
+    measure(solid, N, points, 0, 1, 0, 1);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    assert_int_equal(restitute_fitter_create(N, points, &options, &fitter, &error), RESTITUTE_OK);
+    restitute_fit_result_init(&result);
+    assert_int_equal(restitute_fitter_result(fitter, &result, &error), RESTITUTE_ERROR_DOMAIN);
+    while (done < 1) {
+        assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
+        CHECK(done > last, "%g after %g", done, last);
+        last = done;
+    }
+    assert_int_equal(restitute_fitter_values(fitter, ez, NULL, NULL, &error), RESTITUTE_OK);
+    for (size_t i = 0; i < N; i++)
+        CHECK_NEAR(ez[i], points[i].ez, 1e-5, "fitted value %zu", i);
+    restitute_fitter_destroy(fitter);
+    restitute_fitter_destroy(NULL);
+    restitute_material_destroy(solid);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(round_trip_without_noise),
+                                       cmocka_unit_test(intervals_hold_the_truth),
+                                       cmocka_unit_test(equal_input_gives_equal_bits),
+                                       cmocka_unit_test(restitution_alone_gives_no_modulus),
+                                       cmocka_unit_test(ambiguous_data_are_recognised),
+                                       cmocka_unit_test(a_wrong_model_is_called_wrong),
+                                       cmocka_unit_test(robust_losses_bear_outliers),
+                                       cmocka_unit_test(spheres_partners_and_friction),
+                                       cmocka_unit_test(temperatures),
+                                       cmocka_unit_test(refusals),
+                                       cmocka_unit_test(the_handle)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
