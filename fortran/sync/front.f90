@@ -21,6 +21,8 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
+  !> Part of the slack at the centre that is left at the front: H, which is largest there, is off by its square.
+  real(dp), parameter :: at_front = 1.0e-7_dp
 
 contains
 
@@ -58,7 +60,7 @@ contains
       y = y + normal%eta*slip
       if (y > 0) low = theta
       if (y <= 0) high = theta
-      if (abs(y) <= rounding*slack%centre .or. high - low <= rounding*edge) exit
+      if (abs(y) <= at_front*slack%centre .or. high - low <= rounding*edge) exit
       if (slope < 0) then
         theta = theta - y/slope
       else
@@ -68,7 +70,7 @@ contains
     end do
     slack%angle = theta
     slack%radius = radius
-    slack%force = force
+    slack%force = force + radius*y
   end subroutine find_front
 
   !> Without slip: what the force of the contact lacks of A q, q by the arms' memory alone, for an edge at the angle theta.

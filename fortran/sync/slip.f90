@@ -4,7 +4,7 @@ module rst_slip
   use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear, &
                              has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
-  use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor
+  use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
   use rst_front, only: slack_type, find_front, held_by
   implicit none (type, external)
   private
@@ -46,7 +46,7 @@ contains
     to = 1
     found = sticks_again
     do
-      call solve_piece(normal, contact, store, panel, [x, to], .false., side, ground, s, fails)
+      call solve_piece(normal, contact, store, panel, [x, to], .false., side, .false., ground, s, fails)
       event = nothing
       if (.not. fails) call next_event(contact, ground, side, s, event, place)
       if (event /= nothing) then
@@ -63,13 +63,13 @@ contains
     found = solved
   end subroutine take_piece
 
-  subroutine solve_piece(normal, contact, store, panel, range, rooted, side, ground, s, fails)
+  subroutine solve_piece(normal, contact, store, panel, range, rooted, side, warm, ground, s, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
     real(dp), intent(in) :: range(2), side
-    logical, intent(in) :: rooted
+    logical, intent(in) :: rooted, warm
     type(ground_type), intent(out) :: ground
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
@@ -78,7 +78,7 @@ contains
     call lay_ground(normal, panel, range(1), range(2), rooted, store, ground, fails)
     if (fails) return
     if (abs(side) > 0) then
-      call slip_behind(normal, contact, store, ground, side, s, fails)
+      call slip_behind(normal, contact, store, ground, side, warm, s, fails)
       return
     end if
     held = 0
@@ -96,12 +96,13 @@ contains
   end subroutine solve_piece
 
   !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements that stick do.
-  subroutine slip_behind(normal, contact, store, ground, side, s, fails)
+  subroutine slip_behind(normal, contact, store, ground, side, warm, s, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
+    logical, intent(in) :: warm  !! s%w is a guess
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     real(dp) :: matrix(stages, stages), step(stages, 1), push, change, previous
@@ -109,7 +110,7 @@ contains
     push = push_factor(contact)
     s%front = edge_of(store, ground, 0_ip)
     call slacken(normal, store, ground, side, 0_ip, s)
-    s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
+    if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
@@ -195,6 +196,24 @@ contains
     end do
   end subroutine next_event
 
+  !> U' of the piece on `ground` at the points of one that starts where it does and ends at `to`, as a guess.
+  pure subroutine shorten(ground, to, rooted, s)
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: to
+    logical, intent(in) :: rooted
+    type(solution_type), intent(inout) :: s
+    real(dp) :: w(0:stages), place
+    integer(ip) :: i
+    w = s%w
+    do i = 1, stages
+      place = point(i)
+      if (rooted) place = 1 - (1 - point(i))**2
+      place = place*(to - ground%from)/(ground%to - ground%from)
+      if (ground%rooted) place = 1 - sqrt(max(0.0_dp, 1 - place))
+      s%w(i) = value_on(place, w)
+    end do
+  end subroutine shorten
+
   !> Where y, which is positive at the point i, became so; 0: at the start.
   pure function first_rise(i, y) result(place)
     integer(ip), intent(in) :: i
@@ -233,7 +252,8 @@ contains
         s%returns = .false.
         return
       end if
-      call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, ground, s, fails)
+      call shorten(ground, to, event == stick_ends, s)
+      call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
       if (abs(miss) <= contact%closeness) return

@@ -172,7 +172,8 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .psi = problem->psi,
                                          .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
                                          .noise = rst_noise * rst_roughness_of(halvings - 1),
-                                         .closeness = rst_closeness * fmin(1, problem->psi),
+                                         .closeness = fmax(rst_closeness, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
+                                                      fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
