@@ -1,0 +1,131 @@
+/* Verification: every cell of speed is compared with impacts at one other speed and at many places of psi.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "builder.h"
+#include "lookup.h"
+#include "parallel.h"
+
+#include <stdlib.h>
+
+/* Multiples of these, less whole numbers, fill [0, 1] evenly: golden ratio and plastic number. */
+static const double golden = 0.6180339887498949, plastic = 0.7548776662466927;
+
+static double part(double x)
+{
+    return x - floor(x);
+}
+
+/* What one speed says. */
+struct check {
+    double speed, ez, ex; /* largest differences, with what the solver leaves open */
+    int64_t cell;
+    int status;
+    restitute_error why;
+};
+
+struct work {
+    struct rst_builder *b;
+    const restitute_table *table;
+    struct check *check;
+    int64_t places;
+    int round;
+};
+
+/* A third of the places is in the stick panel, which is smooth. */
+static double psi_of(const struct rst_builder *b, int64_t i, int64_t seed, double ez)
+{
+    const double place = part(0.5 + golden * (double)i + plastic * (double)seed);
+    if (i % 3 == 0) return place;
+    return 1 + rst_panel_y(place) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez);
+}
+
+static int compare(const struct work *w, struct check *c, struct rst_column_solver *s, double *room)
+{
+    const struct rst_builder *b = w->b;
+    const int64_t n = b->contact.sliding == RST_SLIDES ? w->places : b->contact.sliding == RST_NEVER_SLIPS;
+    double *psi = room, *ex = room + w->places, *error_ex = room + 2 * w->places;
+    struct rst_column_normal normal;
+    restitute_table_value pair;
+    int status = rst_column_solve(s, c->speed, &normal, 0, NULL, NULL, NULL, &c->why);
+    if (status < 0) return status;
+    for (int64_t i = 0; i < n; i++)
+        psi[i] = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
+    if (!normal.sunk) status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &c->why);
+    if (status < 0) return status;
+    rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
+    c->ez = fabs(pair.ez - normal.ez) + normal.error;
+    for (int64_t i = 0; i < n && !normal.sunk; i++) {
+        rst_table_evaluate(w->table, c->speed, psi[i], 1, &pair);
+        c->ex = fmax(c->ex, fabs(pair.ex - ex[i]) + error_ex[i]);
+    }
+    return RESTITUTE_OK;
+}
+
+static void turn(void *of, int thread, int64_t i)
+{
+    const struct work *w = of;
+    struct check *c = &w->check[i];
+    double *room = malloc(3 * (size_t)w->places * sizeof *room);
+    if (room)
+        c->status = compare(w, c, &w->b->solver[thread], room);
+    else
+        c->status = rst_report(&c->why, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
+    free(room);
+}
+
+static int64_t plan(const struct rst_builder *b, int round, struct check *check)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        if (!(c[1].at > c->at)) continue;
+        const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
+        check[n++] = (struct check){.speed = rst_axis_speed(c->at + u * (c[1].at - c->at)), .cell = i};
+    }
+    return n;
+}
+
+/* Halve cells that miss the tolerance; where psi is to blame, double a panel. */
+static int mend(struct rst_builder *b, int64_t n, const struct check *check, int *missed, restitute_error *error)
+{
+    double by_psi[2] = {0, 0};
+    for (int64_t k = 0; k < n; k++) {
+        struct rst_column *c = &b->column[check[k].cell];
+        if (rst_margin * fmax(check[k].ez, check[k].ex) <= b->options.tolerance) continue;
+        double panel[2];
+        for (int i = 0; i < 2; i++)
+            panel[i] = fmax(rst_panel_error(b, c, i), rst_panel_error(b, c + 1, i));
+        const int psi = check[k].ex > check[k].ez && fmax(panel[0], panel[1]) > c->by_speed;
+        for (int i = 0; i < 2 && psi; i++)
+            by_psi[i] = fmax(by_psi[i], panel[i]);
+        c->open |= !psi;
+        ++*missed;
+    }
+    const int panel = by_psi[1] >= by_psi[0];
+    const int64_t cells = panel ? b->slip : b->stick;
+    if (!(by_psi[panel] > 0) || 2 * cells > rst_most_cells ||
+        b->impacts + b->columns * cells > (int64_t)(rst_part_for_refining * (double)b->options.max_impacts))
+        return RESTITUTE_OK;
+    return rst_double_panel(b, panel, error);
+}
+
+int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
+{
+    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->stick + b->slip) / 4, round};
+    if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
+    const int64_t n = plan(b, round, w.check);
+    int status = RESTITUTE_OK;
+    rst_table_loop(b->threads, n, turn, &w);
+    b->error_ez = b->error_ex = 0;
+    for (int64_t i = n - 1; i >= 0; i--) {
+        if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
+        b->error_ez = fmax(b->error_ez, rst_margin * w.check[i].ez);
+        b->error_ex = fmax(b->error_ex, rst_margin * w.check[i].ex);
+    }
+    b->error_ex = fmax(b->error_ex, b->error_ez); /* beyond psi_c */
+    b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
+    b->checks = n * w.places;
+    *missed = 0;
+    if (!status) status = mend(b, n, w.check, missed, error);
+    free(w.check);
+    return status;
+}
