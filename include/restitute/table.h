@@ -57,7 +57,7 @@ typedef struct restitute_table_options {
     int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
-    int64_t max_impacts;  /**< most impacts that a table may take, > 0; default 100000. A build that reaches it gives its
+    int64_t max_impacts;  /**< most impacts that a table may take, > 0; default 60000. A build that reaches it gives its
                              best with TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if there is none yet */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;

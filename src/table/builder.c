@@ -16,7 +16,7 @@ void restitute_table_options_init(restitute_table_options *options)
                                          .speed = {1e-4, 100},
                                          .tolerance = 1e-5,
                                          .threads = 1,
-                                         .max_impacts = 100000,
+                                         .max_impacts = 60000,
                                          .speed_limit = core.speed_limit,
                                          .radius_limit = core.radius_limit,
                                          .displacement_limit = core.displacement_limit};
@@ -55,6 +55,10 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
 
 static int add_columns(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
 {
+    if (rst_cost(b, n) > b->options.max_impacts)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "max_impacts = %lld: the first columns of a table take %lld; raise it",
+                          (long long)b->options.max_impacts, (long long)rst_cost(b, n));
     const int status = rst_solve_tasks(b, n, task, error);
     if (status) return status;
     b->impacts += rst_cost(b, n);
@@ -67,7 +71,7 @@ static int start_alone(struct rst_builder *b, restitute_error *error)
     const double low = b->options.speed[0], high = fmax(2 * low, b->options.speed[1]);
     struct rst_task task[2];
     for (int i = 0; i < 2; i++)
-        task[i] = (struct rst_task){.column = {.speed = low, .at = rst_axis_place(low, NULL)}};
+        task[i] = (struct rst_task){.column = {.speed = low, .at = rst_axis_place(low, NULL), .checked = {-1, -1}}};
     const int status = rst_solve_tasks(b, 2, task, error);
     if (status) return status;
     b->impacts += rst_cost(b, 2);
@@ -87,7 +91,7 @@ static int start(struct rst_builder *b, restitute_error *error)
     struct rst_task task[most];
     for (int i = 0; i < n; i++) {
         const double at = low + (high - low) * i / (n - 1);
-        task[i] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .open = 1}};
+        task[i] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .by_speed = 1, .checked = {-1, -1}}};
     }
     task[0].column.speed = speed[0];
     task[n - 1].column.speed = speed[1];
@@ -98,29 +102,29 @@ static int start(struct rst_builder *b, restitute_error *error)
 /* ---- seams */
 
 /* Where rebound begins between two columns of which one sinks: two columns there, both with e_z = 0 and, as the contact lasts
- * ever longer towards it, e_x = 0. */
+ * ever longer towards it, e_x = 0. A rebound that the tolerance does not tell from none, or that the solver does not
+ * find, counts as none. */
 static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
 {
-    const struct rst_column *c = &b->column[i];
-    const double fine = 1e-9; /* of s: finer than the solver tells */
-    double low = c[0].at, high = c[1].at;
-    struct rst_column_normal normal = c[0].normal.sunk ? c[1].normal : c[0].normal, middle;
+    const double fine = 1e-3, nothing = rst_nothing * b->options.tolerance; /* fine: of s */
+    const int sinks_below = b->column[i].normal.sunk;
+    double low = b->column[i].at, high = b->column[i + 1].at;
+    struct rst_column_normal normal = b->column[sinks_below ? i + 1 : i].normal, middle;
     while (high - low > fine) {
         const double at = 0.5 * (low + high);
-        const int status =
-            rst_column_solve(&b->solver[0], rst_axis_speed(at), &middle, 0, NULL, NULL, NULL, error);
+        const int status = rst_column_solve(&b->solver[0], rst_axis_speed(at), &middle, 0, NULL, NULL, NULL, error);
         b->impacts++;
         if (status < 0 && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
-        const int sinks = status < 0 || middle.sunk;
+        const int sinks = status < 0 || middle.sunk || middle.ez <= nothing;
         if (!sinks) normal = middle;
-        *(sinks == c[0].normal.sunk ? &low : &high) = at;
+        *(sinks == sinks_below ? &low : &high) = at;
     }
     const double at = 0.5 * (low + high);
     struct rst_task task[2];
     for (int k = 0; k < 2; k++) {
-        task[k] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .open = 1}};
+        task[k] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .by_speed = 1, .checked = {-1, -1}}};
         task[k].column.normal.ez = 0;
-        task[k].column.normal.sunk = k == 0;
+        task[k].column.normal.sunk = (k == 0) == sinks_below;
         task[k].column.g = calloc((size_t)rst_builder_places(b), sizeof(double));
     }
     if (task[0].column.g && task[1].column.g) return rst_insert(b, 2, task, error);
@@ -149,15 +153,13 @@ static int run(struct rst_builder *b, restitute_table **table, restitute_error *
     if (!status) status = add_seams(b, error);
     for (int round = 0; round < most_rounds && missed && !status; round++) {
         const int64_t before = b->impacts;
+        restitute_table *draft = NULL;
         status = rst_refine(b, error);
         if (round > 0 && before == b->impacts && !status) break; /* nothing more can be done */
-        restitute_table *draft = NULL;
         if (!status) status = rst_make_table(b, &draft, error);
         if (!status) status = rst_verify(b, draft, round, &missed, error);
         restitute_table_destroy(draft);
     }
-    if (!status && b->impacts > b->options.max_impacts && missed < 0)
-        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
     return status ? status : rst_make_table(b, table, error);
 }
 

@@ -12,26 +12,33 @@
 
 /* Constants of the build, measured with the target table-campaign (docs/table.md). */
 
-/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. 0.3 adds columns. */
-static const double rst_part_for_nodes = 0.1;
-/* A halved cell has at most this part of the error that its middle showed. Smooth ones have 1/16, kinks 1/4. */
-static const double rst_gain = 0.1;
+/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are a quarter of the estimates. */
+static const double rst_part_for_nodes = 0.2;
+/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved before
+ * what that brought is known; kinks have up to 1/2. */
+static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 /* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
 static const double rst_part_of_axis = 0.35;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.5;
+/* A rebound below this part of the tolerance counts as none. */
+static const double rst_nothing = 0.3;
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* What refinement leaves of the impacts for the checks. */
-static const double rst_part_for_refining = 0.75;
+static const double rst_part_for_refining = 0.8;
+/* Cells whose error is within this factor of the largest are halved together. */
+static const double rst_together = 8;
 
 struct rst_column {
     double speed, at; /* m/s; s */
     struct rst_column_normal normal;
     double *g;       /* at all places of psi */
     double solver;   /* largest estimated error of ex */
-    double by_speed; /* estimated error of the cell above */
-    int open;        /* that cell is to be halved */
+    /* of the cell above: */
+    double missed;   /* by how much its parent missed this or the next column */
+    double by_speed; /* its estimated error */
+    double checked[2]; /* differences in ez and ex of the last check; negative: none yet */
 };
 
 /* A column to be solved. */
@@ -53,6 +60,7 @@ struct rst_builder {
     int threads;
     int64_t impacts, checks;
     double error_ez, error_ex; /* of the last verification */
+    double by_psi[2];          /* by how much panels miss at least, from checks */
 };
 
 static inline int64_t rst_builder_places(const struct rst_builder *b)
@@ -92,7 +100,7 @@ double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, 
 /* The table of the columns (make.c). */
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error);
 
-/* Compare with fresh impacts, set the errors; `missed`: number of cells opened or panels doubled (verify.c). */
+/* Compare cells that were not compared yet with fresh impacts; set the errors, and what missed (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
 
 /* One table; the scene and options are checked (builder.c). */

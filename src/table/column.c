@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "column.h"
 
-/* About a thousand levels: an impact that hardly rebounds would take a hundred times the usual work, and says by its
+/* Some hundred levels: an impact that hardly rebounds would take a hundred times the usual work, and says by its
  * estimated error that it was not finished. */
-static const int64_t most_updates = 3000000;
+static const int64_t most_updates = 1000000;
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
                         restitute_error *error)

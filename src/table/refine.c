@@ -82,23 +82,15 @@ static int64_t left(const struct rst_builder *b)
     return (int64_t)(rst_part_for_refining * (double)b->options.max_impacts) - b->impacts;
 }
 
-/* Double panels that some column misses. */
-static int refine_panels(struct rst_builder *b, restitute_error *error)
+/* Largest error of a panel, over the columns. What the solver itself leaves open is no shape. */
+static double worst_of_panel(const struct rst_builder *b, int panel)
 {
-    const int64_t most[2] = {256, rst_most_cells / 2};
-    if (b->contact.sliding != RST_SLIDES) return RESTITUTE_OK;
-    for (int panel = 0; panel < 2; panel++) {
-        int64_t *cells = panel ? &b->slip : &b->stick;
-        while (*cells <= most[panel] && b->columns * *cells <= left(b)) {
-            double worst = 0;
-            for (int64_t i = 0; i < b->columns; i++)
-                worst = fmax(worst, rst_panel_error(b, &b->column[i], panel));
-            if (worst <= rst_part_of_axis * b->options.tolerance) break;
-            const int status = rst_double_panel(b, panel, error);
-            if (status) return status;
-        }
+    double worst = 0;
+    for (int64_t i = 0; i < b->columns; i++) {
+        const double error = rst_panel_error(b, &b->column[i], panel);
+        if (error > b->column[i].solver) worst = fmax(worst, error);
     }
-    return RESTITUTE_OK;
+    return worst;
 }
 
 /* ---- speed */
@@ -140,27 +132,24 @@ static double miss(const struct rst_builder *b, const double *at, int64_t i, con
     return worst;
 }
 
-static void judge(struct rst_builder *b, struct rst_column *c, double error)
+/* Before a cell is halved for the first time its error is not known. */
+static const double largest_guess = 1e-3;
+
+static int can_halve(const struct rst_builder *b, int64_t i)
 {
-    c->by_speed = error;
-    c->open = error > rst_part_of_axis * b->options.tolerance;
+    const struct rst_column *c = &b->column[i];
+    return c[1].at - c->at > 2 * rst_narrowest && !(c->normal.sunk && c[1].normal.sunk) &&
+           c->by_speed > fmax(c->solver, c[1].solver);
 }
 
-/* Columns in the middles of open cells. Of a cell that is too narrow its error stays. */
-static int64_t plan_halves(struct rst_builder *b, struct rst_task *task, int64_t *cell)
+/* What is expected of both halves of a cell. */
+static void judge(struct rst_column *low, struct rst_column *middle, double missed)
 {
-    int64_t n = 0;
-    for (int64_t i = 0; i + 1 < b->columns; i++) {
-        struct rst_column *c = &b->column[i];
-        const double width = b->column[i + 1].at - c->at;
-        if (!c->open) continue;
-        c->open = 0;
-        if (!(width > 2 * rst_narrowest) || (c->normal.sunk && b->column[i + 1].normal.sunk)) continue;
-        const double at = c->at + 0.5 * width;
-        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at}};
-        cell[n++] = i;
-    }
-    return n;
+    const double before = low->missed;
+    const double gain = before > 0 ? fmin(rst_most_gain, fmax(rst_least_gain, missed / before)) : rst_gain;
+    low->missed = middle->missed = missed;
+    low->by_speed = middle->by_speed = gain * missed;
+    low->checked[0] = middle->checked[0] = -1;
 }
 
 static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)
@@ -175,41 +164,80 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
     b->impacts += rst_cost(b, n);
     for (int64_t i = 0; i < b->columns; i++)
         at[i] = b->column[i].at;
-    for (int64_t k = 0; k < n; k++) {
-        const double error_of_half = rst_gain * miss(b, at, cell[k], &task[k].column);
-        judge(b, &b->column[cell[k]], error_of_half);
-        judge(b, &task[k].column, error_of_half);
-    }
+    for (int64_t k = 0; k < n; k++)
+        judge(&b->column[cell[k]], &task[k].column, miss(b, at, cell[k], &task[k].column));
     free(at);
     return rst_insert(b, n, task, error);
 }
 
-static int refine_speeds(struct rst_builder *b, int *done, restitute_error *error)
+/* Columns in the middles of the cells whose error is larger than `least`. */
+static int64_t plan_halves(const struct rst_builder *b, double least, struct rst_task *task, int64_t *cell)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        if (!can_halve(b, i) || c->by_speed <= least) continue;
+        const double at = 0.5 * (c->at + c[1].at);
+        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at}};
+        cell[n++] = i;
+    }
+    return n;
+}
+
+/* Halve cells, fewer if impacts run out. */
+static int halve_cells(struct rst_builder *b, double least, int *done, restitute_error *error)
 {
     struct rst_task *task = malloc((size_t)b->columns * sizeof *task);
-    int64_t *cell = malloc((size_t)b->columns * sizeof *cell);
+    int64_t *cell = malloc((size_t)b->columns * sizeof *cell), n = 0;
     int status = RESTITUTE_OK;
-    *done = 1;
     if (!task || !cell)
         status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the columns");
-    else {
-        const int64_t n = plan_halves(b, task, cell);
-        if (n > 0 && rst_cost(b, n) <= left(b) && b->columns + n < rst_most_speeds) {
-            *done = 0;
-            status = halve(b, n, task, cell, error);
-        }
-    }
+    else
+        do {
+            n = plan_halves(b, least, task, cell);
+            least *= 1.25;
+        } while (n > 0 && (rst_cost(b, n) > left(b) || b->columns + n >= rst_most_speeds));
+    *done = n == 0;
+    if (n > 0) status = halve(b, n, task, cell, error);
     free(task);
     free(cell);
     return status;
 }
 
+/* ---- all */
+
+/* Largest error of the cells that are not too narrow and not better than the solver. */
+static double worst_of_cells(const struct rst_builder *b)
+{
+    double worst = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++)
+        if (can_halve(b, i)) worst = fmax(worst, b->column[i].by_speed);
+    return worst;
+}
+
+/* One step where the error is largest. */
+static int refine_once(struct rst_builder *b, int *done, restitute_error *error)
+{
+    const double enough = rst_part_of_axis * b->options.tolerance, speed = worst_of_cells(b);
+    *done = 0;
+    for (int panel = 0; panel < 2 && b->contact.sliding == RST_SLIDES; panel++) {
+        const int64_t cells = panel ? b->slip : b->stick;
+        const double worst = fmax(b->by_psi[panel], worst_of_panel(b, panel));
+        b->by_psi[panel] = 0;
+        if (worst <= enough || worst < fmin(speed, largest_guess) || 2 * cells > rst_most_cells ||
+            b->columns * cells > left(b))
+            continue;
+        return rst_double_panel(b, panel, error);
+    }
+    if (speed > enough) return halve_cells(b, fmax(enough, speed / rst_together), done, error);
+    *done = 1;
+    return RESTITUTE_OK;
+}
+
 int rst_refine(struct rst_builder *b, restitute_error *error)
 {
     int done = 0, status = RESTITUTE_OK;
-    while (!status && !done) {
-        status = refine_panels(b, error);
-        if (!status) status = refine_speeds(b, &done, error);
-    }
+    while (!status && !done)
+        status = refine_once(b, &done, error);
     return status;
 }

@@ -110,7 +110,7 @@ static int by_place(const void *a, const void *b)
 {
     const struct rst_column *x = a, *y = b;
     if (x->at < y->at || x->at > y->at) return x->at < y->at ? -1 : 1;
-    return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks comes first */
+    return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks comes first: faster impacts rebound */
 }
 
 int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)

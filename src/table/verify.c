@@ -46,6 +46,10 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     struct rst_column_normal normal;
     restitute_table_value pair;
     int status = rst_column_solve(s, c->speed, &normal, 0, NULL, NULL, NULL, &c->why);
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.sunk) {
+        c->ez = c->ex = rst_nothing * b->options.tolerance; /* too weak a rebound, by which the seam was found */
+        return RESTITUTE_OK;
+    }
     if (status < 0) return status;
     for (int64_t i = 0; i < n; i++)
         psi[i] = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
@@ -77,35 +81,26 @@ static int64_t plan(const struct rst_builder *b, int round, struct check *check)
     int64_t n = 0;
     for (int64_t i = 0; i + 1 < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
-        if (!(c[1].at > c->at)) continue;
+        if (!(c[1].at > c->at) || c->checked[0] >= 0) continue;
         const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
         check[n++] = (struct check){.speed = rst_axis_speed(c->at + u * (c[1].at - c->at)), .cell = i};
     }
     return n;
 }
 
-/* Halve cells that miss the tolerance; where psi is to blame, double a panel. */
-static int mend(struct rst_builder *b, int64_t n, const struct check *check, int *missed, restitute_error *error)
+/* Cells that miss the tolerance are to be halved; where psi is to blame, a panel is to be doubled. */
+static void blame(struct rst_builder *b, int64_t i)
 {
-    double by_psi[2] = {0, 0};
-    for (int64_t k = 0; k < n; k++) {
-        struct rst_column *c = &b->column[check[k].cell];
-        if (rst_margin * fmax(check[k].ez, check[k].ex) <= b->options.tolerance) continue;
-        double panel[2];
-        for (int i = 0; i < 2; i++)
-            panel[i] = fmax(rst_panel_error(b, c, i), rst_panel_error(b, c + 1, i));
-        const int psi = check[k].ex > check[k].ez && fmax(panel[0], panel[1]) > c->by_speed;
-        for (int i = 0; i < 2 && psi; i++)
-            by_psi[i] = fmax(by_psi[i], panel[i]);
-        c->open |= !psi;
-        ++*missed;
-    }
-    const int panel = by_psi[1] >= by_psi[0];
-    const int64_t cells = panel ? b->slip : b->stick;
-    if (!(by_psi[panel] > 0) || 2 * cells > rst_most_cells ||
-        b->impacts + b->columns * cells > (int64_t)(rst_part_for_refining * (double)b->options.max_impacts))
-        return RESTITUTE_OK;
-    return rst_double_panel(b, panel, error);
+    struct rst_column *c = &b->column[i];
+    double panel[2], worst = fmax(c->checked[0], c->checked[1]);
+    for (int k = 0; k < 2; k++)
+        panel[k] = fmax(rst_panel_error(b, c, k), rst_panel_error(b, c + 1, k));
+    if (c->checked[1] > c->checked[0] && fmax(panel[0], panel[1]) > c->by_speed) {
+        const int k = panel[1] >= panel[0];
+        b->by_psi[k] = fmax(b->by_psi[k], worst);
+    } else
+        c->by_speed = fmax(c->by_speed, worst);
+    c->checked[0] = -1;
 }
 
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
@@ -115,17 +110,30 @@ int rst_verify(struct rst_builder *b, const restitute_table *table, int round, i
     const int64_t n = plan(b, round, w.check);
     int status = RESTITUTE_OK;
     rst_table_loop(b->threads, n, turn, &w);
-    b->error_ez = b->error_ex = 0;
     for (int64_t i = n - 1; i >= 0; i--) {
+        struct rst_column *c = &b->column[w.check[i].cell];
         if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
-        b->error_ez = fmax(b->error_ez, rst_margin * w.check[i].ez);
-        b->error_ex = fmax(b->error_ex, rst_margin * w.check[i].ex);
+        c->checked[0] = w.check[i].ez;
+        c->checked[1] = w.check[i].ex;
     }
-    b->error_ex = fmax(b->error_ex, b->error_ez); /* beyond psi_c */
-    b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
-    b->checks = n * w.places;
-    *missed = 0;
-    if (!status) status = mend(b, n, w.check, missed, error);
     free(w.check);
+    b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
+    b->checks += n * w.places;
+    b->error_ez = b->error_ex = 0;
+    *missed = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++) {
+        const double *checked = b->column[i].checked;
+        b->error_ez = fmax(b->error_ez, rst_margin * checked[0]);
+        b->error_ex = fmax(b->error_ex, rst_margin * fmax(checked[0], checked[1])); /* e_z is in (27) */
+        if (rst_margin * fmax(checked[0], checked[1]) <= b->options.tolerance) continue;
+#ifdef DBG
+ fprintf(stderr,"  miss v %.5g ez %.1e ex %.1e\n",b->column[i].speed,checked[0],checked[1]);
+#endif
+        ++*missed;
+        blame(b, i);
+    }
+#ifdef DBG
+ fprintf(stderr,"verify round %d: %.1e %.1e impacts %ld\n",round,b->error_ez,b->error_ex,(long)b->impacts);
+#endif
     return status;
 }
