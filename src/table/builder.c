@@ -101,30 +101,27 @@ static int start(struct rst_builder *b, restitute_error *error)
 
 /* ---- seams */
 
-/* Where rebound begins between two columns of which one sinks: two columns there, both with e_z = 0 and, as the contact lasts
- * ever longer towards it, e_x = 0. A rebound that the tolerance does not tell from none, or that the solver does not
- * find, counts as none. */
+/* Where rebound begins between two columns of which the lower one sinks: two columns there, both with e_z = 0 and, as the
+ * contact lasts ever longer towards it, e_x = 0. Above it are some speeds whose rebound the solver does not find. */
 static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
 {
-    const double fine = 1e-3, nothing = rst_nothing * b->options.tolerance; /* fine: of s */
-    const int sinks_below = b->column[i].normal.sunk;
+    const double fine = 1e-6; /* of s */
     double low = b->column[i].at, high = b->column[i + 1].at;
-    struct rst_column_normal normal = b->column[sinks_below ? i + 1 : i].normal, middle;
+    struct rst_column_normal normal = b->column[i + 1].normal, middle;
     while (high - low > fine) {
         const double at = 0.5 * (low + high);
         const int status = rst_column_solve(&b->solver[0], rst_axis_speed(at), &middle, 0, NULL, NULL, NULL, error);
         b->impacts++;
         if (status < 0 && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
-        const int sinks = status < 0 || middle.sunk || middle.ez <= nothing;
-        if (!sinks) normal = middle;
-        *(sinks == sinks_below ? &low : &high) = at;
+        *(status >= 0 && middle.sunk ? &low : &high) = at;
     }
     const double at = 0.5 * (low + high);
     struct rst_task task[2];
     for (int k = 0; k < 2; k++) {
         task[k] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .by_speed = 1, .checked = {-1, -1}}};
         task[k].column.normal.ez = 0;
-        task[k].column.normal.sunk = (k == 0) == sinks_below;
+        task[k].column.normal.sunk = k == 0;
+        task[k].column.levels = INT64_MAX;
         task[k].column.g = calloc((size_t)rst_builder_places(b), sizeof(double));
     }
     if (task[0].column.g && task[1].column.g) return rst_insert(b, 2, task, error);
@@ -137,8 +134,7 @@ static int add_seams(struct rst_builder *b, restitute_error *error)
 {
     int status = RESTITUTE_OK;
     for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
-        const int sunk = b->column[i].normal.sunk;
-        if (sunk == b->column[i + 1].normal.sunk || b->column[i].at >= b->column[i + 1].at) continue;
+        if (!b->column[i].normal.sunk || b->column[i + 1].normal.sunk) continue;
         status = add_seam(b, i, error);
         i += 2;
     }

@@ -21,8 +21,12 @@ static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 static const double rst_part_of_axis = 0.35;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.5;
-/* A rebound below this part of the tolerance counts as none. */
-static const double rst_nothing = 0.3;
+/* Columns that take more levels are costly, as where a sphere hardly rebounds: cells between two of them are not halved. Usual ones
+ * take 400 at 1e-5, and as the third root of 1/tolerance. */
+static inline int64_t rst_most_levels(double tolerance)
+{
+    return (int64_t)(1200 * cbrt(1e-5 / tolerance));
+}
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* What refinement leaves of the impacts for the checks. */
@@ -35,6 +39,7 @@ struct rst_column {
     struct rst_column_normal normal;
     double *g;       /* at all places of psi */
     double solver;   /* largest estimated error of ex */
+    int64_t levels;  /* most that an impact took */
     /* of the cell above: */
     double missed;   /* by how much its parent missed this or the next column */
     double by_speed; /* its estimated error */
@@ -46,6 +51,7 @@ struct rst_task {
     struct rst_column column;
     int64_t old_stick, old_slip; /* cells of the values that `old` has; 0: none */
     const double *old;
+    int may_fail; /* with TOO_MUCH_WORK: its status tells */
     int status;
     restitute_error why;
 };

@@ -54,6 +54,7 @@ int rst_column_solver_create(const struct rst_contact *contact, double tolerance
     options.max_updates = most_updates;
     s->contact = contact;
     s->tolerance = options.tolerance;
+    s->levels = 0;
     return restitute_solver_create(&options, &s->solver, error);
 }
 
@@ -99,6 +100,7 @@ static int solve(struct rst_column_solver *s, double speed, double psi, restitut
         if (status >= 0) result->error_ex += 2 * beside;
     }
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) status = solve_looser(s, &scene, result, &why);
+    if (status >= 0 && result->elements > s->levels) s->levels = result->elements;
     if (status >= 0) return status;
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK)
         return rst_report(error, status,

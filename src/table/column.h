@@ -25,6 +25,7 @@ struct rst_column_solver {
     const struct rst_contact *contact;
     restitute_solver *solver;
     double tolerance;
+    int64_t levels; /* most that an impact took since this was last set to 0 */
 };
 
 int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,

@@ -69,6 +69,7 @@ static void slopes_by_speed(const struct rst_builder *b, const double *at, int64
     while (high + 1 < b->columns && at[high + 1] > at[high])
         high++;
     rst_stencil_at(at, low, high, i, &s);
+    if (b->column[i].normal.ez <= 0) s.n = 0; /* as in refine.c */
     d->ez[2 * i + 1] = 0;
     for (int k = 0; k < s.n; k++)
         d->ez[2 * i + 1] += s.w[k] * b->column[s.first + k].normal.ez;

@@ -114,6 +114,7 @@ static double miss(const struct rst_builder *b, const double *at, int64_t i, con
     if (at[i] >= at[i + 1]) return 0;
     rst_stencil_at(at, low, high, i, &s[0]);
     rst_stencil_at(at, low, high, i + 1, &s[1]);
+    if (b->column[i].normal.ez <= 0) s[0].n = 0; /* e_z and e_x begin with no slope, and wildly */
     const double width = at[i + 1] - at[i];
     rst_hermite((c->at - at[i]) / width, x);
     const struct rst_column *o = b->column;
@@ -138,7 +139,8 @@ static const double largest_guess = 1e-3;
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
-    return c[1].at - c->at > 2 * rst_narrowest && !(c->normal.sunk && c[1].normal.sunk) &&
+    const int64_t most = rst_most_levels(b->options.tolerance);
+    return c[1].at - c->at > 2 * rst_narrowest && (c->levels <= most || c[1].levels <= most) && !(c->normal.sunk && c[1].normal.sunk) &&
            c->by_speed > fmax(c->solver, c[1].solver);
 }
 
@@ -164,10 +166,24 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
     b->impacts += rst_cost(b, n);
     for (int64_t i = 0; i < b->columns; i++)
         at[i] = b->column[i].at;
-    for (int64_t k = 0; k < n; k++)
+    int64_t solved = 0;
+    for (int64_t k = 0; k < n; k++) {
+        if (task[k].status < 0) {
+            free(task[k].column.g);
+            b->column[cell[k]].by_speed = 0; /* cannot be halved */
+            continue;
+        }
         judge(&b->column[cell[k]], &task[k].column, miss(b, at, cell[k], &task[k].column));
+        task[solved++] = task[k];
+    }
     free(at);
-    return rst_insert(b, n, task, error);
+    return rst_insert(b, solved, task, error);
+}
+
+/* A cell that begins where rebound does. */
+static int is_beside_seam(const struct rst_builder *b, int64_t i)
+{
+    return i > 0 && b->column[i - 1].at >= b->column[i].at;
 }
 
 /* Columns in the middles of the cells whose error is larger than `least`. */
@@ -178,7 +194,8 @@ static int64_t plan_halves(const struct rst_builder *b, double least, struct rst
         const struct rst_column *c = &b->column[i];
         if (!can_halve(b, i) || c->by_speed <= least) continue;
         const double at = 0.5 * (c->at + c[1].at);
-        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at}};
+        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at},
+                                    .may_fail = is_beside_seam(b, i)};
         cell[n++] = i;
     }
     return n;

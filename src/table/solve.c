@@ -49,12 +49,14 @@ static int solve_places(const struct rst_builder *b, struct rst_column_solver *s
     const int64_t places = rst_builder_places(b);
     double *psi = room, *ex = room + places, *error_ex = room + 2 * places;
     int64_t n = 0;
+    s->levels = 0;
     int status = t->old ? RESTITUTE_OK : rst_column_solve(s, c->speed, &c->normal, 0, NULL, NULL, NULL, &t->why);
     if (status < 0 || c->normal.sunk) return status;
     for (int64_t i = 0; i < places; i++)
         if (is_solved(b, i) && !known(b, t, i)) psi[n++] = rst_psi_at(b, i, c->normal.ez);
     status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &t->why);
     if (status < 0) return status;
+    c->levels = s->levels > c->levels ? s->levels : c->levels;
     n = 0;
     for (int64_t i = 0; i < places; i++) {
         const double *old = known(b, t, i);
@@ -98,7 +100,7 @@ int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, res
     rst_table_loop(b->threads, n, turn, &w);
     int status = RESTITUTE_OK;
     for (int64_t i = n - 1; i >= 0; i--)
-        if (task[i].status < 0) status = rst_report(error, task[i].status, "%s", task[i].why.message);
+        if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail)) status = rst_report(error, task[i].status, "%s", task[i].why.message);
     for (int64_t i = 0; status && i < n; i++) {
         free(task[i].column.g);
         task[i].column.g = NULL;

@@ -38,6 +38,16 @@ static double psi_of(const struct rst_builder *b, int64_t i, int64_t seed, doubl
     return 1 + rst_panel_y(place) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez);
 }
 
+/* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
+ * column has at most. */
+static void bound(const struct rst_builder *b, struct check *c)
+{
+    const struct rst_column *above = &b->column[c->cell + 1];
+    c->ez = above->normal.ez;
+    for (int64_t i = 0; i < rst_builder_places(b); i++)
+        c->ex = fmax(c->ex, fabs(above->g[i]));
+}
+
 static int compare(const struct work *w, struct check *c, struct rst_column_solver *s, double *room)
 {
     const struct rst_builder *b = w->b;
@@ -46,8 +56,8 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     struct rst_column_normal normal;
     restitute_table_value pair;
     int status = rst_column_solve(s, c->speed, &normal, 0, NULL, NULL, NULL, &c->why);
-    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.sunk) {
-        c->ez = c->ex = rst_nothing * b->options.tolerance; /* too weak a rebound, by which the seam was found */
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
+        bound(b, c); /* just above the lowest speed with a rebound */
         return RESTITUTE_OK;
     }
     if (status < 0) return status;
