@@ -44,16 +44,15 @@ struct course {
 static int build_table(const struct experiment *e, restitute_table **table, restitute_error *error)
 {
     restitute_scene scene;
-    restitute_table_family family;
+    restitute_table_options options;
     restitute_scene_init(&scene);
     scene.material = e->material, scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM, scene.friction = e->friction;
     scene.radius1 = scene.radius2 = RADIUS;
     scene.mass1 = scene.mass2 = 4.0 / 3 * acos(-1.0) * DENSITY * RADIUS * RADIUS * RADIUS;
-    restitute_table_family_init(&family);
-    family.scene = &scene;
+    restitute_table_options_init(&options);
     /* from a tenth of the last speed to ten times the first: few impacts are slower or faster */
-    family.speed[0] = 0.1 * e->speed * sqrt(e->end), family.speed[1] = 10 * e->speed;
-    return restitute_table_build(&family, NULL, table, error);
+    options.speed[0] = 0.1 * e->speed * sqrt(e->end), options.speed[1] = 10 * e->speed;
+    return restitute_table_build(&scene, &options, table, error);
 }
 
 static struct record take(const struct gas *gas, const struct record *last, int theory)

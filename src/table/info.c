@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "form.h"
 
+#include <float.h>
+
 void restitute_table_info_init(restitute_table_info *info)
 {
     if (!info) return;
@@ -84,7 +86,7 @@ int restitute_table_flags(const restitute_table *table, double normal_speed, dou
     double at[3];
     for (int k = 0; k < 3; k++) {
         const double low = d->strain[3 * i + k], high = d->strain[3 * i + 3 + k];
-        at[k] = low + u * (high - low);
+        at[k] = low > 0 && high <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high); /* nearly powers of v */
     }
     return (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
            (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |

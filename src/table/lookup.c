@@ -24,6 +24,7 @@ struct spot {
     double full, ez;             /* 1 + e_z, e_z */
     double y, q;                 /* y; psi, or 1/psi beyond psi = 1 */
     int slips, beyond;           /* psi > 1; psi >= psi_c */
+    double raw;                  /* e_x before it is kept within its bounds */
 };
 
 /* Cubic weights; those of slopes are times the width, since slopes are by s. */
@@ -86,9 +87,9 @@ static inline void evaluate(const restitute_table *t, double speed, double slidi
     rst_hermite(at->s, w);
     const double g = sum_up(at, 4 * rst_places(&t->d), w, at->of_speed);
     const double slipping = (g + at->y * at->ez) * at->q, closed = 2 * t->d.chi * at->full * at->q - 1; /* (27) */
-    const double ex = at->slips ? (at->beyond ? closed : slipping) : g;
+    at->raw = at->slips ? (at->beyond ? closed : slipping) : g;
     pair->ez = at->ez;
-    pair->ex = smaller(larger(ex, -1), 1);
+    pair->ex = smaller(larger(at->raw, -1), 1);
 }
 
 void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n,
@@ -171,7 +172,7 @@ static struct rates rates_at(const restitute_table *t, const struct spot *at)
 }
 
 /* e_x by s at constant psi, and by psi. */
-static void rates_of_ex(const restitute_table *t, const struct spot *at, const struct rates *r, double ex, double *by_s,
+static void rates_of_ex(const restitute_table *t, const struct spot *at, const struct rates *r, double *by_s,
                         double *by_psi)
 {
     if (!at->slips) {
@@ -183,7 +184,7 @@ static void rates_of_ex(const restitute_table *t, const struct spot *at, const s
     } else {
         const double by_y = r->of_psi * rst_panel_slope(at->y) * (double)t->d.slip_cells + at->ez; /* of psi e_x */
         *by_s = (r->of_speed + at->y * r->ez * (1 - by_y / at->full)) * at->q;
-        *by_psi = (by_y / ((2 * t->d.chi - 1) * at->full) - ex) * at->q;
+        *by_psi = (by_y / ((2 * t->d.chi - 1) * at->full) - at->raw) * at->q;
     }
 }
 
@@ -200,8 +201,8 @@ static void find_slope(const restitute_table *t, const restitute_table_contact *
     of_place *= c->speed_factor;
     slope->ez_normal = r.ez * of_place;
     slope->ex_normal = slope->ex_tangential = 0;
-    if (fabs(pair.ex) >= 1) return;
-    rates_of_ex(t, &at, &r, pair.ex, &by_s, &by_psi);
+    if (fabs(at.raw) > 1 || c->psi_factor > DBL_MAX) return;
+    rates_of_ex(t, &at, &r, &by_s, &by_psi);
     slope->ex_normal = by_s * of_place - by_psi * (sliding / v) / v;
     slope->ex_tangential = by_psi * (c->psi_factor / v);
 }

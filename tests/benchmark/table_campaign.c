@@ -48,7 +48,7 @@ static void compare(const restitute_table *table, const restitute_scene *contact
     restitute_options_init(&options);
     options.method = restitute_method_sync();
     options.tolerance = fmax(1e-8, tolerance / 20);
-    options.max_updates = 30000000;
+    options.max_updates = 3000000;
     restitute_solver_create(&options, &solver, NULL);
     *e = (struct errors){0};
     for (long i = 0; i < places; i++) {
