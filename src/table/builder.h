@@ -20,7 +20,9 @@ static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 /* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
 static const double rst_part_of_axis = 0.35;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
-static const double rst_margin = 1.5;
+static const double rst_margin = 1.7;
+/* Cells that miss more than this part of the worst are compared again at other places, twice. */
+static const double rst_look_again = 0.3;
 /* Columns that take more levels are costly, as where a sphere hardly rebounds: cells between two of them are not halved. Usual ones
  * take 400 at 1e-5, and as the third root of 1/tolerance. */
 static inline int64_t rst_most_levels(double tolerance)

@@ -151,7 +151,7 @@ static void judge(struct rst_column *low, struct rst_column *middle, double miss
     const double gain = before > 0 ? fmin(rst_most_gain, fmax(rst_least_gain, missed / before)) : rst_gain;
     low->missed = middle->missed = missed;
     low->by_speed = middle->by_speed = gain * missed;
-    low->checked[0] = middle->checked[0] = -1;
+    low->checked[0] = low->checked[1] = middle->checked[0] = middle->checked[1] = -1;
 }
 
 static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)

@@ -86,12 +86,13 @@ static void turn(void *of, int thread, int64_t i)
     free(room);
 }
 
-static int64_t plan(const struct rst_builder *b, int round, struct check *check)
+/* Cells that were not compared yet; or, to look again, those that were found to miss more than `least`. */
+static int64_t plan(const struct rst_builder *b, int round, double least, struct check *check)
 {
     int64_t n = 0;
     for (int64_t i = 0; i + 1 < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
-        if (!(c[1].at > c->at) || c->checked[0] >= 0) continue;
+        if (!(c[1].at > c->at) || (least > 0 ? fmax(c->checked[0], c->checked[1]) <= least : c->checked[0] >= 0)) continue;
         const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
         check[n++] = (struct check){.speed = rst_axis_speed(c->at + u * (c[1].at - c->at)), .cell = i};
     }
@@ -110,40 +111,52 @@ static void blame(struct rst_builder *b, int64_t i)
         b->by_psi[k] = fmax(b->by_psi[k], worst);
     } else
         c->by_speed = fmax(c->by_speed, worst);
-    c->checked[0] = -1;
+    c->checked[0] = c->checked[1] = -1;
 }
 
-int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
+/* Compare planned cells. */
+static int look(struct rst_builder *b, const restitute_table *table, int round, double least, restitute_error *error)
 {
     struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->stick + b->slip) / 4, round};
     if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
-    const int64_t n = plan(b, round, w.check);
+    const int64_t n = plan(b, round, least, w.check);
     int status = RESTITUTE_OK;
     rst_table_loop(b->threads, n, turn, &w);
     for (int64_t i = n - 1; i >= 0; i--) {
         struct rst_column *c = &b->column[w.check[i].cell];
         if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
-        c->checked[0] = w.check[i].ez;
-        c->checked[1] = w.check[i].ex;
+        c->checked[0] = fmax(c->checked[0], w.check[i].ez);
+        c->checked[1] = fmax(c->checked[1], w.check[i].ex);
     }
     free(w.check);
     b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
     b->checks += n * w.places;
+    return status;
+}
+
+/* Largest of what cells miss. */
+static double worst_of(const struct rst_builder *b)
+{
+    double worst = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++)
+        worst = fmax(worst, fmax(b->column[i].checked[0], b->column[i].checked[1]));
+    return worst;
+}
+
+int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
+{
+    int status = look(b, table, 3 * round, 0, error);
+    for (int again = 1; again < 3 && !status; again++)
+        status = look(b, table, 3 * round + again, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;
-    for (int64_t i = 0; i + 1 < b->columns; i++) {
-        const double *checked = b->column[i].checked;
+    for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
+        const double *checked = b->column[i].checked, both = fmax(checked[0], checked[1]);
         b->error_ez = fmax(b->error_ez, rst_margin * checked[0]);
-        b->error_ex = fmax(b->error_ex, rst_margin * fmax(checked[0], checked[1])); /* e_z is in (27) */
-        if (rst_margin * fmax(checked[0], checked[1]) <= b->options.tolerance) continue;
-#ifdef DBG
- fprintf(stderr,"  miss v %.5g ez %.1e ex %.1e\n",b->column[i].speed,checked[0],checked[1]);
-#endif
+        b->error_ex = fmax(b->error_ex, rst_margin * both); /* e_z is in (27) */
+        if (rst_margin * both <= b->options.tolerance) continue;
         ++*missed;
         blame(b, i);
     }
-#ifdef DBG
- fprintf(stderr,"verify round %d: %.1e %.1e impacts %ld\n",round,b->error_ez,b->error_ex,(long)b->impacts);
-#endif
     return status;
 }
