@@ -27,7 +27,7 @@ static void shade(struct panel *panel, const restitute_table_info *i, double fro
 /* Angles from which on the slide is long. */
 static void shade_slides(struct panel *panel, const restitute_table *table, const restitute_table_info *i, size_t style)
 {
-    struct series *s = chart_series(panel, MARK_ABOVE, style, SPEEDS, "long slide");
+    struct series *s = chart_series(panel, MARK_ABOVE, style, SPEEDS, "slide");
     for (size_t k = 0; k < SPEEDS; k++) {
         const double v = speed_at(i, k, SPEEDS);
         double low = 0, high = steepest;
@@ -80,8 +80,8 @@ static void draw_ex(struct panel *panel, const restitute_table *table, const res
             h->z[row * HEIGHT_SPEEDS + k] = pair.ex;
         }
     }
-    shade(panel, i, i->fast_speed, 0, 1, "waves");
-    shade(panel, i, i->large_contact_speed, 0, 2, "large contact");
+    shade(panel, i, i->fast_speed, 0, 1, "v/c_s");
+    shade(panel, i, i->large_contact_speed, 0, 2, "a/R");
     shade_slides(panel, table, i, 3);
 }
 

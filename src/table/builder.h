@@ -21,7 +21,7 @@ static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 static const double rst_part_of_axis = 0.35;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.7;
-/* Cells that miss more than this part of the worst are compared again at other places, twice. */
+/* Where no cell misses the tolerance, those that miss more than this part of the worst are compared at other places, twice. */
 static const double rst_look_again = 0.3;
 /* Columns that take more levels are costly, as where a sphere hardly rebounds: cells between two of them are not halved. Usual ones
  * take 400 at 1e-5, and as the third root of 1/tolerance. */

@@ -55,7 +55,7 @@ static int count_bins(const struct rst_table_data *d)
         const double width = rst_axis_place(d->speed[i + 1], NULL) - rst_axis_place(d->speed[i], NULL);
         if (width > 0) narrowest = fmin(narrowest, width);
     }
-    return (int)fmin(rst_most_bins, ceil(all / narrowest));
+    return (int)fmin(rst_most_bins, ceil(all / narrowest - 1e-6)); /* a whole number, but for rounding */
 }
 
 static void set_nodes(restitute_table *t)
@@ -74,7 +74,7 @@ static void set_nodes(restitute_table *t)
     t->end = nextafter(t->node[n - 1].at, -INFINITY); /* the highest speed belongs to the last cell */
 }
 
-/* A bin begins a hair before its place, so that rounding cannot start a search too late. */
+/* A bin begins a hair behind its place: edges of cells are on edges of bins, and few searches take a step. */
 static void set_bins(restitute_table *t, int bins)
 {
     const double hair = 1e-9, first = t->node[0].at, width = (t->end - first) / bins;
@@ -82,7 +82,7 @@ static void set_bins(restitute_table *t, int bins)
     int64_t cell = 0;
     t->bins_per_s = 1 / width;
     for (int i = 0; i <= bins; i++) {
-        while (cell < last && t->node[cell + 1].at <= first + ((double)i - hair) * width)
+        while (cell < last && t->node[cell + 1].at <= first + ((double)i + hair) * width)
             cell++;
         t->bin[i] = (uint16_t)cell;
     }
@@ -111,6 +111,9 @@ static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
     t->d.modulus = (double *)(void *)place(&next, d->modulus, terms * size);
     t->bin = (uint16_t *)(void *)place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
     t->bytes = (size_t)(next - (char *)t);
+    t->share = fmax(0, 2 * d->chi - 1);
+    t->of_stick = (double)d->stick_cells;
+    t->of_slip = (double)d->slip_cells;
     set_nodes(t);
     set_bins(t, bins);
     restitute_table_contact_init(&t->own);

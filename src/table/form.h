@@ -24,6 +24,8 @@ static const double rst_least = 0x1p-1000;
 struct restitute_table {
     struct rst_table_data d;
     struct restitute_table_contact own;
+    double share;           /* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z */
+    double of_stick, of_slip; /* cells of psi */
     double end;             /* just below s of the last node */
     double bins_per_s;      /* bins are even; a bin knows the cell of its lower end */
     struct rst_node *node;  /* [speeds] */

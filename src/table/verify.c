@@ -146,7 +146,7 @@ static double worst_of(const struct rst_builder *b)
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
 {
     int status = look(b, table, 3 * round, 0, error);
-    for (int again = 1; again < 3 && !status; again++)
+    for (int again = 1; again < 3 && !status && rst_margin * worst_of(b) <= b->options.tolerance; again++)
         status = look(b, table, 3 * round + again, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;

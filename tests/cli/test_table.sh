@@ -68,7 +68,7 @@ has err 'whose ends are taken: 1'
 # The figure.
 if command -v gnuplot >/dev/null; then
     expect 0 table build $scene --speed 0.01:10 --tolerance 1e-3 --output f.h5 --figure f.svg
-    has f.svg '<svg' 'long slide'
+    has f.svg '<svg' 'slide'
 fi
 refused '--figure' table build $scene --output x.h5 --figure x.txt
 
