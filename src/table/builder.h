@@ -21,14 +21,8 @@ static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 static const double rst_part_of_axis = 0.35;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.7;
-/* Where no cell misses the tolerance, those that miss more than this part of the worst are compared at other places, twice. */
+/* Cells that miss more than this part of the worst are compared again at other places, twice. */
 static const double rst_look_again = 0.3;
-/* Columns that take more levels are costly, as where a sphere hardly rebounds: cells between two of them are not halved. Usual ones
- * take 400 at 1e-5, and as the third root of 1/tolerance. */
-static inline int64_t rst_most_levels(double tolerance)
-{
-    return (int64_t)(1200 * cbrt(1e-5 / tolerance));
-}
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* What refinement leaves of the impacts for the checks. */
@@ -70,6 +64,13 @@ struct rst_builder {
     double error_ez, error_ex; /* of the last verification */
     double by_psi[2];          /* by how much panels miss at least, from checks */
 };
+
+/* A column that takes more levels is costly, as where a sphere hardly rebounds: cells between two of them are left as they
+ * are, and they call for no cells of psi. Usual ones take 400 levels at 1e-5, and as the third root of 1/tolerance. */
+static inline int rst_is_costly(const struct rst_builder *b, const struct rst_column *c)
+{
+    return (double)c->levels > 1200 * cbrt(1e-5 / b->options.tolerance);
+}
 
 static inline int64_t rst_builder_places(const struct rst_builder *b)
 {

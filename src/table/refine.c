@@ -88,7 +88,7 @@ static double worst_of_panel(const struct rst_builder *b, int panel)
     double worst = 0;
     for (int64_t i = 0; i < b->columns; i++) {
         const double error = rst_panel_error(b, &b->column[i], panel);
-        if (error > b->column[i].solver) worst = fmax(worst, error);
+        if (error > b->column[i].solver && !rst_is_costly(b, &b->column[i])) worst = fmax(worst, error);
     }
     return worst;
 }
@@ -139,8 +139,7 @@ static const double largest_guess = 1e-3;
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
-    const int64_t most = rst_most_levels(b->options.tolerance);
-    return c[1].at - c->at > 2 * rst_narrowest && (c->levels <= most || c[1].levels <= most) && !(c->normal.sunk && c[1].normal.sunk) &&
+    return c->speed < b->options.speed[1] && c[1].at - c->at > 2 * rst_narrowest && !(rst_is_costly(b, c) && rst_is_costly(b, c + 1)) && !(c->normal.sunk && c[1].normal.sunk) &&
            c->by_speed > fmax(c->solver, c[1].solver);
 }
 
