@@ -26,7 +26,7 @@ static const double rst_look_again = 0.3;
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* What refinement leaves of the impacts for the checks. */
-static const double rst_part_for_refining = 0.8;
+static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;
 

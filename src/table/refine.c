@@ -79,7 +79,7 @@ int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error)
 
 static int64_t left(const struct rst_builder *b)
 {
-    return (int64_t)(rst_part_for_refining * (double)b->options.max_impacts) - b->impacts;
+    return (int64_t)(rst_for_refining * (double)b->options.max_impacts) - b->impacts;
 }
 
 /* Largest error of a panel, over the columns. What the solver itself leaves open is no shape. */
