@@ -105,9 +105,11 @@ if ! grep -q 'no component table_files' err; then
     clash '--output = polyisobutylene.csv' prony_csv $build --material polyisobutylene.json --output polyisobutylene.csv
     expect 0 $build --material steel.json --output t.h5
     ln -s t.h5 t.csv
+    printf 'normal_speed_m_s\n1\n' >speeds.csv
+    ln -s speeds.csv again.csv
     clash '--output = t.csv' 'the table t.h5' table query t.h5 --normal-speed 1 --output t.csv
-    clash '--output = t.csv' 'the table t.h5' table query t.h5 --input cases.csv --output t.csv
-    clash '--output = link.csv' '--input cases.csv' table query t.h5 --input cases.csv --output link.csv
+    clash '--output = t.csv' 'the table t.h5' table query t.h5 --input speeds.csv --output t.csv
+    clash '--output = again.csv' '--input speeds.csv' table query t.h5 --input speeds.csv --output again.csv
 fi
 
 # Shards of a campaign, and outputs of a report.
