@@ -101,8 +101,8 @@ static int start(struct rst_builder *b, restitute_error *error)
 
 /* ---- seams */
 
-/* Where rebound begins between two columns of which the lower one sinks: two columns there, both with e_z = 0 and, as the
- * contact lasts ever longer towards it, e_x = 0. Above it are some speeds whose rebound the solver does not find. */
+/* Where rebound begins between two columns of which the lower one sinks: two columns there, both with e_z = 0 and, as
+ * the contact lasts ever longer towards it, e_x = 0. Above it are speeds whose rebound the solver does not find. */
 static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
 {
     const double fine = 1e-6; /* of s */
@@ -118,7 +118,8 @@ static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
     const double at = 0.5 * (low + high);
     struct rst_task task[2];
     for (int k = 0; k < 2; k++) {
-        task[k] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .by_speed = 1, .checked = {-1, -1}}};
+        task[k] = (struct rst_task){
+            .column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .by_speed = 1, .checked = {-1, -1}}};
         task[k].column.normal.ez = 0;
         task[k].column.normal.sunk = k == 0;
         task[k].column.levels = INT64_MAX;

@@ -12,10 +12,11 @@
 
 /* Constants of the build, measured with the target table-campaign (docs/table.md). */
 
-/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are a quarter of the estimates. */
+/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are
+ * a quarter of the estimates. */
 static const double rst_part_for_nodes = 0.2;
-/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved before
- * what that brought is known; kinks have up to 1/2. */
+/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved
+ * before what that brought is known; kinks have up to 1/2. */
 static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
 /* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
 static const double rst_part_of_axis = 0.35;

@@ -139,8 +139,9 @@ static const double largest_guess = 1e-3;
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
-    return c->speed < b->options.speed[1] && c[1].at - c->at > 2 * rst_narrowest && !(rst_is_costly(b, c) && rst_is_costly(b, c + 1)) && !(c->normal.sunk && c[1].normal.sunk) &&
-           c->by_speed > fmax(c->solver, c[1].solver);
+    if (c->speed >= b->options.speed[1] || c[1].at - c->at <= 2 * rst_narrowest) return 0;
+    if (rst_is_costly(b, c) && rst_is_costly(b, c + 1)) return 0;
+    return !(c->normal.sunk && c[1].normal.sunk) && c->by_speed > fmax(c->solver, c[1].solver);
 }
 
 /* What is expected of both halves of a cell. */

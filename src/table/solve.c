@@ -100,7 +100,8 @@ int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, res
     rst_table_loop(b->threads, n, turn, &w);
     int status = RESTITUTE_OK;
     for (int64_t i = n - 1; i >= 0; i--)
-        if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail)) status = rst_report(error, task[i].status, "%s", task[i].why.message);
+        if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail))
+            status = rst_report(error, task[i].status, "%s", task[i].why.message);
     for (int64_t i = 0; status && i < n; i++) {
         free(task[i].column.g);
         task[i].column.g = NULL;
@@ -112,7 +113,7 @@ static int by_place(const void *a, const void *b)
 {
     const struct rst_column *x = a, *y = b;
     if (x->at < y->at || x->at > y->at) return x->at < y->at ? -1 : 1;
-    return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks comes first: faster impacts rebound */
+    return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks: faster impacts rebound */
 }
 
 int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)

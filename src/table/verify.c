@@ -92,7 +92,8 @@ static int64_t plan(const struct rst_builder *b, int round, double least, struct
     int64_t n = 0;
     for (int64_t i = 0; i + 1 < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
-        if (!(c[1].at > c->at) || (least > 0 ? fmax(c->checked[0], c->checked[1]) <= least : c->checked[0] >= 0)) continue;
+        const int again = fmax(c->checked[0], c->checked[1]) > least;
+        if (!(c[1].at > c->at) || (least > 0 ? !again : c->checked[0] >= 0)) continue;
         const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
         const double speed = rst_axis_speed(c->at + u * (c[1].at - c->at));
         check[n++] = (struct check){.speed = fmin(speed, b->options.speed[1]), .cell = i}; /* of one speed: that */
