@@ -5,8 +5,7 @@
  *              g_max/N and kept with probability |g|/g_max (no time counter): exact while no |g| passes g_max
  *   direction  the normal k has the density g.k on the half sphere g.k > 0: k = (g/|g| + u)/|g/|g| + u|, u uniform on the
  *              unit sphere
- *   impact     v_n = g.k, v_t = |t|, t = g - (g.k) k + (s1 + s2) x k; the impulse on the first is
- *              p = -(1 + ez) v_n k/2 - (1 + ex) t q/(2 (1 + q)), and each s changes by k x p/q */
+ *   impact     by restitute_table_collide; with a constant ez and no friction p = -(1 + ez) (g.k) k/2 is the impulse on the first */
 #include "gas.h"
 
 #include <math.h>
@@ -51,11 +50,6 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void cross(const double *a, const double *b, double *c)
-{
-    c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 restitute_table_value gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed)
 {
     restitute_table_value pair = law->constant;
@@ -64,30 +58,46 @@ restitute_table_value gas_pair(const struct gas_law *law, double normal_speed, d
     return pair;
 }
 
-/* The spheres i and j collide; k: unit normal from i to j. Returns the energy lost, as the pair says. */
+static double energy(const struct gas *gas, size_t i)
+{
+    return 0.5 * (dot(gas->v[i], gas->v[i]) + GAS_INERTIA * dot(gas->s[i], gas->s[i]));
+}
+
+/* Sphere i as a body at `side` k; its mass is the table's contact's, and s is R times its spin. */
+static restitute_body body_of(const struct gas *gas, size_t i, double side, const double *k)
+{
+    restitute_body body;
+    restitute_body_init(&body);
+    body.radius = gas->law.radius, body.mass = gas->law.mass;
+    for (int c = 0; c < 3; ++c) {
+        body.position[c] = side * gas->law.radius * k[c];
+        body.velocity[c] = gas->v[i][c], body.spin[c] = gas->s[i][c] / gas->law.radius;
+    }
+    return body;
+}
+
+static void take_back(struct gas *gas, size_t i, const restitute_body *body)
+{
+    for (int c = 0; c < 3; ++c)
+        gas->v[i][c] = body->velocity[c], gas->s[i][c] = gas->law.radius * body->spin[c];
+}
+
+/* The spheres i and j collide; k: unit normal from i to j. Returns the energy lost. */
 static double collide(struct gas *gas, size_t i, size_t j, const double *g, const double *k)
 {
-    double *v1 = gas->v[i], *v2 = gas->v[j], *s1 = gas->s[i], *s2 = gas->s[j];
-    const double normal_speed = dot(g, k), tangent_mass = GAS_INERTIA / (2 * (1 + GAS_INERTIA));
-    double t[3], turn[3], tangent[3], moment[3];
-    for (int c = 0; c < 3; ++c)
-        turn[c] = s1[c] + s2[c];
-    cross(turn, k, t);
-    for (int c = 0; c < 3; ++c)
-        t[c] += g[c] - normal_speed * k[c];
-    const double sliding = sqrt(dot(t, t));
-    const restitute_table_value pair = gas_pair(&gas->law, normal_speed, sliding);
-    for (int c = 0; c < 3; ++c)
-        tangent[c] = -(1 + pair.ex) * tangent_mass * t[c];
-    cross(k, tangent, moment);
-    for (int c = 0; c < 3; ++c) {
-        const double p = tangent[c] - 0.5 * (1 + pair.ez) * normal_speed * k[c];
-        v1[c] += p, v2[c] -= p;
-        s1[c] += moment[c] / GAS_INERTIA, s2[c] += moment[c] / GAS_INERTIA;
-    }
+    const double before = energy(gas, i) + energy(gas, j);
     ++gas->impacts;
-    return 0.25 * (1 - pair.ez * pair.ez) * normal_speed * normal_speed +
-           0.5 * tangent_mass * (1 - pair.ex * pair.ex) * sliding * sliding;
+    if (gas->law.table) {
+        restitute_body first = body_of(gas, i, -1, k), second = body_of(gas, j, 1, k);
+        restitute_table_collide(gas->law.table, NULL, &first, &second, NULL, NULL); /* they touch and approach */
+        take_back(gas, i, &first);
+        take_back(gas, j, &second);
+    } else
+        for (int c = 0; c < 3; ++c) {
+            const double p = 0.5 * (1 + gas->law.constant.ez) * dot(g, k) * k[c];
+            gas->v[i][c] -= p, gas->v[j][c] += p;
+        }
+    return before - energy(gas, i) - energy(gas, j);
 }
 
 void gas_step(struct gas *gas)

@@ -12,10 +12,12 @@
 
 #define GAS_INERTIA 0.4 /* q = J/(m R^2) of a solid sphere */
 
-/* What an impact gives back: by a table, or with table NULL the same pair always. */
+/* What an impact gives back: by a table for spheres of this radius and mass, or with table NULL the same ez always and
+ * no friction. */
 struct gas_law {
     const restitute_table *table;
     restitute_table_value constant;
+    double radius, mass; /* m, kg; not used without a table */
 };
 
 struct gas {
@@ -24,7 +26,7 @@ struct gas {
     double (*v)[3]; /* velocities */
     double (*s)[3]; /* R times the spins */
     double time;
-    double cost; /* energy that the impacts took, as their pairs say */
+    double cost; /* energy that the impacts took */
     uint64_t random, impacts;
 };
 

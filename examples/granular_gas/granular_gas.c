@@ -35,25 +35,29 @@ struct record {
 struct course {
     struct record record[MOST_RECORDS];
     int count;
-    double energy_error; /* relative: what the impacts' pairs do not account for */
+    double energy_error; /* relative: what the impacts do not account for */
     double spin;         /* median of R times the spin over that of the speed */
 };
 
 /* ------------------------------------------------------------------------------------------------------ one gas */
 
+static double sphere_mass(void)
+{
+    return 4.0 / 3 * acos(-1.0) * DENSITY * RADIUS * RADIUS * RADIUS;
+}
+
 static int build_table(const struct experiment *e, restitute_table **table, restitute_error *error)
 {
     restitute_scene scene;
-    restitute_table_family family;
+    restitute_table_options options;
     restitute_scene_init(&scene);
     scene.material = e->material, scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM, scene.friction = e->friction;
     scene.radius1 = scene.radius2 = RADIUS;
-    scene.mass1 = scene.mass2 = 4.0 / 3 * acos(-1.0) * DENSITY * RADIUS * RADIUS * RADIUS;
-    restitute_table_family_init(&family);
-    family.scene = &scene;
+    scene.mass1 = scene.mass2 = sphere_mass();
+    restitute_table_options_init(&options);
     /* from a tenth of the last speed to ten times the first: few impacts are slower or faster */
-    family.speed[0] = 0.1 * e->speed * sqrt(e->end), family.speed[1] = 10 * e->speed;
-    return restitute_table_build(&family, NULL, table, error);
+    options.speed[0] = 0.1 * e->speed * sqrt(e->end), options.speed[1] = 10 * e->speed;
+    return restitute_table_build(&scene, &options, table, error);
 }
 
 static struct record take(const struct gas *gas, const struct record *last, int theory)
@@ -97,7 +101,7 @@ static int run(const struct experiment *e, size_t spheres, struct course *course
     struct gas gas;
     int status = e->material ? build_table(e, &table, error) : 0;
     if (status < 0) return status;
-    const struct gas_law law = {table, {e->ez, -1}};
+    const struct gas_law law = {table, {e->ez, -1}, RADIUS, sphere_mass()};
     const double temperature = e->speed * e->speed; /* mass 1; spins that matter start in equipartition */
     if (gas_create(&gas, &law, spheres, temperature, e->friction > 0 ? temperature : 0, 2017)) {
         snprintf(error->message, sizeof error->message, "out of memory");

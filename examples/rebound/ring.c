@@ -44,15 +44,15 @@ static int build_table(restitute_table **table, restitute_error *error)
 {
     restitute_material *ice = NULL;
     restitute_scene scene;
-    restitute_table_family family;
+    restitute_table_options options;
     /* E = 9 GPa; a viscosity that makes ez fall to 0.6 at some mm/s, as frosty ice does */
     int status = restitute_material_kelvin_voigt(3.4e9, 1e7, 0.33, &ice, error);
     restitute_scene_init(&scene);
     scene.material = ice, scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
     scene.radius1 = scene.radius2 = RADIUS, scene.mass1 = scene.mass2 = boulder_mass();
-    restitute_table_family_init(&family);
-    family.scene = &scene, family.speed[0] = 1e-7, family.speed[1] = 1; /* m/s */
-    if (status >= 0) status = restitute_table_build(&family, NULL, table, error);
+    restitute_table_options_init(&options);
+    options.speed[0] = 1e-7, options.speed[1] = 1; /* m/s */
+    if (status >= 0) status = restitute_table_build(&scene, &options, table, error);
     restitute_material_destroy(ice); /* the table does not need it any more */
     return status;
 }

@@ -25,15 +25,22 @@
  *
  *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
  *
- *  Schema 3. Attributes of the root: `kind` ("contact" or "ranges"), `restitute_version`, `tolerance`, `error_ez`,
- *  `error_ex` (verified), `impacts`, `checks`, and the members of @ref restitute_table_data of the same names. Datasets, each with
- *  attributes `units` and `description`: `speed` or `delta1`, `gamma`, `chi`, `psi` (1 + y beyond psi = 1) along the axes; `ez` [speed][gamma];
- *  `ex` [speed][gamma][psi][chi]; `relaxation_time`, `modulus` of the material.
+ *  Schema 4. Attributes of the root: the range of speeds `low` and `high`; `tolerance`, `error_ez`, `error_ex`, `impacts`,
+ *  `checks`, `restitute_version`; the contact: `chi`, `gamma`, `delta1`, `psi_factor`, `duration`, `friction`, `radius`, `mass`,
+ *  `poisson_ratio`, `equilibrium_modulus`, `parallel_viscosity`; the limits `speed_limit`, `radius_limit`, `displacement_limit`; the
+ *  numbers `speeds`, `stick_cells`, `slip_cells`, `terms`. Datasets of doubles, each with attributes `units` and `description`:
  *
- *  A table with axes of delta1 and gamma (`cells` > 0) has instead `leaves` [cells][7], `rebound_leaves` [rebound_cells][7], `chain`,
- *  `functions` [coefficient][4], `ez` [rebound_cells][17], and `ex` [cells][coefficient] in single precision.
+ *      speed [speeds]                                        nodes, m/s, ascending; two that are equal are a seam
+ *      ez [speeds][2]                                        ez, d ez/ds
+ *      ex [speeds][stick_cells + 1 + slip_cells + 1][4]      g, dg/ds, dg/dp, d2g/ds dp
+ *      strain [speeds][3]                                    v/c_s, a_max/R, d_max/a_max
+ *      relaxation_time [terms], modulus [terms]              of the material, s and Pa
  *
- *  Files of schemas 1 and 2 are read, but for tables with axes of delta1 and gamma and for unfinished ones.
+ *  s(v) is log2(v) within 7e-7. p counts the cells of psi: psi = p/stick_cells, then t = p/slip_cells with
+ *  t(y) = 1/2 + (sqrt(y + c^2) - sqrt(1 - y + c^2))/(2 (sqrt(1 + c^2) - c)), c = 0.02, y = (psi - 1)/(psi_c - 1). g is ex up to psi = 1, and
+ *  psi ex - y ez beyond. Between nodes ez and g are Hermite's cubics: examples/tables/read_table.py.
+ *
+ *  Files of schemas 1 to 3 are refused: their tables were of other kinds.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -58,19 +65,6 @@ RESTITUTE_API int restitute_table_write(const restitute_table *table, const char
  *  @return OK; ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT (damaged, cut, of another schema, or no table at all); ERROR_NULL,
  *          ERROR_MEMORY */
 RESTITUTE_API int restitute_table_read(const char *path, restitute_table **table, restitute_error *error);
-
-/** Write what a builder has solved, to go on from later.
- *
- *  @param settings  a line of your own that names family and options; only a builder with the same line may go on
- *  @return as @ref restitute_table_write */
-RESTITUTE_API int restitute_table_builder_write(const restitute_table_builder *builder, const char *settings,
-                                                const char *path, restitute_error *error);
-
-/** Give a new builder what another one wrote, see @ref restitute_table_builder_restore.
- *
- *  @return ERROR_DOMAIN if the file is for other settings; else as @ref restitute_table_read */
-RESTITUTE_API int restitute_table_builder_read(restitute_table_builder *builder, const char *settings, const char *path,
-                                               restitute_error *error);
 
 #ifdef __cplusplus
 }

@@ -171,6 +171,21 @@ static void plot_levels(FILE *commands, size_t panel, const struct heights *h)
                 panel, 1e-3 * interval);
 }
 
+static void plot_title(FILE *commands, const struct series *s)
+{
+    if (!*s->name) return;
+    fputs(" title ", commands);
+    gnuplot_string(commands, s->name);
+}
+
+static void plot_shade(FILE *commands, const char *data, const struct series *s, double top, bool named)
+{
+    static const unsigned colours[] = {0x777777, 0xb03030, 0xc08020, 0x3b518b};
+    fprintf(commands, "%s using 1:2 with filledcurves y=%g fillstyle transparent solid 0.22 noborder linecolor rgb '#%06x'",
+            data, top, colours[s->style % 4]);
+    if (named) plot_title(commands, s);
+}
+
 static void plot_series(FILE *commands, const char *data, const struct series *s, size_t styles, bool named)
 {
     static const char *const kinds[] = {
@@ -184,9 +199,7 @@ static void plot_series(FILE *commands, const char *data, const struct series *s
     if (s->mark == MARK_POINTS || s->mark == MARK_BOTH)
         fprintf(commands, " pointtype %d pointsize %g", s->mark == MARK_BOTH ? 7 : points[s->style % 7],
                 s->mark == MARK_BOTH ? 0.35 : 0.5);
-    if (!named || !*s->name) return;
-    fputs(" title ", commands);
-    gnuplot_string(commands, s->name);
+    if (named) plot_title(commands, s);
 }
 
 static void range(FILE *commands, char axis, const double ends[2], bool logarithmic)
@@ -249,7 +262,10 @@ static void plot_panel(FILE *commands, const struct chart *chart, size_t index)
         char data[48];
         snprintf(data, sizeof data, "$s%zu_%zu", index, k);
         fputs(separator, commands);
-        plot_series(commands, data, &p->series[k], styles, key);
+        if (p->series[k].mark == MARK_ABOVE)
+            plot_shade(commands, data, &p->series[k], p->yrange[1], key);
+        else
+            plot_series(commands, data, &p->series[k], styles, key);
     }
     plot_levels(commands, index, h);
     fputs("\nunset label\nset key notitle\n", commands);

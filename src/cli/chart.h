@@ -8,9 +8,9 @@
 
 #include "options.h"
 
-enum mark { MARK_LINE, MARK_POINTS, MARK_BOTH, MARK_LIMIT };
+enum mark { MARK_LINE, MARK_POINTS, MARK_BOTH, MARK_LIMIT, MARK_ABOVE };
 
-/* A curve or points. LIMIT: a thick dark line across the others. */
+/* A curve or points. LIMIT: a thick dark line across the others. ABOVE: all above it is shaded, up to the end of the axis. */
 struct series {
     char name[48]; /* in the key; empty: not there */
     enum mark mark;

@@ -8,7 +8,7 @@
 int table_main(int count, char **arguments)
 {
     static int (*const actions[TABLE_ACTIONS])(const struct table_settings *) = {table_build_run, table_info_run,
-                                                                                 table_query_run, table_export_run};
+                                                                                 table_query_run};
     struct table_settings settings;
     const enum table_reading reading = table_options_read(count, arguments, &settings);
     const int status = reading == TABLE_GO_ON  ? actions[settings.action](&settings)

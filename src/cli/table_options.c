@@ -10,13 +10,13 @@
 #include "output.h"
 #include "table_settings.h"
 
-enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED };
+enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_BLOCKED };
 
-const char *const table_text_names[TABLE_TEXTS] = {
-    "material",         "partner", "speed",     "chi",     "delta1",      "gamma",  "psi",   "normal-speed",
-    "tangential-speed", "input",   "tolerance", "threads", "max-impacts", "format", "output"};
+const char *const table_text_names[TABLE_TEXTS] = {"material", "partner",   "speed",   "normal-speed", "tangential-speed",
+                                                   "input",    "tolerance", "threads", "max-impacts",  "format",
+                                                   "output",   "figure"};
 
-static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query", "export"};
+static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query"};
 
 #define ENTRY(name, code, argument, help)                                                                              \
     {                                                                                                                  \
@@ -31,62 +31,44 @@ static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query"
 
 static const struct poptOption build_options[] = {
     TEXT(TABLE_OUTPUT, "FILE", "the table, an HDF5 file; required"),
-    TEXT(TABLE_MATERIAL, "FILE", "of one contact: what deforms, a material file, .json, or .csv with tau_s,G_Pa"),
+    TEXT(TABLE_MATERIAL, "FILE", "what deforms, a material file, .json, or .csv with tau_s,G_Pa"),
     TEXT(TABLE_PARTNER, "rigid|same|FILE",
          "one of the two bodies deforms (default), both do, or the partner's material"),
     FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"),
     TEXT(TABLE_SPEED, "FROM:TO", "normal speeds, m/s; default 1e-4:100"),
-    TEXT(TABLE_CHI, "FROM[:TO]", "of ranges: (1-nu)/(2-nu) (1 + m R^2/J), in [1/3, 1000]; default 7/6"),
-    TEXT(TABLE_DELTA1, "FROM[:TO]", "in (0, 1e6], or 0: elastic; default 1e-3:100"),
-    TEXT(TABLE_GAMMA, "FROM[:TO]", "in (0, 1e6], or 0: Kelvin-Voigt, or inf: elastic; default 1"),
     TEXT(TABLE_TOLERANCE, "ERROR", "largest error of ez and ex, in [1e-7, 0.1]; default 1e-5"),
     TEXT(TABLE_THREADS, "N", "solve by so many threads, 1 to 1024; default all processors"),
-    TEXT(TABLE_MAX_IMPACTS, "N", "most impacts to be solved; default 2e7"),
-    FLAG("resume", CODE_RESUME, "continue an interrupted build from FILE.partial"),
+    TEXT(TABLE_MAX_IMPACTS, "N", "most impacts to be solved; default 60000"),
+    TEXT(TABLE_FIGURE, "FILE.svg|png|pdf", "draw ez and ex too, shaded where the model's limits are passed; needs gnuplot"),
     HELP};
 
 static const struct poptOption info_options[] = {TEXT(TABLE_FORMAT, "text|json", "default text"), HELP};
 
 static const struct poptOption query_options[] = {
-    TEXT(TABLE_NORMAL_SPEED, "V", "of the table of a contact: normal speed, m/s, >= 0"),
+    TEXT(TABLE_NORMAL_SPEED, "V", "normal speed, m/s, >= 0; required"),
     TEXT(TABLE_TANGENTIAL_SPEED, "U", "sliding speed of the contact point, spin included, m/s; default 0"),
-    TEXT(TABLE_CHI, "CHI", "of a table of ranges; default the lowest of the table"),
-    TEXT(TABLE_PSI, "PSI", ">= 0; required"),
-    TEXT(TABLE_DELTA1, "DELTA1", ">= 0; default the lowest of the table"),
-    TEXT(TABLE_GAMMA, "GAMMA", ">= 0; default the lowest of the table"),
-    TEXT(TABLE_INPUT, "CASES.csv", "many: columns normal_speed_m_s,tangential_speed_m_s, or chi,psi,delta1,gamma"),
+    TEXT(TABLE_INPUT, "CASES.csv", "many: columns normal_speed_m_s,tangential_speed_m_s"),
     TEXT(TABLE_FORMAT, "text|csv", "default text; with --input csv"),
     TEXT(TABLE_OUTPUT, "FILE", "write here and not to standard output"),
     HELP};
 
-static const struct poptOption export_options[] = {
-    TEXT(TABLE_OUTPUT, "FILE.csv", "write here and not to standard output"), HELP};
-
-static const struct poptOption *const options[TABLE_ACTIONS] = {build_options, info_options, query_options,
-                                                                export_options};
+static const struct poptOption *const options[TABLE_ACTIONS] = {build_options, info_options, query_options};
 
 static const char usage[] =
     "Usage: restitute table build --output FILE [OPTION...]   build a table of restitution pairs (ez, ex)\n"
     "       restitute table info FILE                         what a table is, and its verified error\n"
     "       restitute table query FILE [OPTION...]            look up one pair or many\n"
-    "       restitute table export FILE [OPTION...]           all its values as CSV\n"
     "       restitute table build --help, and likewise for the others\n";
 
 static const char *const footers[TABLE_ACTIONS] = {
-    "\nOne contact, or ranges of the dimensionless numbers:\n"
-    "  restitute table build --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
+    "\n  restitute table build --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
     "      --speed 1e-3:10 --output pib.h5\n"
-    "  restitute table build --delta1 1e-3:100 --gamma 1e-3:1000 --chi 2/3:7/4 --tolerance 1e-4 --output all.h5\n"
     "\nThe errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not reached (the "
     "table is\n"
-    "written, with its errors), 2 bad usage, nothing written, 130 interrupted.\n",
+    "written, with its errors), 2 bad usage, nothing written.\n",
     "\nExit status: 0 done, 2 no such table, or damaged.\n",
     "\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
-    "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n",
-    "\nColumns: the first axis (speed_m_s or delta1), gamma, chi, psi, ez, ex; a row a node, as it is kept: those "
-    "beyond\n"
-    "the range asked for, up to the next seams, too.\n"
-    "Exit status: 0 done, 2 bad usage or input, nothing written.\n"};
+    "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n"};
 
 /* Fields of a contact: all of the scene but its speeds. */
 static bool of_contact(enum field field)
@@ -129,9 +111,7 @@ static bool keep(char **place, const char *name, char *text, struct reason *why)
 
 static bool take(poptContext context, int code, struct table_settings *s, struct reason *why)
 {
-    if (code == CODE_RESUME)
-        s->resume = true;
-    else if (code == CODE_BLOCKED)
+    if (code == CODE_BLOCKED)
         s->values.rotation_blocked = 1;
     else if (code >= CODE_TEXT)
         return keep(&s->text[code - CODE_TEXT], table_text_names[code - CODE_TEXT], poptGetOptArg(context), why);
@@ -186,9 +166,9 @@ static enum table_reading find_action(int count, char **arguments, enum table_ac
         return TABLE_STOP;
     }
     if (*word)
-        complain("table: unknown action \"%.64s\": must be build, info, query or export", word);
+        complain("table: unknown action \"%.64s\": must be build, info or query", word);
     else
-        complain("table: an action is missing: build, info, query or export; see restitute table --help");
+        complain("table: an action is missing: build, info or query; see restitute table --help");
     return TABLE_FAILED;
 }
 

@@ -7,16 +7,12 @@
 
 #include "problem.h"
 
-enum table_action { TABLE_BUILD, TABLE_INFO, TABLE_QUERY, TABLE_EXPORT, TABLE_ACTIONS };
+enum table_action { TABLE_BUILD, TABLE_INFO, TABLE_QUERY, TABLE_ACTIONS };
 
 enum table_text {
     TABLE_MATERIAL,
     TABLE_PARTNER,
     TABLE_SPEED,
-    TABLE_CHI,
-    TABLE_DELTA1,
-    TABLE_GAMMA,
-    TABLE_PSI,
     TABLE_NORMAL_SPEED,
     TABLE_TANGENTIAL_SPEED,
     TABLE_INPUT,
@@ -25,6 +21,7 @@ enum table_text {
     TABLE_MAX_IMPACTS,
     TABLE_FORMAT,
     TABLE_OUTPUT,
+    TABLE_FIGURE,
     TABLE_TEXTS
 };
 
@@ -36,7 +33,6 @@ struct table_settings {
     char *field[FIELD_COUNT]; /* of the contact, likewise */
     char *file;               /* the table that is read */
     struct values values;     /* of the contact */
-    bool resume;
     int argument_count;
     const char *const *arguments;
 };
@@ -55,6 +51,12 @@ bool table_number(const struct table_settings *settings, enum table_text option,
 int table_build_run(const struct table_settings *settings);
 int table_info_run(const struct table_settings *settings);
 int table_query_run(const struct table_settings *settings);
-int table_export_run(const struct table_settings *settings);
+
+/* Draw e_z(v) and e_x(v, angle) of a table, with what passes the limits of the model shaded. */
+bool table_figure(const restitute_table *table, const struct table_settings *settings, const char *path,
+                  struct reason *why);
+
+/* How far the model holds, for a message or a listing: text of at most `size` characters. */
+void table_limits(const restitute_table_info *info, char *text, size_t size);
 
 #endif

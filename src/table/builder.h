@@ -1,124 +1,121 @@
-/* The build of a table, as a machine that can stop after any impact.
+/* The build of a table.
  *
- *   probing    lines of impacts along every axis, at the middle and at the corners of the others, tell how many
- * Chebyshev
- *              points each axis needs; a line that is not resolved is doubled
- *   filling    impacts at all products of these points
- *   checking   the table is made from them, finer and with local polynomials (table_form.h), and compared with impacts
- *              half way between the points in all axes, and in the middles of some of its cells; if the difference is
- * too large: panels are halved or get more points,
- *              and what is not yet known is filled in
+ *   start     a few columns over the speeds; a seam where rebound begins
+ *   refine    a new column halves every cell whose cubics miss it; both panels of psi are doubled where columns say so
+ *   verify    the table is compared with impacts at other places; where it misses, refine again
  *
- * Every stage has two parts: first the impacts with psi <= 1, then those beyond, whose places depend on e_z through
- * psi_c. All impacts that were solved are kept in the order in which they were asked for, which depends on nothing but
- * the family and the options; a build goes on from them when it is resumed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_BUILDER_H
 #define RST_TABLE_BUILDER_H
 
-#include "family.h"
+#include "column.h"
 
-enum rst_axis { RST_SPEED, RST_GAMMA, RST_CHI, RST_STICK, RST_SLIP, rst_axes };
-enum rst_stage { RST_PROBING, RST_FILLING, RST_CHECKING, RST_FINISHED };
+/* Constants of the build, measured with the target table-campaign (docs/table.md). */
 
-enum { rst_most_points = 1025, rst_most_panels = 128, rst_most_cell_checks = 24 };
+/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are
+ * a quarter of the estimates. */
+static const double rst_part_for_nodes = 0.2;
+/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved
+ * before what that brought is known; kinks have up to 1/2. */
+static const double rst_gain = 0.1, rst_least_gain = 0.06, rst_most_gain = 0.5;
+/* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
+static const double rst_part_of_axis = 0.35;
+/* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
+static const double rst_margin = 1.7;
+/* Cells that miss more than this part of the worst are compared again at other places, twice. */
+static const double rst_look_again = 0.3;
+/* Cells are not narrower than this, in s. */
+static const double rst_narrowest = 0x1p-10;
+/* What refinement leaves of the impacts for the checks. */
+static const double rst_for_refining = 0.8;
+/* Cells whose error is within this factor of the largest are halved together. */
+static const double rst_together = 8;
 
-/* An axis in [0, 1], cut at its edges; each panel has n points, those at seams shared. */
-struct rst_panels {
-    int count;
-    double edge[rst_most_panels + 1];
-    int64_t n[rst_most_panels];
+struct rst_column {
+    double speed, at; /* m/s; s */
+    struct rst_column_normal normal;
+    double *g;       /* at all places of psi */
+    double solver;   /* largest estimated error of ex */
+    int64_t levels;  /* most that an impact took */
+    /* of the cell above: */
+    double missed;   /* by how much its parent missed this or the next column */
+    double by_speed; /* its estimated error */
+    double checked[2]; /* differences in ez and ex of the last check; negative: none yet */
 };
 
-void rst_panels_one(int64_t n, struct rst_panels *p);
-int64_t rst_panels_points(const struct rst_panels *p);
-void rst_panels_nodes(const struct rst_panels *p, double *x);
-int64_t rst_panels_half_ways(const struct rst_panels *p, double *x);
-int rst_panels_find(const struct rst_panels *p, double x);
-void rst_panels_rows(const struct rst_panels *p, int64_t m, const double *place, double *row);
-void rst_panels_last(const struct rst_panels *p, int panel, double *row);
-int rst_panels_halve(struct rst_panels *p, int panel);
-
-/* Where an impact is: places in [0, 1] along the axes, of which one of RST_STICK and RST_SLIP counts. */
-struct rst_point {
-    double u[3];
-    double s;       /* psi, or the place t with y = (1 - cos(pi t))/2 */
-    int64_t column; /* of a slip point: the point whose ez gives its psi_c; -1: the table does */
-    int64_t slot;   /* cells.h: which node or check; u and s are the numbers themselves */
-    int later; /* solved in the second part of a stage: it slips and needs an ez */
-    int known; /* solved in an earlier round */
+/* A column to be solved. */
+struct rst_task {
+    struct rst_column column;
+    int64_t old_stick, old_slip; /* cells of the values that `old` has; 0: none */
+    const double *old;
+    int may_fail; /* with TOO_MUCH_WORK: its status tells */
+    int status;
+    restitute_error why;
 };
 
-/* What came of it. */
-struct rst_solved { /* as in the journal */
-    double ez, ex, error_ez, error_ex;
-};
-
-/* Results of earlier rounds, found again by their places. */
-struct rst_memo {
-    struct rst_memory *slot;
-    int64_t size, used; /* size: a power of 2, or 0 */
-};
-
-/* Nonzero: out of memory (memo.c). */
-int rst_memo_add(struct rst_memo *memo, int stage, const struct rst_point *p, const struct rst_solved *s);
-int rst_memo_find(const struct rst_memo *memo, int stage, const struct rst_point *p, struct rst_solved *s);
-void rst_memo_clear(struct rst_memo *memo);
-
-struct restitute_table_builder {
-    struct rst_family family;
+struct rst_builder {
+    struct rst_contact contact;
     restitute_table_options options;
-    double low[3], high[3]; /* of the axes, outwards to seams of cells; logarithms for speed and gamma */
-    double seam_low[2], seam_high[2];
-    int active[rst_axes]; /* nonzero: more than one node */
-    int64_t n[rst_axes];  /* points */
-    struct rst_panels panels[rst_axes];
-    int64_t probe[rst_axes];
-    int begun; /* 0: a call failed, and the next one begins anew from the journal */
-    enum rst_stage stage;
-    int part, rounds, stagnant; /* stagnant: rounds on end that brought little */
-
-    struct rst_point *point;
-    struct rst_solved *solved;
-    int64_t points, capacity, next; /* next: point to be solved */
-
-    struct rst_solved *journal;
-    int64_t journal_count, journal_capacity, used;
-
-    restitute_table *draft;
-    double tail[rst_axes];                 /* size of the last coefficients of the last filling */
-    double panel_tail[2][rst_most_panels]; /* the same for panels of speed and gamma */
-    int failing[2][rst_most_panels];       /* panels in which a check failed */
-    double filling_tolerance, later_tolerance; /* of the first part, and of the second */
-    struct rst_memo memo;
-    struct rst_cells *cells; /* NULL: no table of trees */
-    double worst_ez, worst_ex;
+    struct rst_column *column;
+    int64_t columns, room;
+    int64_t stick, slip; /* cells of psi */
+    struct rst_column_solver *solver; /* one a thread */
+    int threads;
+    int64_t impacts, checks;
+    double error_ez, error_ex; /* of the last verification */
+    double by_psi[2];          /* by how much panels miss at least, from checks */
 };
 
-/* Coordinate [0, 1] -> number along speed, gamma or chi. */
-double rst_builder_number(const struct restitute_table_builder *b, enum rst_axis axis, double u);
+/* A column that takes more levels is costly, as where a sphere hardly rebounds: cells between two of them are left as they
+ * are, and they call for no cells of psi. Usual ones take 400 levels at 1e-5, and as the third root of 1/tolerance. */
+static inline int rst_is_costly(const struct rst_builder *b, const struct rst_column *c)
+{
+    return (double)c->levels > 1200 * cbrt(1e-5 / b->options.tolerance);
+}
 
-double rst_y_of_t(double t);
+static inline int64_t rst_builder_places(const struct rst_builder *b)
+{
+    return b->stick + b->slip + 2;
+}
 
-/* t with y = (1 - cos(pi t))/2 where r(y), or turned r(1 - y), is r (draft.c). */
-double rst_t_of_root(double r, int turned);
+/* psi at a place of a column, and how many places are solved for (solve.c). */
+double rst_psi_at(const struct rst_builder *b, int64_t place, double ez);
 
-/* Append a point to be solved (plan.c), or forget all points; nonzero: out of memory. */
-int rst_plan_add(struct restitute_table_builder *b, struct rst_point point);
-void rst_plan_begin(struct restitute_table_builder *b);
+/* Solve tasks; their columns get values. Fewer impacts are left then. */
+int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
-/* Points of a stage (plan.c); nonzero: out of memory. */
-int rst_plan_probes(struct restitute_table_builder *b);
-int rst_plan_filling(struct restitute_table_builder *b);
-int rst_plan_checks(struct restitute_table_builder *b);
+/* Impacts of n columns. */
+int64_t rst_cost(const struct rst_builder *b, int64_t n);
 
-/* Orders from the probes; nonzero if all lines are resolved, else those that are not are doubled (plan.c). */
-int rst_read_probes(struct restitute_table_builder *b, int *resolved);
+/* Put solved columns in their places; on failure they are released. */
+int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
-/* The table from the filling (draft.c). */
-int rst_make_draft(struct restitute_table_builder *b, restitute_error *error);
+/* Weights of five neighbouring nodes for a derivative (refine.c). */
+struct rst_stencil {
+    int64_t first;
+    int n;
+    double w[5];
+};
+void rst_stencil_at(const double *at, int64_t low, int64_t high, int64_t i, struct rst_stencil *s);
 
-/* ex of full slip (27), and psi at a slip point. */
-double rst_full_slip(double chi, double ez, double psi);
+/* Start, seams and refinement; open cells only. OK also if impacts run out. */
+int rst_refine(struct rst_builder *b, restitute_error *error);
+
+/* Twice the cells of psi of a panel: 0 stick, 1 slip. */
+int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error);
+
+/* By how much the cubics of a column may miss in a panel. */
+double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, int panel);
+
+/* The table of the columns (make.c). */
+int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error);
+
+/* Compare cells that were not compared yet with fresh impacts; set the errors, and what missed (verify.c). */
+int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
+
+/* One table; the scene and options are checked (builder.c). */
+int rst_build(const restitute_scene *scene, const restitute_table_options *options, int threads,
+              restitute_table **table, restitute_error *error);
+int rst_check_options(const restitute_table_options *options, restitute_error *error);
 
 #endif

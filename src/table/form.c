@@ -1,264 +1,150 @@
-/* Nodes of a table and its room.
+/* Making a table from its numbers: one block of memory, checked.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "form.h"
+
 #include <stdlib.h>
 
-#include "table_form.h"
+static const int64_t most_terms = 1000000;
 
-void rst_octaves_set(double low, double high, int k, struct rst_octaves *axis)
+static int refuse(restitute_error *error, const char *name)
 {
-    int64_t first, last;
-    *axis = (struct rst_octaves){.low = low,
-                                 .high = low,
-                                 .shift = 52 - k,
-                                 .mask = (INT64_C(1) << (52 - k)) - 1,
-                                 .scale = ldexp(rst_cubic, k - 52)};
-    if (!(low < high)) return;
-    memcpy(&first, &low, sizeof first);
-    memcpy(&last, &high, sizeof last);
-    axis->high = nextafter(high, low);
-    axis->first = first >> axis->shift;
-    axis->cells = (last >> axis->shift) - axis->first;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s: a value that no table has", name);
 }
 
-void rst_octaves_limit(double low, double high, struct rst_octaves *axis)
+static int in_range(const double *value, int64_t n, double low, double high)
 {
-    if (axis->cells == 0) return;
-    if (low > axis->low) axis->low = low;
-    if (high < axis->high) axis->high = high;
+    for (int64_t i = 0; i < n; i++)
+        if (!(value[i] >= low && value[i] <= high)) return 0;
+    return 1;
 }
 
-double rst_octaves_node(const struct rst_octaves *axis, int64_t i)
+static int check_counts(const struct rst_table_data *d, restitute_error *error)
 {
-    if (axis->cells == 0) return axis->low;
-    double start, end;
-    const int64_t bits = (axis->first + i / rst_cubic) << axis->shift;
-    const int64_t next = (axis->first + i / rst_cubic + 1) << axis->shift;
-    memcpy(&start, &bits, sizeof start);
-    memcpy(&end, &next, sizeof end);
-    return start + (end - start) * (double)(i % rst_cubic) / rst_cubic;
+    if (d->speeds < 2 || d->speeds > rst_most_speeds) return refuse(error, "speeds");
+    if (d->stick_cells < 1 || d->stick_cells > rst_most_cells) return refuse(error, "stick_cells");
+    if (d->slip_cells < 1 || d->slip_cells > rst_most_cells) return refuse(error, "slip_cells");
+    if (d->terms < 0 || d->terms > most_terms) return refuse(error, "terms");
+    if (!(d->chi >= rst_chi_range[0] && d->chi <= rst_chi_range[1])) return refuse(error, "chi");
+    if (!(d->psi_factor >= 0)) return refuse(error, "psi_factor");
+    if (!(d->low >= rst_sizes.low && d->high <= rst_largest_speed && d->low <= d->high)) return refuse(error, "range");
+    return RESTITUTE_OK;
 }
 
-double rst_slip_node(int64_t cells, int64_t i)
+/* Slopes may be steep, but nothing may overflow or be NaN. */
+static int check_values(const struct rst_table_data *d, restitute_error *error)
 {
-    return (double)i / (double)(cells * rst_cubic) * rst_largest_r;
+    const double steep = 1e6;
+    const int64_t n = d->speeds;
+    if (!in_range(d->speed, n, rst_sizes.low, rst_largest_speed)) return refuse(error, "speed");
+    for (int64_t i = 0; i + 1 < n; i++)
+        if (d->speed[i] > d->speed[i + 1]) return refuse(error, "speed");
+    if (d->speed[0] > d->low || d->speed[n - 1] < d->high || !(d->speed[0] < d->speed[n - 1]))
+        return refuse(error, "speed");
+    if (!in_range(d->ez, 2 * n, -steep, steep)) return refuse(error, "ez");
+    if (!in_range(d->ex, 4 * n * rst_places(d), -steep, steep)) return refuse(error, "ex");
+    if (!in_range(d->strain, 3 * n, 0, INFINITY)) return refuse(error, "strain");
+    return RESTITUTE_OK;
 }
 
-double rst_slip_y(double r)
+/* Number of bins: one for the narrowest cell, so that few have more than one edge in them. */
+static int count_bins(const struct rst_table_data *d)
 {
-    return fmin(0.5, r * (r + 2 * rst_soft));
-}
-
-/* Places are kept by 2^-42 of a cell behind the start of the first one and before the end of the last one, so that no
- * rounding, in whatever direction, leads beyond. y = 1 leads to the same place as y = 0, since total - square is soft
- * without rounding. */
-static void set_psi_cells(restitute_table *form)
-{
-    const double begin = rst_cells_begin + 0x1p-42, less = 0x1p-40;
-    const double of_root = fmax((double)form->slip_cells - less, 0) / rst_largest_r, square = of_root * of_root;
-    const double total = square + rst_soft * rst_soft * square, soft = total - square;
-    form->psi_cells[0] = (struct rst_psi_cells){
-        .of_psi = fmax((double)form->stick_cells - less, 0), .begin = begin, .open = 1};
-    form->psi_cells[1] = (struct rst_psi_cells){.square = rst_two_of(square),
-                                                .soft = rst_two_of(soft),
-                                                .total = rst_two_of(total),
-                                                .of_root = of_root,
-                                                .begin = begin - sqrt(soft),
-                                                .closed = 1,
-                                                .small = rst_small};
-    form->share = square > 0 ? rst_small * ((2 * form->chi_low - 1) / square) : 0;
-    form->limit = 4 * square;
-}
-
-void rst_table_count(restitute_table *form)
-{
-    form->n_speed = form->speed.cells * rst_cubic + 1;
-    form->n_gamma = form->gamma.cells * rst_cubic + 1;
-    if (form->n_cells > 0) {
-        form->n_speed = form->n_cells;
-        form->n_chi = form->chi_low < form->chi_high ? rst_places : 1;
-        form->n_psi = rst_places;
-        rst_serendipity_set((int[rst_cell_axes]){[RST_W] = 1, [RST_G] = 1}, &form->of_ez);
-        rst_serendipity_set((int[rst_cell_axes]){1, 1, [RST_C] = form->n_chi > 1, [RST_P] = 1}, &form->of_ex);
-        form->n_gamma = form->of_ex.count;
-        return;
+    const double all = rst_axis_place(d->speed[d->speeds - 1], NULL) - rst_axis_place(d->speed[0], NULL);
+    double narrowest = all;
+    for (int64_t i = 0; i + 1 < d->speeds; i++) {
+        const double width = rst_axis_place(d->speed[i + 1], NULL) - rst_axis_place(d->speed[i], NULL);
+        if (width > 0) narrowest = fmin(narrowest, width);
     }
-    form->n_chi = form->chi_cells * rst_cubic + 1;
-    form->start[0] = 0;
-    form->start[1] = form->stick_cells * rst_cubic + 1;
-    const int64_t half = form->slip_cells > 0 ? form->slip_cells * rst_cubic + 1 : 0;
-    form->start[2] = form->start[1] + half;
-    form->n_psi = form->start[2] + half;
-    form->two_axes = form->n_speed > 1 && form->n_gamma == 1 && form->n_chi == 1 && form->slip_cells > 0 &&
-                     form->chi_low > 0.5 && form->chi_low <= rst_most_chi_of_two_axes;
-    form->first_cell[0] = 0;
-    form->first_cell[1] = form->stick_cells;
-    form->first_cell[2] = form->stick_cells + form->slip_cells;
-    form->cells_of_psi = form->stick_cells + 2 * form->slip_cells;
-    set_psi_cells(form);
+    return (int)fmin(rst_most_bins, ceil(all / narrowest - 1e-6)); /* a whole number, but for rounding */
 }
 
-double rst_chi_node(const restitute_table *form, int64_t i)
+static void set_nodes(restitute_table *t)
 {
-    const int64_t last = form->chi_cells * rst_cubic;
-    if (i == last) return form->chi_high;
-    return form->chi_low + (form->chi_high - form->chi_low) * ((double)i / (double)last);
+    const int64_t n = t->d.speeds;
+    for (int64_t i = 0; i < n; i++) {
+        t->node[i].at = rst_axis_place(t->d.speed[i], NULL);
+        t->node[i].ez = t->d.ez[2 * i];
+        t->node[i].slope = t->d.ez[2 * i + 1];
+    }
+    for (int64_t i = 0; i + 1 < n; i++) {
+        const double width = t->node[i + 1].at - t->node[i].at;
+        t->node[i].inverse_width = width > 0 ? 1 / width : 0;
+    }
+    t->node[n - 1].inverse_width = 0;
+    t->end = nextafter(t->node[n - 1].at, -INFINITY); /* the highest speed belongs to the last cell */
 }
 
-double rst_table_h(double gamma)
+/* A bin begins a hair behind its place: edges of cells are on edges of bins, and few searches take a step. */
+static void set_bins(restitute_table *t, int bins)
 {
-    return pow(gamma, 0.56) * pow(1 + gamma, 0.44);
-}
-
-void rst_w_axis_logs(struct rst_w_axis *w)
-{
-    w->begin = (double)w->first - rst_roots_begin;
-    w->end = rst_roots_begin + (double)w->roots - 0x1p-40;
-    for (int i = 0; i < 5; i++)
-        w->series[i] = (i % 2 ? -1 : 1) * w->scale / ((i + 1) * log(2));
-    for (int i = 0; i < rst_log_parts; i++) {
-        const double middle = 1 + (i + 0.5) / rst_log_parts;
-        w->inverse[i] = 1 / middle;
-        w->log[i] = log2(middle) * w->scale;
+    const double hair = 1e-9, first = t->node[0].at, width = (t->end - first) / bins;
+    const int64_t last = t->d.speeds - 2;
+    int64_t cell = 0;
+    t->bins_per_s = 1 / width;
+    for (int i = 0; i <= bins; i++) {
+        while (cell < last && t->node[cell + 1].at <= first + ((double)i + hair) * width)
+            cell++;
+        t->bin[i] = (uint16_t)cell;
     }
 }
 
-void rst_w_axis_set(double low, double high, const struct rst_octaves *gamma, int64_t width, struct rst_w_axis *w)
+static char *place(char **next, const void *from, size_t bytes)
 {
-    const double end = rst_octaves_node(gamma, gamma->cells * rst_cubic), scale = ldexp(1, -(int)width);
-    const double first = log2(low * rst_table_h(rst_octaves_node(gamma, 0))) * scale;
-    const double last = log2(high * rst_table_h(end)) * scale;
-    *w = (struct rst_w_axis){.first = (int64_t)floor(first), .width = width, .scale = scale};
-    w->roots = (int64_t)floor(last) + 1 - w->first;
-    rst_w_axis_logs(w);
+    char *here = *next;
+    if (from && bytes > 0) memcpy(here, from, bytes);
+    *next += (bytes + 15) / 16 * 16;
+    return here;
 }
 
-/* Doubles that hold so many bytes. */
-static size_t doubles(size_t bytes)
+/* Nodes of ex lie side by side from a boundary of 16 bytes on. */
+static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
 {
-    return (bytes + sizeof(double) - 1) / sizeof(double);
+    const size_t n = (size_t)d->speeds, terms = (size_t)d->terms, size = sizeof(double);
+    char *next = (char *)t + (sizeof *t + 15) / 16 * 16;
+    t->d = *d;
+    t->d.ex = (double *)(void *)place(&next, d->ex, 4 * n * (size_t)rst_places(d) * size);
+    t->node = (struct rst_node *)(void *)place(&next, NULL, n * sizeof *t->node);
+    t->d.speed = (double *)(void *)place(&next, d->speed, n * size);
+    t->d.ez = (double *)(void *)place(&next, d->ez, 2 * n * size);
+    t->d.strain = (double *)(void *)place(&next, d->strain, 3 * n * size);
+    t->d.relaxation_time = (double *)(void *)place(&next, d->relaxation_time, terms * size);
+    t->d.modulus = (double *)(void *)place(&next, d->modulus, terms * size);
+    t->bin = (uint16_t *)(void *)place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
+    t->bytes = (size_t)(next - (char *)t);
+    t->share = fmax(0, 2 * d->chi - 1);
+    t->of_stick = (double)d->stick_cells;
+    t->of_slip = (double)d->slip_cells;
+    set_nodes(t);
+    set_bins(t, bins);
+    restitute_table_contact_init(&t->own);
+    t->own.speed_factor = 1;
+    t->own.psi_factor = d->psi_factor;
+    t->own.radius = d->radius;
+    t->own.mass = d->mass;
 }
 
-/* The cubic through four evenly spaced values, by powers of the place in [0, 1]. */
-static void set_cubic(const double y[4], double power[4])
+int restitute_private_table_make(const struct rst_table_data *data, restitute_table **table, restitute_error *error)
 {
-    const double first = 3 * (y[1] - y[0]), second = 4.5 * (y[2] - 2 * y[1] + y[0]);
-    const double third = 4.5 * ((y[3] - y[0]) - 3 * (y[2] - y[1]));
-    power[0] = y[0];
-    power[1] = first - second / 3 + third * 2 / 9;
-    power[2] = second - third;
-    power[3] = third;
+    int status = check_counts(data, error);
+    if (!status) status = check_values(data, error);
+    if (status) return status;
+    const int bins = count_bins(data);
+    const size_t n = (size_t)data->speeds, places = (size_t)rst_places(data);
+    const size_t bytes = sizeof **table + n * (4 * places * sizeof(double) + 6 * sizeof(double) + sizeof(struct rst_node)) +
+                         2 * (size_t)data->terms * sizeof(double) + ((size_t)bins + 1) * sizeof(uint16_t) + 10 * 16;
+    restitute_table *made = malloc(bytes);
+    if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    fill(made, data, bins);
+    *table = made;
+    return RESTITUTE_OK;
 }
 
-/* h in an octave of gamma. */
-static void set_h(const struct rst_octaves *gamma, int64_t octave, double h[4])
+const struct rst_table_data *restitute_private_table_data(const restitute_table *table)
 {
-    double y[4];
-    for (int i = 0; i < 4; i++)
-        y[i] = rst_table_h(rst_octaves_node(gamma, octave * rst_cubic + i));
-    set_cubic(y, h);
-}
-
-/* The same by powers of the place in [1, 2]. */
-static void set_shifted_cubic(const double y[4], double power[4])
-{
-    double a[4];
-    set_cubic(y, a);
-    power[0] = (a[0] - a[1]) + (a[2] - a[3]);
-    power[1] = (a[1] - 2 * a[2]) + 3 * a[3];
-    power[2] = a[2] - 3 * a[3];
-    power[3] = a[3];
-}
-
-/* A bicubic through four by four values, rows `stride` apart, of which `less` is taken away. */
-static void set_patch(const double *value, int64_t stride, const double less[4], double patch[4][4])
-{
-    double row[4][4];
-    for (int i = 0; i < 4; i++) {
-        set_shifted_cubic(value + i * stride, row[i]);
-        row[i][0] -= less[i];
-    }
-    for (int j = 0; j < 4; j++) {
-        double power[4];
-        set_shifted_cubic((double[]){row[0][j], row[1][j], row[2][j], row[3][j]}, power);
-        for (int i = 0; i < 4; i++)
-            patch[i][j] = power[i];
-    }
-}
-
-static void set_inverse(const double ez[4], double inverse[4])
-{
-    double power[4];
-    set_shifted_cubic((double[]){1 / (1 + ez[0]), 1 / (1 + ez[1]), 1 / (1 + ez[2]), 1 / (1 + ez[3])}, power);
-    memcpy(inverse, (double[]){power[0], power[2], power[1], power[3]}, sizeof power);
-}
-
-void rst_table_set_polynomials(restitute_table *t)
-{
-    const int64_t parts[3] = {t->stick_cells, t->slip_cells, t->slip_cells};
-    if (!t->two_axes) return;
-    t->low = rst_two_of(t->speed.low);
-    t->high = rst_two_of(t->speed.high);
-    for (int64_t i = 0; i < t->speed.cells; i++) {
-        const double *ez = t->ez + i * rst_cubic, *ex = t->ex + i * rst_cubic * t->n_psi;
-        double closed[2][4] = {{0}, {0}}; /* at psi = 1; beyond it that is taken away already */
-        for (int j = 0; j < 4; j++)
-            closed[0][j] = 2 * t->chi_low * (1 + ez[j]) - 1;
-        set_inverse(ez, t->inverse[i]);
-        for (int part = 0; part < 3; part++)
-            for (int64_t j = 0; j < parts[part]; j++)
-                set_patch(ex + t->start[part] + j * rst_cubic, t->n_psi, closed[part > 0],
-                          t->patch[i * t->cells_of_psi + t->first_cell[part] + j]);
-    }
-}
-
-/* Trees are planted already. The coefficients of ex begin at a line of memory: a leaf is then on no more lines than it
- * needs. */
-static restitute_table *allocate_cells(const restitute_table *form)
-{
-    const size_t n_ez = (size_t)form->rebound.leaves * rst_pair_functions, n_term = 2 * (size_t)form->terms;
-    const size_t n_ex = (size_t)form->n_cells * (size_t)form->n_gamma;
-    const size_t octaves = (size_t)form->gamma.cells, line = 64;
-    const size_t size = n_ez + n_term + 4 * octaves + doubles(n_ex * sizeof(float) + line);
-    restitute_table *table = malloc(sizeof *table + size * sizeof(double));
-    if (!table) return NULL;
-    *table = *form;
-    table->block_size = size;
-    table->ez = table->block;
-    table->term = table->ez + n_ez;
-    table->h = (double(*)[4])(void *)(table->term + n_term);
-    for (size_t i = 0; i < octaves; i++)
-        set_h(&form->gamma, (int64_t)i, table->h[i]);
-    char *free_room = (char *)(table->h + octaves);
-    table->ex_cells = (float *)(void *)(free_room + (line - (uintptr_t)free_room % line) % line);
-    table->ex = NULL;
-    return table;
-}
-
-restitute_table *rst_table_allocate(const restitute_table *form)
-{
-    if (form->n_cells > 0) return allocate_cells(form);
-    const size_t n_ez = (size_t)form->n_speed * (size_t)form->n_gamma, n_term = 2 * (size_t)form->terms;
-    const size_t n_ex = n_ez * (size_t)form->n_psi * (size_t)form->n_chi, line = 64;
-    const size_t n_speed = form->two_axes ? (size_t)form->speed.cells : 0;
-    const size_t n_patch = n_speed * (size_t)form->cells_of_psi * 16;
-    const size_t size = n_ez + n_term + n_ex + 4 * n_speed + n_patch + line / sizeof(double);
-    restitute_table *table = malloc(sizeof *table + size * sizeof(double));
-    if (!table) return NULL;
-    *table = *form;
-    table->block_size = size;
-    table->ez = table->block;
-    table->term = table->ez + n_ez;
-    table->ex = table->term + n_term;
-    table->inverse = (double(*)[4])(void *)(table->ex + n_ex);
-    char *free_room = (char *)(table->inverse + n_speed);
-    table->patch = (double(*)[4][4])(void *)(free_room + (line - (uintptr_t)free_room % line) % line);
-    return table;
+    return &table->d;
 }
 
 void restitute_table_destroy(restitute_table *table)
 {
-    if (!table) return;
-    rst_tree_fell(&table->rebound);
-    rst_tree_fell(&table->tangent);
     free(table);
 }

@@ -1,6 +1,8 @@
-/* What a table says of itself.
+/* What a table says of itself, and which limits of the model an impact passes.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "family.h"
+#include "form.h"
+
+#include <float.h>
 
 void restitute_table_info_init(restitute_table_info *info)
 {
@@ -8,28 +10,30 @@ void restitute_table_info_init(restitute_table_info *info)
     *info = (restitute_table_info){.struct_size = sizeof *info};
 }
 
-static void copy_range(double to[2], const double from[2])
-{
-    to[0] = from[0];
-    to[1] = from[1];
-}
+enum strain { FAST, LARGE, SLIDE };
 
-static void describe_contact(const restitute_table *t, restitute_table_info *i)
+/* Lowest speed at which a ratio of the nodes passes its limit, linear in logarithms between them. Where the sphere sinks
+ * ratios have no meaning. */
+static double from_speed(const struct rst_table_data *d, enum strain which, double limit, double rebound)
 {
-    copy_range(i->speed, t->asked[0]);
-    for (int end = 0; end < 2; end++) {
-        i->delta1[end] = t->own.delta1 * pow(t->asked[0][end], 0.2);
-        i->gamma[end] = t->own.gamma;
+    for (int64_t i = 0; i < d->speeds; i++) {
+        const double here = d->strain[3 * i + which];
+        if (d->speed[i] < rebound || !(here > limit)) continue;
+        if (i == 0 || d->speed[i - 1] < rebound) return fmax(d->speed[i], d->low);
+        const double before = d->strain[3 * (i - 1) + which], ratio = d->speed[i] / d->speed[i - 1];
+        if (!(ratio > 1) || !(before > 0) || !(limit > 0) || isinf(here)) return d->speed[i];
+        return d->speed[i - 1] * pow(ratio, log(limit / before) / log(here / before));
     }
+    return INFINITY;
 }
 
-/* Of what a tree takes. */
-static size_t bytes_of(const struct rst_tree *t)
+/* Upper end of the lowest speeds at which e_z is 0. */
+static double rebound_speed(const struct rst_table_data *d)
 {
-    if (!t->room) return 0;
-    const size_t starts = (size_t)((t->of.octaves * t->of.roots * t->of.sheets) << t->part_bits);
-    return (size_t)t->leaves * (sizeof *t->leaf + sizeof *t->shape) + (size_t)t->fans * sizeof *t->fan +
-           starts * sizeof *t->start;
+    double speed = 0;
+    for (int64_t i = 0; i + 1 < d->speeds && d->ez[2 * i] <= 0 && d->ez[2 * i + 2] <= 0; i++)
+        speed = d->speed[i + 1];
+    return speed;
 }
 
 int restitute_table_describe(const restitute_table *table, restitute_table_info *info, restitute_error *error)
@@ -40,27 +44,51 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
                           "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
                           "restitute_table_info_init of this version",
                           info->struct_size, sizeof *info);
+    const struct rst_table_data *d = &table->d;
+    const double rebound = rebound_speed(d);
     *info = (restitute_table_info){.struct_size = sizeof *info,
-                                   .of_contact = table->of_contact,
-                                   .speed = {NAN, NAN},
-                                   .friction = table->friction,
-                                   .radius = table->radius,
-                                   .mass = table->mass,
-                                   .tolerance = table->tolerance,
-                                   .error_ez = table->error_ez,
-                                   .error_ex = table->error_ex,
-                                   .impacts = table->impacts,
-                                   .checks = table->checks,
-                                   .nodes = {table->n_speed, table->n_gamma, table->n_chi, table->n_psi},
-                                   .bytes = sizeof *table + table->block_size * sizeof(double) +
-                                            bytes_of(&table->rebound) + bytes_of(&table->tangent)};
-    memcpy(info->version, table->version, sizeof info->version);
-    copy_range(info->chi, table->asked[2]);
-    if (table->of_contact)
-        describe_contact(table, info);
-    else {
-        copy_range(info->delta1, table->asked[0]);
-        copy_range(info->gamma, table->asked[1]);
-    }
+                                   .speed = {d->low, d->high},
+                                   .chi = d->chi,
+                                   .gamma = d->gamma,
+                                   .delta1 = {d->delta1 * pow(d->low, 0.2), d->delta1 * pow(d->high, 0.2)},
+                                   .friction = d->friction,
+                                   .radius = d->radius,
+                                   .mass = d->mass,
+                                   .tolerance = d->tolerance,
+                                   .error_ez = d->error_ez,
+                                   .error_ex = d->error_ex,
+                                   .rebound_speed = rebound,
+                                   .fast_speed = from_speed(d, FAST, d->speed_limit, rebound),
+                                   .large_contact_speed = from_speed(d, LARGE, d->radius_limit, rebound),
+                                   .long_slide_speed = from_speed(d, SLIDE, d->displacement_limit, rebound),
+                                   .impacts = d->impacts,
+                                   .checks = d->checks,
+                                   .speeds = d->speeds,
+                                   .stick_cells = d->stick_cells,
+                                   .slip_cells = d->slip_cells,
+                                   .bytes = table->bytes};
+    memcpy(info->version, d->version, sizeof info->version);
     return rst_done(error);
+}
+
+int restitute_table_flags(const restitute_table *table, double normal_speed, double tangential_speed)
+{
+    if (!table) return RESTITUTE_ERROR_NULL;
+    const double sliding = fabs(tangential_speed);
+    if (!(normal_speed >= 0 && normal_speed <= rst_largest_speed && sliding <= rst_largest_speed))
+        return RESTITUTE_ERROR_DOMAIN;
+    const struct rst_table_data *d = &table->d;
+    const double v = fmin(fmax(normal_speed, d->low), d->high), place = rst_axis_place(v, NULL);
+    int64_t i = 0;
+    while (i + 2 < d->speeds && d->speed[i + 1] <= v)
+        i++;
+    const double u = (place - table->node[i].at) * table->node[i].inverse_width;
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+        const double low = d->strain[3 * i + k], high = d->strain[3 * i + 3 + k];
+        at[k] = low > 0 && high <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high); /* nearly powers of v */
+    }
+    return (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
+           (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
+           (at[SLIDE] * sliding > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0);
 }

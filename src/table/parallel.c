@@ -6,10 +6,7 @@
 #include <fenv.h>
 #include <omp.h>
 
-/* Turns that a thread takes at once; fewer in all are not worth waking it. */
-enum { turns_at_once = 64 };
-
-static void share(int threads, int64_t n, void (*turn)(void *of, int64_t i), void *of)
+static void share(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of)
 {
     fenv_t callers;
     fegetenv(&callers);
@@ -18,24 +15,43 @@ static void share(int threads, int64_t n, void (*turn)(void *of, int64_t i), voi
         fenv_t own;
         fegetenv(&own);
         fesetenv(&callers);
-#pragma omp for schedule(dynamic, turns_at_once)
+#pragma omp for schedule(dynamic, 1)
         for (int64_t i = 0; i < n; i++)
-            turn(of, i);
+            turn(of, omp_get_thread_num(), i);
         fesetenv(&own);
     }
 }
 #endif
 
-void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int64_t i), void *of)
+int rst_table_threads(int threads, int64_t n)
 {
 #ifdef _OPENMP
     if (threads <= 0) threads = omp_get_max_threads();
-    if (threads > 1 && n > turns_at_once) {
+    return n < threads ? (int)(n > 1 ? n : 1) : threads;
+#else
+    (void)threads, (void)n;
+    return 1;
+#endif
+}
+
+void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of)
+{
+#ifdef _OPENMP
+    threads = rst_table_threads(threads, n);
+    if (threads > 1) {
         share(threads, n, turn, of);
         return;
     }
 #endif
     (void)threads;
     for (int64_t i = 0; i < n; i++)
-        turn(of, i);
+        turn(of, 0, i);
+}
+
+void rst_table_one_at_a_time(void (*act)(void *of), void *of)
+{
+#ifdef _OPENMP
+#pragma omp critical
+#endif
+    act(of);
 }

@@ -5,7 +5,13 @@
 
 #include <stdint.h>
 
-/* Turns 0 to n - 1; threads as in restitute_table_options, 0: all. */
-void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int64_t i), void *of);
+/* How many threads take n turns; threads as in restitute_table_options, 0: all. */
+int rst_table_threads(int threads, int64_t n);
+
+/* Turns 0 to n - 1, by rst_table_threads(threads, n) threads; `thread` counts them from 0. */
+void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of);
+
+/* Let one thread at a time through. */
+void rst_table_one_at_a_time(void (*act)(void *of), void *of);
 
 #endif

@@ -63,7 +63,7 @@ static int read_all(const char *path, struct rst_old_file *file, restitute_error
 }
 
 /* Not what was expected: say how far it is from it. */
-static int refuse_block(const char *path, const char *title, int oldest, const struct rst_old_file *file,
+static int refuse_block(const char *path, const char *title, const struct rst_old_file *file,
                         restitute_error *error)
 {
     char start[64];
@@ -75,37 +75,32 @@ static int refuse_block(const char *path, const char *title, int oldest, const s
     for (size_t i = length; i < file->size && i < length + 6 && file->bytes[i] >= '0' && file->bytes[i] <= '9'; i++)
         version = 10 * version + (file->bytes[i] - '0');
     if (version > rst_schema)
-        return rst_report(
-            error, RESTITUTE_ERROR_FORMAT,
-            "%.120s: schema %d: this library reads up to %d; it was written by a later one, or is damaged", path,
-            version, rst_schema);
-    if (version > 0 && version < oldest)
-        return rst_report(
-            error, RESTITUTE_ERROR_FORMAT,
-            "%.120s: schema %d: this library reads from %d on; it was written by an earlier one, or is damaged", path,
-            version, oldest);
+        return rst_report(error, RESTITUTE_ERROR_FORMAT,
+                          "%.120s: schema %d: this library reads schema %d; it was written by a later one, or is damaged",
+                          path, version, rst_schema);
+    if (version > 0 && version < rst_schema)
+        return rst_report(error, RESTITUTE_ERROR_FORMAT,
+                          "%.120s: schema %d, of tables that this library has no more; it reads schema %d: build the "
+                          "table again",
+                          path, version, rst_schema);
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 
-static int check_block(const char *path, const char *title, int oldest, struct rst_old_file *file,
-                       restitute_error *error)
+static int check_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
 {
     char block[block_size];
     const size_t size = file->size > block_size ? file->size - block_size : 0;
-    const uint64_t sum = size > 0 ? checksum(file->bytes + block_size, size) : 0;
-    for (file->schema = rst_schema; size > 0 && file->schema >= oldest; file->schema--) {
-        make_block(title, file->schema, sum, size, block);
-        if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
-    }
-    return refuse_block(path, title, oldest, file, error);
+    if (size == 0) return refuse_block(path, title, file, error);
+    make_block(title, rst_schema, checksum(file->bytes + block_size, size), size, block);
+    if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
+    return refuse_block(path, title, file, error);
 }
 
-int rst_old_file_open(const char *path, const char *title, int oldest_schema, struct rst_old_file *file,
-                      restitute_error *error)
+int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
 {
     *file = (struct rst_old_file){.file = -1};
     int status = read_all(path, file, error);
-    if (!status) status = check_block(path, title, oldest_schema, file, error);
+    if (!status) status = check_block(path, title, file, error);
     if (!status) {
         const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
         if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&

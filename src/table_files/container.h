@@ -10,8 +10,8 @@
 #include "../core/report.h"
 #include "../output/hdf5_image.h"
 
-/* Of what is written. */
-enum { rst_schema = 3 };
+/* Of what is written, and alone is read. */
+enum { rst_schema = 4 };
 
 /* HDF5 prints errors unless told not to; the caller's setting is put back. */
 struct rst_quiet {
@@ -31,27 +31,24 @@ int rst_container_end(hid_t file, int good, const char *title, const char *path,
 struct rst_old_file {
     unsigned char *bytes;
     size_t size;
-    int schema;
     hid_t file;
 };
-int rst_old_file_open(const char *path, const char *title, int oldest_schema, struct rst_old_file *file,
-                      restitute_error *error);
+int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error);
 void rst_old_file_close(struct rst_old_file *file);
 
-/* Datasets and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size asked for.
- * */
-enum rst_kind { RST_DOUBLES, RST_SINGLES, RST_INTEGERS /* of 64 bits */ };
-int rst_put_values(hid_t place, const char *name, enum rst_kind kind, int rank, const int64_t *size, const void *value,
+/* Datasets of doubles, and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size
+ * asked for. */
+int rst_put_values(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
                    const char *units, const char *description);
 int rst_put_number(hid_t place, const char *name, double value);
 int rst_put_integer(hid_t place, const char *name, int64_t value);
 int rst_put_text(hid_t place, const char *name, const char *text);
-int rst_get_values(hid_t place, const char *name, enum rst_kind kind, int64_t count, void *value);
+int rst_get_values(hid_t place, const char *name, int64_t count, double *value);
 int rst_get_number(hid_t place, const char *name, double *value);
 int rst_get_integer(hid_t place, const char *name, int64_t *value);
 int rst_get_text(hid_t place, const char *name, size_t size, char *text);
 
 /* Number of values of a dataset; negative if there is none, or one that claims more than the file could hold. */
-int64_t rst_count_values(hid_t place, const char *name, enum rst_kind kind);
+int64_t rst_count_values(hid_t place, const char *name);
 
 #endif

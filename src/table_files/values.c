@@ -1,4 +1,4 @@
-/* Numbers and texts in HDF5: little-endian doubles and singles, 64-bit integers, fixed strings.
+/* Numbers and texts in HDF5: little-endian doubles, 64-bit integers, fixed strings.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -55,8 +55,7 @@ int rst_put_text(hid_t place, const char *name, const char *text)
 }
 
 /* Without the time of writing: the same table gives the same bytes. */
-static int put_set(hid_t place, const char *name, int rank, const int64_t *size, hid_t file_type, hid_t memory_type,
-                   const void *value)
+static int put_set(hid_t place, const char *name, int rank, const int64_t *size, const double *value)
 {
     hsize_t length[4];
     for (int i = 0; i < rank; i++)
@@ -64,8 +63,8 @@ static int put_set(hid_t place, const char *name, int rank, const int64_t *size,
     const hid_t space = H5Screate_simple(rank, length, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
     hid_t set = -1;
     if (space >= 0 && how >= 0 && H5Pset_obj_track_times(how, 0) >= 0)
-        set = H5Dcreate2(place, name, file_type, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    const int good = set >= 0 && H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
+        set = H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    const int good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
     return close_all(good, set, space, how);
 }
 
@@ -77,17 +76,10 @@ static int describe_set(hid_t place, const char *name, const char *units, const 
     return close_all(good, set, -1, -1);
 }
 
-static hid_t type_in_memory(enum rst_kind kind)
-{
-    return kind == RST_INTEGERS ? H5T_NATIVE_INT64 : kind == RST_SINGLES ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
-}
-
-int rst_put_values(hid_t place, const char *name, enum rst_kind kind, int rank, const int64_t *size, const void *value,
+int rst_put_values(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
                    const char *units, const char *description)
 {
-    const hid_t in_file = kind == RST_INTEGERS ? H5T_STD_I64LE : kind == RST_SINGLES ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    return put_set(place, name, rank, size, in_file, type_in_memory(kind), value) ||
-           describe_set(place, name, units, description);
+    return put_set(place, name, rank, size, value) || describe_set(place, name, units, description);
 }
 
 /* An attribute that is one value of a class. */
@@ -154,23 +146,22 @@ static int fits(hid_t place, int64_t count)
     return good;
 }
 
-int64_t rst_count_values(hid_t place, const char *name, enum rst_kind kind)
+int64_t rst_count_values(hid_t place, const char *name)
 {
     const hid_t set = open_set(place, name);
     if (set < 0) return -1;
     const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
-    const H5T_class_t wanted = kind == RST_INTEGERS ? H5T_INTEGER : H5T_FLOAT;
     int64_t count = -1;
-    if (type >= 0 && space >= 0 && H5Tget_class(type) == wanted && in_one_piece(set))
+    if (type >= 0 && space >= 0 && H5Tget_class(type) == H5T_FLOAT && in_one_piece(set))
         count = H5Sget_simple_extent_npoints(space);
     close_all(1, set, type, space);
     return fits(place, count) ? count : -1;
 }
 
-int rst_get_values(hid_t place, const char *name, enum rst_kind kind, int64_t count, void *value)
+int rst_get_values(hid_t place, const char *name, int64_t count, double *value)
 {
-    if (rst_count_values(place, name, kind) != count) return -1;
+    if (rst_count_values(place, name) != count) return -1;
     const hid_t set = open_set(place, name);
-    const int good = H5Dread(set, type_in_memory(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
+    const int good = H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
     return close_all(good, set, -1, -1);
 }

@@ -10,13 +10,10 @@
 
 #include <restitute/table_files.h>
 
-#include "../support/cells.h"
 #include "../support/table.h"
 
-static const char path[] = "test_table_files_allocation_failures.h5", settings[] = "of the test";
+static const char path[] = "test_table_files_allocation_failures.h5";
 static restitute_table *table;
-static restitute_table_builder *builder;
-static restitute_table_family family;
 static restitute_error error;
 
 static char place;
@@ -33,7 +30,7 @@ static int table_read(struct given *given)
     restitute_table_info_init(&info);
     restitute_table_describe(read, &info, NULL);
     give(given, info.error_ex);
-    give(given, (double)info.nodes[0]);
+    give(given, (double)info.speeds);
     restitute_table_destroy(read);
     return status;
 }
@@ -54,59 +51,14 @@ static int table_write(struct given *given)
     return written(status);
 }
 
-static int builder_write(struct given *given)
-{
-    int status;
-    unlink(path);
-    ARMED(status, restitute_table_builder_write(builder, settings, path, &error));
-    give(given, 1);
-    return written(status);
-}
-
-static int builder_read(struct given *given)
-{
-    int status;
-    size_t count;
-    restitute_table_builder *fresh;
-    CHECK(restitute_table_builder_create(&family, NULL, &fresh, &error) == RESTITUTE_OK, "%s", error.message);
-    ARMED(status, restitute_table_builder_read(fresh, settings, path, &error));
-    restitute_table_builder_journal(fresh, &count);
-    CHECK(count == (status < 0 ? 0u : 20u), "%zu impacts", count);
-    restitute_table_builder_destroy(fresh);
-    give(given, 1);
-    return status;
-}
-
 static void tables(void **state)
 {
     (void)state;
     const struct subject writing = {"table_write", NULL, table_write, NULL, 0, 0};
-    struct subject reading = {"table_read", NULL, table_read, NULL, 0, 0};
+    const struct subject reading = {"table_read", NULL, table_read, NULL, 0, 0};
     if (!CAN_FAIL) skip();
-    struct cells cells;
-    cells_make(1, 7, &cells);
-    for (int i = 0; i < 2; i++) {
-        fail_each_allocation(&writing);
-        fail_each_allocation(&reading);
-        restitute_table_destroy(table);
-        table = cells_table(&cells);
-        reading.stride = 2; /* such a table takes its time */
-    }
-    cells_free(&cells);
-}
-
-static void builders(void **state)
-{
-    (void)state;
-    const struct subject reading = {"builder_read", NULL, builder_read, NULL, 0, 0};
-    const struct subject writing = {"builder_write", NULL, builder_write, NULL, 0, 0};
-    restitute_table *none = NULL;
-    if (!CAN_FAIL) skip();
-    CHECK(restitute_table_builder_create(&family, NULL, &builder, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(restitute_table_builder_run(builder, 20, &none, &error) == RESTITUTE_OK, "%s", error.message);
     fail_each_allocation(&writing);
     fail_each_allocation(&reading);
-    restitute_table_builder_destroy(builder);
 }
 
 static restitute_material *material;
@@ -119,8 +71,6 @@ static int set_up(void **state)
     allocator.ours_alone = 1;
     scene = ball_on(0.3, &material);
     table = table_of(&scene, 0.1, 1, 1e-2);
-    restitute_table_family_init(&family);
-    family.scene = &scene;
     return 0;
 }
 
@@ -135,6 +85,6 @@ static int tear_down(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables), cmocka_unit_test(builders)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tables)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

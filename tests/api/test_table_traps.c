@@ -5,8 +5,7 @@
 #include "../support/table.h"
 
 static const double speeds[] = {0, 5e-324, 1e-300, 1e-101, 1e-9, 1e-3, 0.5, 1, 10, 1e9, 1e99, 1e100};
-static const double numbers[] = {0, 5e-324, 1e-300, 1e-3, 0.5, 1, 7.0 / 6, 3, 1e3, 1e300, INFINITY};
-enum { n_speeds = sizeof speeds / sizeof *speeds, n_numbers = sizeof numbers / sizeof *numbers };
+enum { n_speeds = sizeof speeds / sizeof *speeds };
 
 static void look_up_speeds(const restitute_table *table, const restitute_table_contact *contact, const char *name)
 {
@@ -42,7 +41,6 @@ static void tables_of_contacts(void **state)
     CHECK(restitute_material_maxwell(1e6, 300, 0.5, &materials[3], NULL) == 0, "Maxwell");
     CHECK(restitute_material_prony(1e5, 0, 3, tau, g, 0.4, &materials[4], NULL) == 0, "Prony");
     for (int k = 0; k < 15; k++) {
-        restitute_table_family family;
         restitute_table_options options;
         restitute_table_contact contact;
         restitute_table *table = NULL;
@@ -50,12 +48,11 @@ static void tables_of_contacts(void **state)
         char name[40];
         snprintf(name, sizeof name, "material %d, friction %g", k / 3, frictions[k % 3]);
         ball.material = materials[k / 3], ball.friction = frictions[k % 3];
-        restitute_table_family_init(&family);
         restitute_table_options_init(&options);
         restitute_table_contact_init(&contact);
-        family.scene = &ball, family.speed[0] = 1e-3, family.speed[1] = 10;
-        options.tolerance = 1e-3;
-        WITHOUT_TRAPS(status, restitute_table_build(&family, &options, &table, &error), "%s", name);
+        options.speed[0] = 1e-3, options.speed[1] = 10;
+        options.tolerance = 1e-2;
+        WITHOUT_TRAPS(status, restitute_table_build(&ball, &options, &table, &error), "%s", name);
         CHECK(status >= 0 && table, "%s: %s", name, error.message);
         look_up_speeds(table, NULL, name);
         restitute_scene larger = ball;
@@ -67,49 +64,6 @@ static void tables_of_contacts(void **state)
     }
     for (int k = 0; k < 5; k++)
         restitute_material_destroy(materials[k]);
-}
-
-static void look_up_numbers(const restitute_table *table, const char *name)
-{
-    const int n = n_numbers;
-    int status;
-    for (int i = 0; i < n * n * n * n; i++) {
-        const double chi = numbers[i % n], psi = numbers[i / n % n];
-        const double delta1 = numbers[i / n / n % n], gamma = numbers[i / n / n / n];
-        const double x[2] = {chi, chi}, p[2] = {psi, psi}, d[2] = {delta1, delta1}, y[2] = {gamma, gamma};
-        double ez[2], ex[2];
-        restitute_table_value pair;
-        WITHOUT_TRAPS(status, restitute_table_numbers_pair(table, chi, psi, delta1, gamma, &pair), "%s: %g %g %g %g",
-                      name, chi, psi, delta1, gamma);
-        WITHOUT_TRAPS(status, restitute_table_numbers_pairs(table, 2, x, p, d, y, ez, ex), "%s: %g %g %g %g", name, chi,
-                      psi, delta1, gamma);
-    }
-}
-
-static void tables_of_ranges(void **state)
-{
-    const double delta1[][2] = {{0, 0}, {0.3, 3}, {1, 1}},
-                 gamma[][2] = {{1, 1}, {0, 0}, {0.5, 1}, {INFINITY, INFINITY}};
-    int status;
-    (void)state;
-    for (int k = 0; k < 12; k++) {
-        restitute_table_family family;
-        restitute_table_options options;
-        restitute_table *table = NULL;
-        restitute_error error;
-        char name[60];
-        restitute_table_family_init(&family);
-        restitute_table_options_init(&options);
-        memcpy(family.delta1, delta1[k % 3], sizeof family.delta1);
-        memcpy(family.gamma, gamma[k / 3], sizeof family.gamma);
-        if (k % 2) family.chi[1] = 1.5;
-        options.tolerance = 1e-2;
-        snprintf(name, sizeof name, "delta1 from %g, gamma from %g", family.delta1[0], family.gamma[0]);
-        WITHOUT_TRAPS(status, restitute_table_build(&family, &options, &table, &error), "%s", name);
-        CHECK(status >= 0 && table, "%s: %s", name, error.message);
-        look_up_numbers(table, name);
-        restitute_table_destroy(table);
-    }
 }
 
 /* As in a program that has traps on for all that it does. */
@@ -134,7 +88,7 @@ static void build_in_a_host_that_traps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_of_contacts), cmocka_unit_test(tables_of_ranges),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_of_contacts),
                                        cmocka_unit_test(build_in_a_host_that_traps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

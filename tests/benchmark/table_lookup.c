@@ -2,7 +2,7 @@
  *
  *     table_lookup
  *
- * One table of two axes at 1e-5 over six decades of speed (with the time of its build), one of four axes at 1e-2. Places are random over
+ * One table at 1e-5 over six decades of speed (with the time of its build). Places are random over
  * all speeds and psi up to beyond psi_c; pow has random arguments as well. A thousand places in turn: a processor comes to foresee on
  * which side of psi = 1 and of psi_c the next one is. A hundred thousand: it does not. "chained": every call needs the result of the one
  * before it, which measures latency. SPDX-License-Identifier: BSD-3-Clause */
@@ -34,7 +34,7 @@ static double random_unit(void)
 struct places {
     const restitute_table *table;
     int count; /* few: in turn, whose sides of psi = 1 and psi_c a processor comes to foresee; n: it does not */
-    double v[n], u[n], chi[n], gamma[n];
+    double v[n], u[n];
 };
 
 static volatile double sink;
@@ -81,24 +81,6 @@ static double table_many(const struct places *p)
     return ex[p->count - 1];
 }
 
-static double four_axes(const struct places *p)
-{
-    double sum = 0;
-    restitute_table_value pair;
-    for (int i = 0; i < p->count; i++) {
-        restitute_table_numbers_pair(p->table, p->chi[i], p->u[i], p->v[i], p->gamma[i], &pair);
-        sum += pair.ex;
-    }
-    return sum;
-}
-
-static double four_axes_many(const struct places *p)
-{
-    static double ez[n], ex[n];
-    restitute_table_numbers_pairs(p->table, (size_t)p->count, p->chi, p->u, p->v, p->gamma, ez, ex);
-    return ex[p->count - 1];
-}
-
 static int by_value(const void *a, const void *b)
 {
     return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
@@ -122,7 +104,7 @@ static void report(const char *name, double ns, double pow_ns)
     printf("%-34s %7.1f ns   %5.2f pow\n", name, ns, ns / pow_ns);
 }
 
-static restitute_table *build(const restitute_table_family *family, double tolerance, const char *name)
+static restitute_table *build(const restitute_scene *scene, double tolerance, const char *name)
 {
     restitute_table *table = NULL;
     restitute_table_options options;
@@ -131,7 +113,7 @@ static restitute_table *build(const restitute_table_family *family, double toler
     restitute_table_options_init(&options);
     options.tolerance = tolerance;
     const clock_t start = clock(); /* of the processor: one thread */
-    if (restitute_table_build(family, &options, &table, &error) < 0) {
+    if (restitute_table_build(scene, &options, &table, &error) < 0) {
         fprintf(stderr, "%s\n", error.message);
         exit(1);
     }
@@ -146,15 +128,12 @@ static restitute_table *build(const restitute_table_family *family, double toler
 static void measure_contact(struct places *p, double pow_ns, double chained_ns)
 {
     restitute_material *rubber = NULL;
-    restitute_table_family family;
     restitute_scene scene;
     restitute_scene_init(&scene);
     restitute_material_kelvin_voigt(1e6, 300, 0.5, &rubber, NULL);
     scene.material = rubber;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3;
-    restitute_table_family_init(&family);
-    family.scene = &scene;
-    restitute_table *table = build(&family, 1e-5, "build, two axes, 1e-5");
+    restitute_table *table = build(&scene, 1e-5, "build, 1e-5");
     p->table = table;
     for (p->count = few; p->count <= n; p->count *= n / few) {
         printf("%d places:\n", p->count);
@@ -164,29 +143,6 @@ static void measure_contact(struct places *p, double pow_ns, double chained_ns)
     }
     restitute_table_destroy(table);
     restitute_material_destroy(rubber);
-}
-
-static void measure_ranges(struct places *p, double pow_ns)
-{
-    restitute_table_family family;
-    restitute_table_family_init(&family);
-    family.chi[0] = 2.0 / 3, family.chi[1] = 7.0 / 4;
-    family.delta1[0] = 0.1, family.delta1[1] = 1;
-    family.gamma[0] = 0.5, family.gamma[1] = 2;
-    restitute_table *table = build(&family, 1e-2, "build, four axes, 1e-2");
-    p->table = table;
-    for (int i = 0; i < n; i++) {
-        p->v[i] = 0.1 * pow(10, random_unit());
-        p->u[i] = 4 * random_unit();
-        p->chi[i] = 2.0 / 3 + 13.0 / 12 * random_unit();
-        p->gamma[i] = 0.5 * pow(4, random_unit());
-    }
-    for (p->count = few; p->count <= n; p->count *= n / few) {
-        printf("%d places:\n", p->count);
-        report("restitute_table_numbers_pair", median_ns(four_axes, p), pow_ns);
-        report("restitute_table_numbers_pairs", median_ns(four_axes_many, p), pow_ns);
-    }
-    restitute_table_destroy(table);
 }
 
 int main(void)
@@ -200,6 +156,5 @@ int main(void)
     report("pow", pow_ns, pow_ns);
     report("pow, chained", chained_ns, chained_ns);
     measure_contact(&p, pow_ns, chained_ns);
-    measure_ranges(&p, pow_ns);
     return 0;
 }

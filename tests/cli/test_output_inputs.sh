@@ -99,19 +99,17 @@ cmp in.csv cases.csv || fail "in.csv is another one"
 "$RESTITUTE" table --help >out 2>err
 if ! grep -q 'no component table_files' err; then
     cp steel.json p.json
-    cp steel.json new.h5.partial.json
-    ln -s new.h5.partial.json new.h5.partial
     build="table build $body --speed 0.1:1 --tolerance 1e-2"
     clash '--output = p.json' '--partner p.json' $build --material steel.json --partner p.json --output p.json
     clash '--output = steel.json' '--material steel.json' $build --material steel.json --output steel.json
     clash '--output = polyisobutylene.csv' prony_csv $build --material polyisobutylene.json --output polyisobutylene.csv
-    clash '--output (.partial)' '--material new.h5.partial.json' $build --material new.h5.partial.json --output new.h5
-    expect 0 table build --delta1 0 --tolerance 1e-2 --output t.h5
+    expect 0 $build --material steel.json --output t.h5
     ln -s t.h5 t.csv
-    clash '--output = t.csv' 'the table t.h5' table query t.h5 --psi 1 --output t.csv
-    clash '--output = t.csv' 'the table t.h5' table query t.h5 --input cases.csv --output t.csv
-    clash '--output = link.csv' '--input cases.csv' table query t.h5 --input cases.csv --output link.csv
-    clash '--output = t.csv' 'the table t.h5' table export t.h5 --output t.csv
+    printf 'normal_speed_m_s\n1\n' >speeds.csv
+    ln -s speeds.csv again.csv
+    clash '--output = t.csv' 'the table t.h5' table query t.h5 --normal-speed 1 --output t.csv
+    clash '--output = t.csv' 'the table t.h5' table query t.h5 --input speeds.csv --output t.csv
+    clash '--output = again.csv' '--input speeds.csv' table query t.h5 --input speeds.csv --output again.csv
 fi
 
 # Shards of a campaign, and outputs of a report.

@@ -92,24 +92,7 @@ refused 'left from an interrupted run' pair --input lines.csv --radius 0.01 --de
 expect 1 pair --input lines.csv --radius 0.01 --density 7800 --friction 0.3 --output e.csv --resume
 cmp e.csv quoted.csv || fail "resumed from an empty file: other rows"
 
-# Tables and benchmarks keep the same rule.
-"$RESTITUTE" table --help >out 2>err
-if ! grep -q 'no component table_files' err; then
-    build="table build --delta1 0.1:1 --gamma 0.5:2 --chi 1:1.5 --tolerance 1e-5 --threads 1 --output slow.h5"
-    begin slow.h5.partial $build # put down once: the file is a new one, and locked again
-    refused "slow.h5.partial $other" $build
-    refused "slow.h5.partial $other" $build --resume
-    end TERM
-    [ $? -eq 130 ] || fail "a build that is stopped"
-    [ -s slow.h5.partial ] || fail "an interrupted build is not put down"
-    cp slow.h5.partial kept
-    refused 'slow.h5.partial is left from an interrupted run: continue it with --resume, or remove it' $build
-    cmp kept slow.h5.partial || fail "an interrupted build is thrown away"
-    : >fresh.h5.partial
-    refused 'left from an interrupted run' table build --delta1 0 --tolerance 1e-2 --output fresh.h5
-    expect 0 table build --delta1 0 --tolerance 1e-2 --output fresh.h5 --resume
-    absent fresh.h5.partial
-fi
+# Benchmarks keep the same rule.
 begin map-stability.csv.partial bench --stability --methods euler --output map
 refused "map-stability.csv.partial $other" bench --stability --methods euler --output map --resume
 end KILL

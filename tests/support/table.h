@@ -26,17 +26,14 @@ static inline restitute_scene ball_on(double gamma, restitute_material **materia
 
 static inline restitute_table *table_of(const restitute_scene *scene, double low, double high, double tolerance)
 {
-    restitute_table_family family;
     restitute_table_options options;
     restitute_table *table = NULL;
     restitute_error error;
-    restitute_table_family_init(&family);
     restitute_table_options_init(&options);
-    family.scene = scene;
-    family.speed[0] = low;
-    family.speed[1] = high;
+    options.speed[0] = low;
+    options.speed[1] = high;
     options.tolerance = tolerance;
-    CHECK(restitute_table_build(&family, &options, &table, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_table_build(scene, &options, &table, &error) == RESTITUTE_OK, "%s", error.message);
     return table;
 }
 

@@ -6,21 +6,24 @@
 
 int main(void)
 {
-    restitute_table_family family;
+    restitute_material *rubber = NULL;
+    restitute_scene scene;
     restitute_table_options options;
     restitute_table *table = NULL;
     restitute_table_value pair;
     restitute_error error;
-    restitute_table_family_init(&family);
+    restitute_scene_init(&scene);
     restitute_table_options_init(&options);
-    family.delta1[0] = 0.1, family.delta1[1] = 0.2;
-    options.tolerance = 1e-2;
-    if (restitute_table_build(&family, &options, &table, &error) != RESTITUTE_OK ||
-        restitute_table_numbers_pair(table, 7.0 / 6, 2, 0.15, 1, &pair) != RESTITUTE_OK) {
+    options.speed[0] = 0.1, options.speed[1] = 1, options.tolerance = 1e-2;
+    if (restitute_material_standard_solid(1e6, 1e6, 300, 0.5, &rubber, &error) != RESTITUTE_OK) return 1;
+    scene.material = rubber, scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3;
+    if (restitute_table_build(&scene, &options, &table, &error) != RESTITUTE_OK ||
+        restitute_table_pair(table, 0.5, 0.2, &pair) != RESTITUTE_OK) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
     printf("ez = %g, ex = %g\n", pair.ez, pair.ex);
     restitute_table_destroy(table);
+    restitute_material_destroy(rubber);
     return !(pair.ez > 0 && pair.ez < 1 && pair.ex > -1 && pair.ex < 1);
 }

@@ -1,0 +1,47 @@
+/* Impacts of one contact at one speed: a column of a table. All that the builder knows of the solver is here.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_TABLE_COLUMN_H
+#define RST_TABLE_COLUMN_H
+
+#include "form.h"
+
+/* How friction acts: not at all, as usual, or without slip. */
+enum rst_sliding { RST_NO_FRICTION, RST_SLIDES, RST_NEVER_SLIPS };
+
+/* What is built for: the scene at 1 m/s, with a friction of its own if it slides. */
+struct rst_contact {
+    restitute_scene scene;
+    restitute_numbers numbers; /* of the scene, sliding at 1 m/s with friction 1 */
+    double friction;
+    enum rst_sliding sliding;
+    int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
+};
+
+/* Check a scene and take what is needed. The material stays the caller's. */
+int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error);
+
+/* One of these belongs to a thread at a time. */
+struct rst_column_solver {
+    const struct rst_contact *contact;
+    restitute_solver *solver;
+    double tolerance;
+    int64_t levels; /* most that an impact took since this was last set to 0 */
+};
+
+int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
+                             restitute_error *error);
+void rst_column_solver_destroy(struct rst_column_solver *s);
+
+/* What is the same at all psi. */
+struct rst_column_normal {
+    double ez, error;
+    double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */
+    int sunk;
+};
+
+/* Solve a column at `speed`: first psi = 0, which gives `normal`, then n places of psi. ex and error: e_x and its
+ * estimated error; n may be 0. Returns a status < 0 with its message, else OK. */
+int rst_column_solve(struct rst_column_solver *s, double speed, struct rst_column_normal *normal, int64_t n,
+                     const double *psi, double *ex, double *error_ex, restitute_error *error);
+
+#endif

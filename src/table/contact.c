@@ -1,0 +1,96 @@
+/* Other contacts that a table serves.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "column.h"
+
+#include <stdlib.h>
+
+void restitute_table_contact_init(restitute_table_contact *contact)
+{
+    if (!contact) return;
+    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
+}
+
+/* Both are what the core computes from its material; chi of solid spheres comes by different sums. */
+static int alike(double a, double b)
+{
+    const double rounding = 1e-12;
+    return a == b || fabs(a - b) <= rounding * fmax(fabs(a), fabs(b));
+}
+
+/* How much longer and stiffer than the table's a material is. */
+struct shift {
+    double time, modulus;
+};
+
+/* All moduli of `m` over the table's, and all times; 0: not one factor, -1: out of memory. */
+static int find_shift(const struct rst_table_data *d, const restitute_material *m, struct shift *shift)
+{
+    double g_inf, eta;
+    const size_t n = (size_t)d->terms;
+    if (n != restitute_material_terms(m) || !alike(d->poisson_ratio, restitute_material_poisson_ratio(m))) return 0;
+    double *term = malloc(2 * (n + 1) * sizeof *term);
+    if (!term) return -1;
+    restitute_material_series(m, &g_inf, &eta, term, term + n);
+    shift->modulus = d->equilibrium_modulus > 0 ? g_inf / d->equilibrium_modulus : n > 0 ? term[n] / d->modulus[0] : 1;
+    shift->time = n > 0 ? term[0] / d->relaxation_time[0]
+                  : d->parallel_viscosity > 0 ? eta / d->parallel_viscosity / shift->modulus
+                                              : 1;
+    int same = shift->modulus > 0 && shift->time > 0 && alike(g_inf, shift->modulus * d->equilibrium_modulus) &&
+               alike(eta, shift->modulus * shift->time * d->parallel_viscosity);
+    for (size_t k = 0; k < n && same; k++)
+        same = alike(term[k], shift->time * d->relaxation_time[k]) && alike(term[n + k], shift->modulus * d->modulus[k]);
+    free(term);
+    return same;
+}
+
+/* The solid sees its own times over T, and T goes with v^(-1/5): a contact that is longer by f is one at f^-5 of the
+ * speed. A solid whose times are longer by f sees a contact that is shorter by f. */
+static int bind(const restitute_table *t, const struct rst_contact *c, restitute_table_contact *found,
+                restitute_error *error)
+{
+    const double largest_factor = 1e200, smallest_factor = 1e-200; /* times a speed neither overflows nor vanishes */
+    const struct rst_table_data *d = &t->d;
+    struct shift shift;
+    const int same = find_shift(d, c->scene.material, &shift);
+    if (same < 0) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    if (!same)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "scene.material: must be the one the table is for; its times may be longer by one factor and "
+                          "its moduli larger by one");
+    if (d->friction > 0 && c->friction > 0 && !alike(c->numbers.chi, d->chi))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: must be the table's, %.17g",
+                          c->numbers.chi, d->chi);
+    if ((d->friction <= 0 || isinf(d->friction)) && c->friction != d->friction && c->friction > 0)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
+                          c->friction, d->friction);
+    const double ratio = d->duration * shift.time / c->numbers.time;
+    const double factor = c->timeless ? 1 : ratio * ratio * ratio * ratio * ratio;
+    if (!(factor <= largest_factor && factor >= smallest_factor))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "speed_factor = %g of the scene: must be in [%g, %g]; it is too far from the table's contact",
+                          factor, smallest_factor, largest_factor);
+    found->speed_factor = factor;
+    found->psi_factor = c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
+    found->radius = c->numbers.radius;
+    found->mass = c->numbers.mass;
+    return RESTITUTE_OK;
+}
+
+int restitute_table_contact_of(const restitute_table *table, const restitute_scene *scene,
+                               restitute_table_contact *contact, restitute_error *error)
+{
+    struct rst_contact c;
+    if (!table || !scene || !contact)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
+    if (contact->struct_size != sizeof *contact)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "restitute_table_contact.struct_size = %zu: must be %zu; prepare the struct with "
+                          "restitute_table_contact_init of this version",
+                          contact->struct_size, sizeof *contact);
+    restitute_table_contact found = *contact;
+    int status = rst_contact_set(scene, &c, error);
+    if (!status) status = bind(table, &c, &found, error);
+    if (status) return status;
+    *contact = found;
+    return rst_done(error);
+}

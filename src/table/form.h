@@ -1,0 +1,41 @@
+/* A table in memory: its numbers, and what finds a cell quickly.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_TABLE_FORM_H
+#define RST_TABLE_FORM_H
+
+#include "axis.h"
+#include "table_data.h"
+
+#include "../core/ranges.h"
+#include "../core/report.h"
+
+/* A node along the speed. */
+struct rst_node {
+    double at, inverse_width; /* s, and 1 over the width of the cell above */
+    double ez, slope;         /* e_z, de_z/ds */
+};
+
+/* Of lookups, m/s: times the factors of a contact it does not overflow. */
+static const double rst_largest_speed = 1e100;
+
+/* Nothing is divided by 0, for programs that trap that. */
+static const double rst_least = 0x1p-1000;
+
+struct restitute_table {
+    struct rst_table_data d;
+    struct restitute_table_contact own;
+    double share;           /* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z */
+    double of_stick, of_slip; /* cells of psi */
+    double end;             /* just below s of the last node */
+    double bins_per_s;      /* bins are even; a bin knows the cell of its lower end */
+    struct rst_node *node;  /* [speeds] */
+    uint16_t *bin;
+    size_t bytes;
+};
+
+enum { rst_most_bins = 8192, rst_most_speeds = 32768, rst_most_cells = 1024 };
+
+/* Highest value of chi that tables take, and lowest. */
+static const double rst_chi_range[2] = {0.3, 1000};
+
+#endif

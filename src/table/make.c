@@ -1,0 +1,135 @@
+/* A table from columns: values, and slopes by five neighbours.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "builder.h"
+
+#include <stdlib.h>
+
+/* Arrays that the numbers of a table point to. */
+static int allocate(const struct rst_builder *b, struct rst_table_data *d)
+{
+    const size_t n = (size_t)b->columns, terms = (size_t)d->terms, size = sizeof(double);
+    d->speed = malloc(n * size);
+    d->ez = malloc(2 * n * size);
+    d->strain = malloc(3 * n * size);
+    d->ex = malloc(4 * n * (size_t)rst_places(d) * size);
+    d->relaxation_time = malloc((terms + 1) * size);
+    d->modulus = malloc((terms + 1) * size);
+    return d->speed && d->ez && d->strain && d->ex && d->relaxation_time && d->modulus;
+}
+
+static void release(struct rst_table_data *d)
+{
+    free(d->speed);
+    free(d->ez);
+    free(d->strain);
+    free(d->ex);
+    free(d->relaxation_time);
+    free(d->modulus);
+}
+
+static void describe(const struct rst_builder *b, struct rst_table_data *d)
+{
+    const struct rst_contact *c = &b->contact;
+    const restitute_material *m = c->scene.material;
+    *d = (struct rst_table_data){.low = b->options.speed[0],
+                                 .high = b->options.speed[1],
+                                 .tolerance = b->options.tolerance,
+                                 .error_ez = b->error_ez,
+                                 .error_ex = b->error_ex,
+                                 .impacts = b->impacts,
+                                 .checks = b->checks,
+                                 .chi = c->numbers.chi,
+                                 .gamma = c->numbers.gamma,
+                                 .delta1 = c->numbers.delta1,
+                                 .duration = c->numbers.time,
+                                 .friction = c->friction,
+                                 .radius = c->numbers.radius,
+                                 .mass = c->numbers.mass,
+                                 .poisson_ratio = restitute_material_poisson_ratio(m),
+                                 .speed_limit = b->options.speed_limit,
+                                 .radius_limit = b->options.radius_limit,
+                                 .displacement_limit = b->options.displacement_limit,
+                                 .terms = (int64_t)restitute_material_terms(m),
+                                 .speeds = b->columns,
+                                 .stick_cells = b->stick,
+                                 .slip_cells = b->slip};
+    d->psi_factor = c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
+    restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL);
+    snprintf(d->version, sizeof d->version, "%s", restitute_version());
+}
+
+/* Slopes by s of a column, at all places; `of` picks g or its slope by psi from the nodes. */
+static void slopes_by_speed(const struct rst_builder *b, const double *at, int64_t i, struct rst_table_data *d)
+{
+    struct rst_stencil s;
+    const int64_t places = rst_places(d);
+    int64_t low = i, high = i;
+    while (low > 0 && at[low - 1] < at[low])
+        low--;
+    while (high + 1 < b->columns && at[high + 1] > at[high])
+        high++;
+    rst_stencil_at(at, low, high, i, &s);
+    if (b->column[i].normal.ez <= 0) s.n = 0; /* as in refine.c */
+    d->ez[2 * i + 1] = 0;
+    for (int k = 0; k < s.n; k++)
+        d->ez[2 * i + 1] += s.w[k] * b->column[s.first + k].normal.ez;
+    for (int64_t j = 0; j < places; j++) {
+        double *node = d->ex + 4 * (i * places + j);
+        node[1] = node[3] = 0;
+        for (int k = 0; k < s.n; k++) {
+            const double *other = d->ex + 4 * ((s.first + k) * places + j);
+            node[1] += s.w[k] * other[0];
+            node[3] += s.w[k] * other[2];
+        }
+    }
+}
+
+/* g and its slope by psi, of a panel. */
+static void slopes_by_psi(const double *g, int64_t cells, double *node)
+{
+    double place[5] = {0, 1, 2, 3, 4};
+    struct rst_stencil s;
+    for (int64_t j = 0; j <= cells; j++) {
+        const int64_t last = cells < 4 ? cells : 4;
+        const int64_t first = j < 2 || cells < 5 ? 0 : j + 2 > cells ? cells - 4 : j - 2;
+        rst_stencil_at(place, 0, last, j - first, &s);
+        node[4 * j] = g[j];
+        node[4 * j + 2] = 0;
+        for (int k = 0; k < s.n; k++)
+            node[4 * j + 2] += s.w[k] * g[first + s.first + k];
+    }
+}
+
+static void fill(const struct rst_builder *b, double *at, struct rst_table_data *d)
+{
+    const int64_t places = rst_places(d);
+    restitute_material_series(b->contact.scene.material, NULL, NULL, d->relaxation_time, d->modulus);
+    for (int64_t i = 0; i < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        at[i] = c->at;
+        d->speed[i] = c->speed;
+        d->ez[2 * i] = c->normal.ez;
+        memcpy(d->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
+        slopes_by_psi(c->g, b->stick, d->ex + 4 * i * places);
+        slopes_by_psi(c->g + b->stick + 1, b->slip, d->ex + 4 * (i * places + b->stick + 1));
+    }
+    for (int64_t i = 0; i < b->columns; i++)
+        slopes_by_speed(b, at, i, d);
+}
+
+int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error)
+{
+    struct rst_table_data d;
+    describe(b, &d);
+    double *at = malloc((size_t)b->columns * sizeof *at);
+    int status = RESTITUTE_OK;
+    if (!allocate(b, &d) || !at)
+        status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    else {
+        fill(b, at, &d);
+        status = restitute_private_table_make(&d, table, error);
+    }
+    free(at);
+    release(&d);
+    return status;
+}

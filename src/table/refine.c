@@ -1,0 +1,260 @@
+/* Where a table needs more nodes (builder.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "builder.h"
+
+#include <stdlib.h>
+
+/* Derivative at node i of the polynomial through the five nodes of [low, high] around it. */
+void rst_stencil_at(const double *at, int64_t low, int64_t high, int64_t i, struct rst_stencil *s)
+{
+    const int64_t most = high - low + 1;
+    s->n = most < 5 ? (int)most : 5;
+    s->first = i - 2 < low ? low : i - 2;
+    if (s->first + s->n - 1 > high) s->first = high - s->n + 1;
+    const double *x = at + s->first;
+    const int here = (int)(i - s->first);
+    for (int j = 0; j < s->n; j++) {
+        double w = j == here ? 0 : 1 / (x[j] - x[here]);
+        for (int k = 0; k < s->n; k++) {
+            if (k == here || k == j) continue;
+            w = j == here ? w : w * (x[here] - x[k]) / (x[j] - x[k]);
+        }
+        for (int k = 0; j == here && k < s->n; k++)
+            if (k != here) w += 1 / (x[here] - x[k]);
+        s->w[j] = w;
+    }
+}
+
+/* ---- psi */
+
+static double even_slope(const double *f, int64_t n, int64_t i)
+{
+    static const double place[5] = {0, 1, 2, 3, 4};
+    const int64_t first = i - 2 < 0 ? 0 : i + 2 > n ? n - 4 : i - 2;
+    struct rst_stencil s;
+    rst_stencil_at(place, 0, 4, i - first, &s);
+    double sum = 0;
+    for (int j = 0; j < 5; j++)
+        sum += s.w[j] * f[2 * (first + j)];
+    return sum;
+}
+
+/* Every other node leaves out how much? Half the grid misses that, and the grid itself a part of it. */
+double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, int panel)
+{
+    const double *f = c->g + (panel ? b->stick + 1 : 0);
+    const int64_t n = (panel ? b->slip : b->stick) / 2;
+    double worst = 0;
+    if (n < 4) return 0;
+    for (int64_t i = 0; i < n; i++) {
+        const double low = even_slope(f, n, i), high = even_slope(f, n, i + 1);
+        const double middle = 0.5 * (f[2 * i] + f[2 * i + 2]) + 0.125 * (low - high);
+        worst = fmax(worst, fabs(middle - f[2 * i + 1]));
+    }
+    return rst_gain * worst;
+}
+
+int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error)
+{
+    const int64_t stick = b->stick, slip = b->slip;
+    struct rst_task *task = calloc((size_t)b->columns, sizeof *task);
+    if (!task) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the columns");
+    for (int64_t i = 0; i < b->columns; i++)
+        task[i] = (struct rst_task){
+            .column = b->column[i], .old = b->column[i].g, .old_stick = stick, .old_slip = slip};
+    *(panel ? &b->slip : &b->stick) *= 2;
+    const int status = rst_solve_tasks(b, b->columns, task, error);
+    if (status) {
+        b->stick = stick;
+        b->slip = slip;
+    }
+    for (int64_t i = 0; i < b->columns && !status; i++) {
+        free(b->column[i].g);
+        b->column[i] = task[i].column;
+    }
+    b->impacts += b->columns * (panel ? slip : stick);
+    free(task);
+    return status;
+}
+
+static int64_t left(const struct rst_builder *b)
+{
+    return (int64_t)(rst_for_refining * (double)b->options.max_impacts) - b->impacts;
+}
+
+/* Largest error of a panel, over the columns. What the solver itself leaves open is no shape. */
+static double worst_of_panel(const struct rst_builder *b, int panel)
+{
+    double worst = 0;
+    for (int64_t i = 0; i < b->columns; i++) {
+        const double error = rst_panel_error(b, &b->column[i], panel);
+        if (error > b->column[i].solver && !rst_is_costly(b, &b->column[i])) worst = fmax(worst, error);
+    }
+    return worst;
+}
+
+/* ---- speed */
+
+/* Nodes on the same side of seams. */
+static void segment(const double *at, int64_t n, int64_t i, int64_t *low, int64_t *high)
+{
+    for (*low = i; *low > 0 && at[*low - 1] < at[*low]; --*low)
+        ;
+    for (*high = i; *high < n - 1 && at[*high + 1] > at[*high]; ++*high)
+        ;
+}
+
+/* By how much the cubics of the cell above column i miss a new column in it. */
+static double miss(const struct rst_builder *b, const double *at, int64_t i, const struct rst_column *c)
+{
+    int64_t low, high;
+    struct rst_stencil s[2];
+    double x[4], worst;
+    segment(at, b->columns, i, &low, &high);
+    if (at[i] >= at[i + 1]) return 0;
+    rst_stencil_at(at, low, high, i, &s[0]);
+    rst_stencil_at(at, low, high, i + 1, &s[1]);
+    if (b->column[i].normal.ez <= 0) s[0].n = 0; /* e_z and e_x begin with no slope, and wildly */
+    const double width = at[i + 1] - at[i];
+    rst_hermite((c->at - at[i]) / width, x);
+    const struct rst_column *o = b->column;
+    double sum = x[0] * o[i].normal.ez + x[2] * o[i + 1].normal.ez;
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < s[side].n; k++)
+            sum += x[1 + 2 * side] * width * s[side].w[k] * o[s[side].first + k].normal.ez;
+    worst = fabs(sum - c->normal.ez);
+    for (int64_t j = 0; j < rst_builder_places(b); j++) {
+        sum = x[0] * o[i].g[j] + x[2] * o[i + 1].g[j];
+        for (int side = 0; side < 2; side++)
+            for (int k = 0; k < s[side].n; k++)
+                sum += x[1 + 2 * side] * width * s[side].w[k] * o[s[side].first + k].g[j];
+        worst = fmax(worst, fabs(sum - c->g[j]));
+    }
+    return worst;
+}
+
+/* Before a cell is halved for the first time its error is not known. */
+static const double largest_guess = 1e-3;
+
+static int can_halve(const struct rst_builder *b, int64_t i)
+{
+    const struct rst_column *c = &b->column[i];
+    if (c->speed >= b->options.speed[1] || c[1].at - c->at <= 2 * rst_narrowest) return 0;
+    if (rst_is_costly(b, c) && rst_is_costly(b, c + 1)) return 0;
+    return !(c->normal.sunk && c[1].normal.sunk) && c->by_speed > fmax(c->solver, c[1].solver);
+}
+
+/* What is expected of both halves of a cell. */
+static void judge(struct rst_column *low, struct rst_column *middle, double missed)
+{
+    const double before = low->missed;
+    const double gain = before > 0 ? fmin(rst_most_gain, fmax(rst_least_gain, missed / before)) : rst_gain;
+    low->missed = middle->missed = missed;
+    low->by_speed = middle->by_speed = gain * missed;
+    low->checked[0] = low->checked[1] = middle->checked[0] = middle->checked[1] = -1;
+}
+
+static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)
+{
+    double *at = malloc((size_t)b->columns * sizeof *at);
+    int status = at ? rst_solve_tasks(b, n, task, error) : RESTITUTE_ERROR_MEMORY;
+    if (!at) rst_report(error, status, "out of memory for the columns");
+    if (status) {
+        free(at);
+        return status;
+    }
+    b->impacts += rst_cost(b, n);
+    for (int64_t i = 0; i < b->columns; i++)
+        at[i] = b->column[i].at;
+    int64_t solved = 0;
+    for (int64_t k = 0; k < n; k++) {
+        if (task[k].status < 0) {
+            free(task[k].column.g);
+            b->column[cell[k]].by_speed = 0; /* cannot be halved */
+            continue;
+        }
+        judge(&b->column[cell[k]], &task[k].column, miss(b, at, cell[k], &task[k].column));
+        task[solved++] = task[k];
+    }
+    free(at);
+    return rst_insert(b, solved, task, error);
+}
+
+/* A cell that begins where rebound does. */
+static int is_beside_seam(const struct rst_builder *b, int64_t i)
+{
+    return i > 0 && b->column[i - 1].at >= b->column[i].at;
+}
+
+/* Columns in the middles of the cells whose error is larger than `least`. */
+static int64_t plan_halves(const struct rst_builder *b, double least, struct rst_task *task, int64_t *cell)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        if (!can_halve(b, i) || c->by_speed <= least) continue;
+        const double at = 0.5 * (c->at + c[1].at);
+        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at},
+                                    .may_fail = is_beside_seam(b, i)};
+        cell[n++] = i;
+    }
+    return n;
+}
+
+/* Halve cells, fewer if impacts run out. */
+static int halve_cells(struct rst_builder *b, double least, int *done, restitute_error *error)
+{
+    struct rst_task *task = malloc((size_t)b->columns * sizeof *task);
+    int64_t *cell = malloc((size_t)b->columns * sizeof *cell), n = 0;
+    int status = RESTITUTE_OK;
+    if (!task || !cell)
+        status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the columns");
+    else
+        do {
+            n = plan_halves(b, least, task, cell);
+            least *= 1.25;
+        } while (n > 0 && (rst_cost(b, n) > left(b) || b->columns + n >= rst_most_speeds));
+    *done = n == 0;
+    if (n > 0) status = halve(b, n, task, cell, error);
+    free(task);
+    free(cell);
+    return status;
+}
+
+/* ---- all */
+
+/* Largest error of the cells that are not too narrow and not better than the solver. */
+static double worst_of_cells(const struct rst_builder *b)
+{
+    double worst = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++)
+        if (can_halve(b, i)) worst = fmax(worst, b->column[i].by_speed);
+    return worst;
+}
+
+/* One step where the error is largest. */
+static int refine_once(struct rst_builder *b, int *done, restitute_error *error)
+{
+    const double enough = rst_part_of_axis * b->options.tolerance, speed = worst_of_cells(b);
+    *done = 0;
+    for (int panel = 0; panel < 2 && b->contact.sliding == RST_SLIDES; panel++) {
+        const int64_t cells = panel ? b->slip : b->stick;
+        const double worst = fmax(b->by_psi[panel], worst_of_panel(b, panel));
+        b->by_psi[panel] = 0;
+        if (worst <= enough || worst < fmin(speed, largest_guess) || 2 * cells > rst_most_cells ||
+            b->columns * cells > left(b))
+            continue;
+        return rst_double_panel(b, panel, error);
+    }
+    if (speed > enough) return halve_cells(b, fmax(enough, speed / rst_together), done, error);
+    *done = 1;
+    return RESTITUTE_OK;
+}
+
+int rst_refine(struct rst_builder *b, restitute_error *error)
+{
+    int done = 0, status = RESTITUTE_OK;
+    while (!status && !done)
+        status = refine_once(b, &done, error);
+    return status;
+}

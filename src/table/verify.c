@@ -1,0 +1,165 @@
+/* Verification: every cell of speed is compared with impacts at one other speed and at many places of psi.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "builder.h"
+#include "lookup.h"
+#include "parallel.h"
+
+#include <stdlib.h>
+
+/* Multiples of these, less whole numbers, fill [0, 1] evenly: golden ratio and plastic number. */
+static const double golden = 0.6180339887498949, plastic = 0.7548776662466927;
+
+static double part(double x)
+{
+    return x - floor(x);
+}
+
+/* What one speed says. */
+struct check {
+    double speed, ez, ex; /* largest differences, with what the solver leaves open */
+    int64_t cell;
+    int status;
+    restitute_error why;
+};
+
+struct work {
+    struct rst_builder *b;
+    const restitute_table *table;
+    struct check *check;
+    int64_t places;
+    int round;
+};
+
+/* A third of the places is in the stick panel, which is smooth. */
+static double psi_of(const struct rst_builder *b, int64_t i, int64_t seed, double ez)
+{
+    const double place = part(0.5 + golden * (double)i + plastic * (double)seed);
+    if (i % 3 == 0) return place;
+    return 1 + rst_panel_y(place) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez);
+}
+
+/* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
+ * column has at most. */
+static void bound(const struct rst_builder *b, struct check *c)
+{
+    const struct rst_column *above = &b->column[c->cell + 1];
+    c->ez = above->normal.ez;
+    for (int64_t i = 0; i < rst_builder_places(b); i++)
+        c->ex = fmax(c->ex, fabs(above->g[i]));
+}
+
+static int compare(const struct work *w, struct check *c, struct rst_column_solver *s, double *room)
+{
+    const struct rst_builder *b = w->b;
+    const int64_t n = b->contact.sliding == RST_SLIDES ? w->places : b->contact.sliding == RST_NEVER_SLIPS;
+    double *psi = room, *ex = room + w->places, *error_ex = room + 2 * w->places;
+    struct rst_column_normal normal;
+    restitute_table_value pair;
+    int status = rst_column_solve(s, c->speed, &normal, 0, NULL, NULL, NULL, &c->why);
+    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
+        bound(b, c); /* just above the lowest speed with a rebound */
+        return RESTITUTE_OK;
+    }
+    if (status < 0) return status;
+    for (int64_t i = 0; i < n; i++)
+        psi[i] = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
+    if (!normal.sunk) status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &c->why);
+    if (status < 0) return status;
+    rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
+    c->ez = fabs(pair.ez - normal.ez) + normal.error;
+    for (int64_t i = 0; i < n && !normal.sunk; i++) {
+        rst_table_evaluate(w->table, c->speed, psi[i], 1, &pair);
+        c->ex = fmax(c->ex, fabs(pair.ex - ex[i]) + error_ex[i]);
+    }
+    return RESTITUTE_OK;
+}
+
+static void turn(void *of, int thread, int64_t i)
+{
+    const struct work *w = of;
+    struct check *c = &w->check[i];
+    double *room = malloc(3 * (size_t)w->places * sizeof *room);
+    if (room)
+        c->status = compare(w, c, &w->b->solver[thread], room);
+    else
+        c->status = rst_report(&c->why, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
+    free(room);
+}
+
+/* Cells that were not compared yet; or, to look again, those that were found to miss more than `least`. */
+static int64_t plan(const struct rst_builder *b, int round, double least, struct check *check)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        const int again = fmax(c->checked[0], c->checked[1]) > least;
+        if (!(c[1].at > c->at) || (least > 0 ? !again : c->checked[0] >= 0)) continue;
+        const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
+        const double speed = rst_axis_speed(c->at + u * (c[1].at - c->at));
+        check[n++] = (struct check){.speed = fmin(speed, b->options.speed[1]), .cell = i}; /* of one speed: that */
+    }
+    return n;
+}
+
+/* Cells that miss the tolerance are to be halved; where psi is to blame, a panel is to be doubled. */
+static void blame(struct rst_builder *b, int64_t i)
+{
+    struct rst_column *c = &b->column[i];
+    double panel[2], worst = fmax(c->checked[0], c->checked[1]);
+    for (int k = 0; k < 2; k++)
+        panel[k] = fmax(rst_panel_error(b, c, k), rst_panel_error(b, c + 1, k));
+    if (c->checked[1] > c->checked[0] && fmax(panel[0], panel[1]) > c->by_speed) {
+        const int k = panel[1] >= panel[0];
+        b->by_psi[k] = fmax(b->by_psi[k], worst);
+    } else
+        c->by_speed = fmax(c->by_speed, worst);
+    c->checked[0] = c->checked[1] = -1;
+}
+
+/* Compare planned cells. */
+static int look(struct rst_builder *b, const restitute_table *table, int round, double least, restitute_error *error)
+{
+    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->stick + b->slip) / 4, round};
+    if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
+    const int64_t n = plan(b, round, least, w.check);
+    int status = RESTITUTE_OK;
+    rst_table_loop(b->threads, n, turn, &w);
+    for (int64_t i = n - 1; i >= 0; i--) {
+        struct rst_column *c = &b->column[w.check[i].cell];
+        if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
+        c->checked[0] = fmax(c->checked[0], w.check[i].ez);
+        c->checked[1] = fmax(c->checked[1], w.check[i].ex);
+    }
+    free(w.check);
+    b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
+    b->checks += n * w.places;
+    return status;
+}
+
+/* Largest of what cells miss. */
+static double worst_of(const struct rst_builder *b)
+{
+    double worst = 0;
+    for (int64_t i = 0; i + 1 < b->columns; i++)
+        worst = fmax(worst, fmax(b->column[i].checked[0], b->column[i].checked[1]));
+    return worst;
+}
+
+int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
+{
+    int status = look(b, table, 3 * round, 0, error);
+    for (int again = 1; again < 3 && !status; again++)
+        status = look(b, table, 3 * round + again, rst_look_again * worst_of(b), error);
+    b->error_ez = b->error_ex = 0;
+    *missed = 0;
+    for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
+        const double *checked = b->column[i].checked, both = fmax(checked[0], checked[1]);
+        b->error_ez = fmax(b->error_ez, rst_margin * checked[0]);
+        b->error_ex = fmax(b->error_ex, rst_margin * both); /* e_z is in (27) */
+        if (rst_margin * both <= b->options.tolerance) continue;
+        if (rst_is_costly(b, &b->column[i]) && rst_is_costly(b, &b->column[i + 1])) continue; /* it stays so */
+        ++*missed;
+        blame(b, i);
+    }
+    return status;
+}
