@@ -35,7 +35,7 @@ contains
     end do
     b(:, 1:stages) = integral
     b(:, stages + 1) = 1
-    call solve_linear(stages, stages + 1, a, b, fails)
+    call solve_linear(stages + 1, a, b, fails)
     kernel = b(:, 1:stages)
     decay = b(:, stages + 1)
   end subroutine respond

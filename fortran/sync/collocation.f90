@@ -148,48 +148,43 @@ contains
   end function has_converged
 
   !> Solve a x = b by elimination with pivots; both are destroyed, b becomes x. fails: a is singular or not finite.
-  pure subroutine solve_linear(n, columns, a, b, fails)
-    integer(ip), intent(in) :: n, columns
-    real(dp), intent(inout) :: a(n, n), b(n, columns)
+  pure subroutine solve_linear(columns, a, b, fails)
+    integer(ip), intent(in) :: columns
+    real(dp), intent(inout) :: a(stages, stages), b(stages, columns)
     logical, intent(out) :: fails
-    real(dp) :: pivot, swap, part
-    integer(ip) :: i, j, k, p
+    real(dp) :: row(stages), part(stages), one
+    integer(ip) :: j, k, p
     fails = .true.
-    do k = 1, n
+    do k = 1, stages
       p = k
-      do i = k + 1, n
-        if (abs(a(i, k)) > abs(a(p, k))) p = i
+      do j = k + 1, stages
+        if (abs(a(j, k)) > abs(a(p, k))) p = j
       end do
       if (.not. (abs(a(p, k)) > 0 .and. abs(a(p, k)) <= huge(1.0_dp))) return
       if (p /= k) then
-        do j = k, n
-          swap = a(k, j)
-          a(k, j) = a(p, j)
-          a(p, j) = swap
-        end do
+        row = a(k, :)
+        a(k, :) = a(p, :)
+        a(p, :) = row
         do j = 1, columns
-          swap = b(k, j)
+          one = b(k, j)
           b(k, j) = b(p, j)
-          b(p, j) = swap
+          b(p, j) = one
         end do
       end if
-      pivot = 1/a(k, k)
-      a(k + 1:n, k) = a(k + 1:n, k)*pivot
-      do j = k + 1, n
-        part = a(k, j)
-        a(k + 1:n, j) = a(k + 1:n, j) - a(k + 1:n, k)*part
+      part = a(:, k)/a(k, k)  ! of the row k, taken off all others: whole columns are faster than parts of them
+      part(k) = 0
+      do j = k + 1, stages
+        a(:, j) = a(:, j) - part*a(k, j)
       end do
       do j = 1, columns
-        part = b(k, j)
-        b(k + 1:n, j) = b(k + 1:n, j) - a(k + 1:n, k)*part
+        b(:, j) = b(:, j) - part*b(k, j)
       end do
     end do
-    do k = n, 1, -1
-      do j = 1, columns
-        b(k, j) = b(k, j)/a(k, k)
-        part = b(k, j)
-        b(1:k - 1, j) = b(1:k - 1, j) - a(1:k - 1, k)*part
-      end do
+    do k = 1, stages
+      part(k) = 1/a(k, k)
+    end do
+    do j = 1, columns
+      b(:, j) = b(:, j)*part
     end do
     fails = .false.
   end subroutine solve_linear

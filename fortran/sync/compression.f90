@@ -139,7 +139,7 @@ contains
       matrix(j, j) = 1 + matrix(j, j)
     end do
     step(:, 1) = integrated(start, h*m%rho*both*(1 - m%kappa)/m%below) - m%rho
-    call solve_linear(stages, 1_ip, matrix, step, fails)
+    call solve_linear(1_ip, matrix, step, fails)
   end subroutine newton
 
   !> The motion, put into the panel, and M_k.

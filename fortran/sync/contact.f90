@@ -226,7 +226,7 @@ contains
       right(:, 1) = right(:, 1) - store%decay(:, k)*store%now_l(0, k)
     end do
     matrix = ground%answer
-    call solve_linear(stages, 1_ip, matrix, right, fails)
+    call solve_linear(1_ip, matrix, right, fails)
     slip = right(:, 1) - (ground%velocity(1:) - side*s%w(1:))
     call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
     lasts = .not. fails .and. all(slip >= -steady)

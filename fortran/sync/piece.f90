@@ -118,7 +118,7 @@ contains
       matrix(j, j) = 1 + matrix(j, j)
     end do
     right(:, 1) = integrated(w(0), -push*ground%span*kept)
-    call solve_linear(stages, 1_ip, matrix, right, fails)
+    call solve_linear(1_ip, matrix, right, fails)
     if (fails) return
     w(1:) = right(:, 1)
     force(1:) = kept + applied(response, w(1:))

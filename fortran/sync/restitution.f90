@@ -200,7 +200,7 @@ contains
     pull = (mass_factor*h)*composed(integral, faded)  ! of D' to the pace
     matrix = by_pace + composed(by_v, pull)
     right(:, 1) = -m%open - applied(by_v, miss)
-    call solve_linear(stages, 1_ip, matrix, right, fails)
+    call solve_linear(1_ip, matrix, right, fails)
     step_pace = right(:, 1)
     step_v = miss + applied(pull, step_pace)
   end subroutine newton

@@ -123,7 +123,7 @@ contains
         matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
         matrix(j, j) = 1 + matrix(j, j)
       end do
-      call solve_linear(stages, 1_ip, matrix, step, fails)
+      call solve_linear(1_ip, matrix, step, fails)
       if (fails) return
       s%w(1:) = s%w(1:) + step(:, 1)
       change = maxval(abs(step))
