@@ -47,7 +47,6 @@ module restitute_fitting
     integer(c_int) :: starts = 0
     integer(c_int64_t) :: seed = 0
     integer(c_int) :: threads = 0
-    real(c_double) :: speed_limit = 0, radius_limit = 0
   end type restitute_fit_options
 
   !> What came out.

@@ -98,7 +98,6 @@ typedef struct restitute_fit_options {
     int starts;                   /**< local fits from the best of the scan, 1 to 100; default 4; fewer if two agree */
     uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
     int threads;                  /**< as in @ref restitute_solve_many; default 1 */
-    double speed_limit, radius_limit; /**< v/c_s and a/R that are remarked, default 0.1 */
 } restitute_fit_options;
 
 RESTITUTE_API void restitute_fit_options_init(restitute_fit_options *options);
