@@ -171,6 +171,8 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         const int place = constant_place(&s->options, item);
         if (!equals || place < 0)
             good = refuse(why, "--known: \"%.40s\" is no NAME=VALUE of a constant of this model; see --help", item);
+        else if (!isnan(s->known[place]))
+            good = refuse(why, "--known: %s is given twice", item);
         else
             good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30,
                           &s->known[place], why);

@@ -93,6 +93,11 @@ static int sort_temperatures(struct rst_dma *d, const double *temperature, const
         d->reference++;
     if (d->reference == d->temperatures)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it", wanted);
+    for (size_t i = 0; !isnan(o->wlf_c1) && i < d->n; i++)
+        if (isnan(rst_fit_wlf(o->wlf_c1, o->wlf_c2, temperature[i] - wanted)))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                              "row[%zu]: temperature = %g: must be above the pole of WLF, %g, with a_T in [1e-30, 1e30]",
+                              i, temperature[i], wanted - o->wlf_c2);
     return RESTITUTE_OK;
 }
 

@@ -101,4 +101,9 @@ cp drop.csv clash.json
 refused 'is an input of this run' fit --input clash.json $ball --output clash.json
 cmp drop.csv clash.json || fail "the input was overwritten"
 refused '--known: "modulus7"' fit --input drop.csv $ball --known modulus7=1
+refused '--known: modulus1 is given twice' fit --input drop.csv $ball --known modulus1=1,modulus1=2
+refused 'drop.csv has no column temperature_C' fit --input drop.csv $ball --wlf 17:51
+refused 'curve.csv has no column temperature_C' fit --dma curve.csv --reference-temperature 20
+awk -F, '{ print $0 "," (NR == 1 ? "temperature_C" : NR < 9 ? 20 : -40) }' curve.csv >cold.csv
+refused 'cold.csv line 9 (row 8): temperature = -40: must be above the pole' fit --dma cold.csv --wlf 17:51
 refused '--terms and --model prony' fit --input drop.csv $ball --model prony
