@@ -196,7 +196,7 @@ RESTITUTE_API void restitute_dma_result_init(restitute_dma_result *result);
 
 /** A Prony series from storage and loss moduli.
  *
- *  Nonnegative least squares on a fine grid of times, neighbours merged, all times and moduli refined together,
+ *  Nonnegative least squares on a grid of times, all times and moduli refined together,
  *  then terms removed as long as the Bayesian information criterion falls.
  *
  *  @param n                 rows, at least 3

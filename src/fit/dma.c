@@ -213,8 +213,6 @@ static int fit(struct rst_dma *d, const double *temperature, const restitute_dma
     status = rst_dma_begin(d);
     if (status >= 0) status = rst_dma_shorten(d);
     rst_fit_gsl_end();
-    if (status >= 0 && d->terms == 0 && d->equilibrium <= 0)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "no positive term comes near these moduli: check their units");
     if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
     return write_result(d, o, r, rest, error);
 }
