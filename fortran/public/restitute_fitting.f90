@@ -69,7 +69,6 @@ module restitute_fitting
     real(c_double) :: poisson_ratio = 0
     integer(c_int) :: tension = 0
     real(c_double) :: noise = 0
-    integer(c_int) :: solid = 0
     real(c_double) :: reference_temperature = 0, wlf_c1 = 0, wlf_c2 = 0
   end type restitute_dma_options
 

@@ -170,7 +170,6 @@ typedef struct restitute_dma_options {
     int tension;          /**< nonzero: the moduli are E' and E''; G = E/(2(1 + nu)). Default 0: shear */
     double noise;         /**< relative standard deviation of the moduli, in [1e-4, 0.5]; default 0.01. Terms that
                                      buy less are left out */
-    int solid;            /**< nonzero: an equilibrium modulus may be fitted; default 1 */
     double reference_temperature; /**< where a_T = 1; NaN (default): that of the first row */
     double wlf_c1, wlf_c2;        /**< NaN (default): a free shift a temperature; else log10 a_T is given by them */
 } restitute_dma_options;

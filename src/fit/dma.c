@@ -18,7 +18,6 @@ void restitute_dma_options_init(restitute_dma_options *options)
     *options = (restitute_dma_options){.struct_size = sizeof *options,
                                        .poisson_ratio = 0.5,
                                        .noise = 0.01,
-                                       .solid = 1,
                                        .reference_temperature = NAN,
                                        .wlf_c1 = NAN,
                                        .wlf_c2 = NAN};
@@ -239,7 +238,7 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     status = d && memory && group ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (!status) {
         const double factor = o.tension ? 1 / (2 * (1 + o.poisson_ratio)) : 1;
-        d->n = n, d->noise = o.noise, d->solid = o.solid;
+        d->n = n, d->noise = o.noise;
         d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->group = group;
         for (size_t i = 0; i < n; i++)
             omega[i] = 2 * pi * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];

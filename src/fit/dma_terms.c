@@ -148,7 +148,7 @@ static void normal_equations(const struct rst_dma *d, size_t columns, double fir
     for (size_t i = 0; i < d->n; i++) {
         for (size_t k = 0; k < columns; k++)
             part(d, i, first + step * (double)k, &storage[k], &loss[k]);
-        if (d->solid) storage[columns - 1] = 1 / (d->storage[i] * d->noise), loss[columns - 1] = 0;
+        storage[columns - 1] = 1 / (d->storage[i] * d->noise), loss[columns - 1] = 0;
         for (size_t k = 0; k < columns; k++) {
             ab[k] += (storage[k] + loss[k]) / d->noise;
             for (size_t l = 0; l < columns; l++)
@@ -168,7 +168,7 @@ int rst_dma_begin(struct rst_dma *d)
     }
     low -= BEYOND * log(10), high += BEYOND * log(10);
     const double step = log(10) / PER_DECADE;
-    const size_t grid = (size_t)((high - low) / step) + 2, columns = grid + (d->solid ? 1 : 0);
+    const size_t grid = (size_t)((high - low) / step) + 2, columns = grid + 1;
     double *aa = calloc(columns * columns + 4 * columns, sizeof *aa), *ab = aa + columns * columns, *x = ab + columns;
     if (!aa) return RESTITUTE_ERROR_MEMORY;
     normal_equations(d, columns, low, step, aa, ab, x + columns);
@@ -181,7 +181,7 @@ int rst_dma_begin(struct rst_dma *d)
                 sum += aa[k * columns + l] * x[l];
             x[k] *= sum > 0 ? ab[k] / sum : 0;
         }
-    d->equilibrium = d->solid ? x[grid] : 0;
+    d->equilibrium = x[grid];
     take_grid(d, x, grid, low, step);
     free(aa);
     return refine(d);

@@ -32,34 +32,21 @@ void rst_fit_gsl_end(void)
 
 struct bridge {
     const struct rst_least *least;
-    double *x, *r, *j;
     int status;
 };
 
-static void take_x(struct bridge *b, const gsl_vector *x)
-{
-    for (size_t i = 0; i < b->least->unknowns; i++)
-        b->x[i] = gsl_vector_get(x, i);
-}
-
+/* Vectors and matrices of a workspace have no gaps. */
 static int residuals(const gsl_vector *x, void *own, gsl_vector *f)
 {
     struct bridge *b = own;
-    take_x(b, x);
-    b->status = b->least->residuals(b->least->own, b->x, b->r);
-    for (size_t i = 0; i < b->least->rows; i++)
-        gsl_vector_set(f, i, b->r[i]);
+    b->status = b->least->residuals(b->least->own, x->data, f->data);
     return b->status < 0 ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
 static int jacobian(const gsl_vector *x, void *own, gsl_matrix *matrix)
 {
     struct bridge *b = own;
-    take_x(b, x);
-    b->status = b->least->jacobian(b->least->own, b->x, b->j);
-    for (size_t i = 0; i < b->least->rows; i++)
-        for (size_t k = 0; k < b->least->unknowns; k++)
-            gsl_matrix_set(matrix, i, k, b->j[i * b->least->unknowns + k]);
+    b->status = b->least->jacobian(b->least->own, x->data, matrix->data);
     return b->status < 0 ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
@@ -97,19 +84,15 @@ static int iterate(gsl_multifit_nlinear_workspace *w, struct bridge *b, double *
 int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int *converged)
 {
     const size_t n = least->rows, p = least->unknowns;
-    double *memory = calloc(p + n + n * p, sizeof *memory);
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     parameters.scale = gsl_multifit_nlinear_scale_levenberg; /* unknowns are logarithms: of one scale */
     parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
                                          : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
-    int status = RESTITUTE_ERROR_MEMORY;
-    if (memory && w) {
-        struct bridge bridge = {least, memory, memory + p, memory + p + n, 0};
-        status = iterate(w, &bridge, x, sum, converged);
-    }
-    if (w) gsl_multifit_nlinear_free(w);
-    free(memory);
+    if (!w) return RESTITUTE_ERROR_MEMORY;
+    struct bridge bridge = {least, 0};
+    const int status = iterate(w, &bridge, x, sum, converged);
+    gsl_multifit_nlinear_free(w);
     return status;
 }
 
