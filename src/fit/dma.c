@@ -100,18 +100,20 @@ static int sort_temperatures(struct rst_dma *d, const double *temperature, const
     return RESTITUTE_OK;
 }
 
-/* log y at log x of the rows of a temperature, sorted by frequency; NaN outside of them. */
-static double curve(const struct rst_dma *d, size_t t, const double *modulus, double log_omega)
+/* Log of a modulus at omega between the rows of a temperature; NaN outside of them. No logarithm in the loop: it is
+ * passed for every row and every trial shift. */
+static double curve(const struct rst_dma *d, size_t t, const double *modulus, double omega)
 {
-    double below = -INFINITY, above = INFINITY, low = NAN, high = NAN;
+    size_t below = d->n, above = d->n;
     for (size_t i = 0; i < d->n; i++) {
-        const double x = log(d->omega[i]);
         if (d->group[i] != t) continue;
-        if (x <= log_omega && x > below) below = x, low = log(modulus[i]);
-        if (x >= log_omega && x < above) above = x, high = log(modulus[i]);
+        if (d->omega[i] <= omega && (below == d->n || d->omega[i] > d->omega[below])) below = i;
+        if (d->omega[i] >= omega && (above == d->n || d->omega[i] < d->omega[above])) above = i;
     }
-    if (isinf(below) || isinf(above)) return NAN;
-    return above > below ? low + (high - low) * (log_omega - below) / (above - below) : low;
+    if (below == d->n || above == d->n) return NAN;
+    if (!(d->omega[above] > d->omega[below])) return log(modulus[below]);
+    return log(modulus[below]) + log(modulus[above] / modulus[below]) * log(omega / d->omega[below]) /
+                                     log(d->omega[above] / d->omega[below]);
 }
 
 /* Mean squared difference of the curves of t, moved by `shift`, and of s where both are; too few: infinity. */
@@ -121,8 +123,8 @@ static double mismatch(const struct rst_dma *d, size_t s, size_t t, double shift
     int count = 0;
     for (size_t i = 0; i < d->n; i++) {
         if (d->group[i] != t) continue;
-        const double x = log(d->omega[i]) + shift, a = curve(d, s, d->storage, x) - log(d->storage[i]),
-                     b = curve(d, s, d->loss, x) - log(d->loss[i]);
+        const double omega = d->omega[i] * exp(shift), a = curve(d, s, d->storage, omega) - log(d->storage[i]),
+                     b = curve(d, s, d->loss, omega) - log(d->loss[i]);
         if (!isnan(a) && !isnan(b)) sum += a * a + b * b, count++;
     }
     return count >= 3 ? sum / count : INFINITY;

@@ -128,6 +128,9 @@ static int check_point(size_t i, const restitute_fit_point *p, int noise_known, 
     }
     if (values == 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: ez, ex or contact_time must be measured", i);
+    if (isinf(p->temperature))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu].temperature = %g: must be finite", i,
+                          p->temperature);
     snprintf(name, sizeof name, "points[%zu].scene.normal_speed", i);
     return outside(name, p->scene.normal_speed, 1e-50, 1e50, error);
 }

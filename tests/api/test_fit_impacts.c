@@ -271,6 +271,7 @@ static void refusals(void **state)
     REFUSED(scene.normal_speed, -1, "points[2].scene.normal_speed = -1");
     REFUSED(scene.radius1, 0, "points[2]: radius1 (m) = 0");
     REFUSED(temperature, 20, "points[2].temperature = 20");
+    REFUSED(temperature, INFINITY, "points[2].temperature = inf: must be finite");
     for (int i = 0; i < 4; i++)
         points[i].temperature = 20;
     options.wlf_c1 = 17, options.wlf_c2 = 51;
