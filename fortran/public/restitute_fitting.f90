@@ -47,7 +47,6 @@ module restitute_fitting
     integer(c_int) :: starts = 0
     integer(c_int64_t) :: seed = 0
     integer(c_int) :: threads = 0
-    real(c_double) :: speed_limit = 0, radius_limit = 0
   end type restitute_fit_options
 
   !> What came out.
@@ -70,7 +69,6 @@ module restitute_fitting
     real(c_double) :: poisson_ratio = 0
     integer(c_int) :: tension = 0
     real(c_double) :: noise = 0
-    integer(c_int) :: solid = 0
     real(c_double) :: reference_temperature = 0, wlf_c1 = 0, wlf_c2 = 0
   end type restitute_dma_options
 

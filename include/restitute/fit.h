@@ -98,7 +98,6 @@ typedef struct restitute_fit_options {
     int starts;                   /**< local fits from the best of the scan, 1 to 100; default 4; fewer if two agree */
     uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
     int threads;                  /**< as in @ref restitute_solve_many; default 1 */
-    double speed_limit, radius_limit; /**< v/c_s and a/R that are remarked, default 0.1 */
 } restitute_fit_options;
 
 RESTITUTE_API void restitute_fit_options_init(restitute_fit_options *options);
@@ -171,7 +170,6 @@ typedef struct restitute_dma_options {
     int tension;          /**< nonzero: the moduli are E' and E''; G = E/(2(1 + nu)). Default 0: shear */
     double noise;         /**< relative standard deviation of the moduli, in [1e-4, 0.5]; default 0.01. Terms that
                                      buy less are left out */
-    int solid;            /**< nonzero: an equilibrium modulus may be fitted; default 1 */
     double reference_temperature; /**< where a_T = 1; NaN (default): that of the first row */
     double wlf_c1, wlf_c2;        /**< NaN (default): a free shift a temperature; else log10 a_T is given by them */
 } restitute_dma_options;
@@ -197,7 +195,7 @@ RESTITUTE_API void restitute_dma_result_init(restitute_dma_result *result);
 
 /** A Prony series from storage and loss moduli.
  *
- *  Nonnegative least squares on a fine grid of times, neighbours merged, all times and moduli refined together,
+ *  Nonnegative least squares on a grid of times, all times and moduli refined together,
  *  then terms removed as long as the Bayesian information criterion falls.
  *
  *  @param n                 rows, at least 3

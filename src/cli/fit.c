@@ -20,8 +20,8 @@ static volatile sig_atomic_t stopped;
 
 static void on_signal(int number)
 {
-    (void)number;
     stopped = 1;
+    signal(number, SIG_DFL); /* a piece may be long: the second signal does not wait for it */
 }
 
 static bool check_outputs(const struct fit_settings *s, const struct fit_input *input, struct reason *why)
@@ -43,13 +43,16 @@ static bool check_outputs(const struct fit_settings *s, const struct fit_input *
     return places_check(&places, why);
 }
 
-/* All pieces, with progress; false: failed or stopped by a signal. */
+/* All pieces, with progress; false: failed or stopped by a signal. A DMA curve comes in one piece: there signals end the
+ * program as they always do, and nothing was written. */
 static bool run(restitute_fitter *fitter, struct reason *why)
 {
     restitute_error error;
     double done = 0;
     char text[60];
     int status = RESTITUTE_OK;
+    if (signal(SIGINT, SIG_IGN) != SIG_IGN) signal(SIGINT, on_signal);
+    if (signal(SIGTERM, SIG_IGN) != SIG_IGN) signal(SIGTERM, on_signal);
     while (done < 1 && !status && !stopped) {
         status = restitute_fitter_run(fitter, &done, &error);
         snprintf(text, sizeof text, "fit: %.0f %%", 100 * done);
@@ -119,8 +122,6 @@ int fit_main(int count, char **arguments)
     const enum fit_reading reading = fit_options_read(count, arguments, &settings);
     int status = reading == FIT_STOP ? EXIT_DONE : EXIT_USAGE;
     if (reading == FIT_GO_ON) {
-        signal(SIGINT, on_signal);
-        signal(SIGTERM, on_signal);
         const bool good = fit_input_read(&settings, &input, &why) && check_outputs(&settings, &input, &why);
         status = !good                      ? complain("%s", why.text)
                  : settings.text[FIT_INPUT] ? fit_points(&settings, &input)

@@ -221,6 +221,9 @@ bool fit_input_read(struct fit_settings *settings, struct fit_input *input, stru
     memset(input, 0, sizeof *input);
     if (restitute_csv_read(path, &input->csv, &error) < 0) return refuse(why, "%s", error.message);
     input->n = restitute_csv_rows(input->csv);
+    if ((settings->text[FIT_WLF] || settings->text[FIT_REFERENCE]) &&
+        find(input->csv, "temperature_C") == restitute_csv_columns(input->csv))
+        return refuse(why, "--wlf, --reference-temperature: %.200s has no column temperature_C", path);
     if (settings->options.threads < 0) settings->options.threads = input->n < 200 ? 1 : 0; /* more only cost, for few */
     return settings->text[FIT_INPUT] ? read_points(settings, input, why) : read_curve(settings, input, why);
 }

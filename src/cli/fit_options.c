@@ -171,6 +171,8 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         const int place = constant_place(&s->options, item);
         if (!equals || place < 0)
             good = refuse(why, "--known: \"%.40s\" is no NAME=VALUE of a constant of this model; see --help", item);
+        else if (!isnan(s->known[place]))
+            good = refuse(why, "--known: %s is given twice", item);
         else
             good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30,
                           &s->known[place], why);
@@ -235,18 +237,6 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     return !s->text[FIT_PARTNER] || partner_read(s->text[FIT_PARTNER], "--partner", &s->values, why);
 }
 
-static bool take_fields(struct fit_settings *s, struct reason *why)
-{
-    for (enum field field = 0; field < FIELD_COUNT; field++) {
-        char place[40];
-        if (!s->field[field]) continue;
-        snprintf(place, sizeof place, "--%s", field_rules[field].option);
-        if (!field_read(field, s->field[field], place, &s->values.number[field], why)) return false;
-        s->values.given[field] = true;
-    }
-    return true;
-}
-
 static bool read_arguments(poptContext context, struct fit_settings *s, bool *help, struct reason *why)
 {
     int code;
@@ -260,7 +250,7 @@ static bool read_arguments(poptContext context, struct fit_settings *s, bool *he
     if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
     const char *more = poptGetArg(context);
     if (more) return refuse(why, "unexpected argument \"%.100s\"; see --help", more);
-    return take_fields(s, why) && check_kind(s, why) && take_texts(s, why);
+    return values_read(s->field, &s->values, why) && check_kind(s, why) && take_texts(s, why);
 }
 
 enum fit_reading fit_options_read(int count, char **arguments, struct fit_settings *settings)

@@ -215,18 +215,6 @@ static bool take_option(struct settings *settings, int code, poptContext context
     return true;
 }
 
-static bool read_fields(struct settings *settings, struct reason *why)
-{
-    for (enum field field = 0; field < FIELD_COUNT; field++) {
-        char place[40];
-        if (!settings->field[field]) continue;
-        snprintf(place, sizeof place, "--%s", field_rules[field].option);
-        if (!field_read(field, settings->field[field], place, &settings->values.number[field], why)) return false;
-        settings->values.given[field] = true;
-    }
-    return true;
-}
-
 /* A number of a text option within [low, high]; integers only if so wanted. Not given: left as it is. */
 static bool read_bounded(const struct settings *settings, enum text_option option, double low, double high, bool whole,
                          double *value, struct reason *why)
@@ -359,8 +347,8 @@ static bool read_arguments(poptContext context, struct settings *settings, bool 
         extra = poptGetArg(context);
     }
     if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
-    return read_solver(settings, why) && read_fields(settings, why) && read_words(settings, why) &&
-           read_shard(settings, why);
+    return read_solver(settings, why) && values_read(settings->field, &settings->values, why) &&
+           read_words(settings, why) && read_shard(settings, why);
 }
 
 enum reading options_read(int count, char **arguments, struct settings *settings)

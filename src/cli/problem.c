@@ -3,6 +3,7 @@
 #include "problem.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -13,6 +14,18 @@ struct values values_none(void)
     memset(&values, 0, sizeof values);
     values.rotation_blocked = -1;
     return values;
+}
+
+bool values_read(char *const texts[FIELD_COUNT], struct values *values, struct reason *why)
+{
+    for (enum field field = 0; field < FIELD_COUNT; field++) {
+        char place[40];
+        if (!texts[field]) continue;
+        snprintf(place, sizeof place, "--%s", field_rules[field].option);
+        if (!field_read(field, texts[field], place, &values->number[field], why)) return false;
+        values->given[field] = true;
+    }
+    return true;
 }
 
 bool values_dimensionless(const struct values *values)

@@ -21,6 +21,9 @@ struct values {
 /* Nothing given. */
 struct values values_none(void);
 
+/* The texts of options, one a field, NULL: not given. */
+bool values_read(char *const texts[FIELD_COUNT], struct values *values, struct reason *why);
+
 /* How the user calls things in this place, for messages. */
 enum naming { NAME_OPTIONS, NAME_COLUMNS };
 

@@ -120,19 +120,6 @@ static bool take(poptContext context, int code, struct table_settings *s, struct
     return true;
 }
 
-static bool take_fields(struct table_settings *s, struct reason *why)
-{
-    for (enum field field = 0; field < FIELD_COUNT; field++) {
-        char place[40];
-        if (!s->field[field]) continue;
-        snprintf(place, sizeof place, "--%s", field_rules[field].option);
-        if (!field_read(field, s->field[field], place, &s->values.number[field], why)) return false;
-        s->values.given[field] = true;
-    }
-    s->values.material = s->text[TABLE_MATERIAL];
-    return !s->text[TABLE_PARTNER] || partner_read(s->text[TABLE_PARTNER], "--partner", &s->values, why);
-}
-
 static bool read_arguments(poptContext context, struct table_settings *s, bool *help, struct reason *why)
 {
     int code;
@@ -149,7 +136,9 @@ static bool read_arguments(poptContext context, struct table_settings *s, bool *
         return refuse(why, "a table file is missing: restitute table %s FILE", action_names[s->action]);
     if (file) return refuse(why, "unexpected argument \"%.100s\"; see --help", file);
     if (s->action == TABLE_BUILD && !s->text[TABLE_OUTPUT]) return refuse(why, "--output is missing: the table's file");
-    return take_fields(s, why);
+    s->values.material = s->text[TABLE_MATERIAL];
+    return values_read(s->field, &s->values, why) &&
+           (!s->text[TABLE_PARTNER] || partner_read(s->text[TABLE_PARTNER], "--partner", &s->values, why));
 }
 
 /* FAILED also without an action. */

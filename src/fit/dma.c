@@ -18,7 +18,6 @@ void restitute_dma_options_init(restitute_dma_options *options)
     *options = (restitute_dma_options){.struct_size = sizeof *options,
                                        .poisson_ratio = 0.5,
                                        .noise = 0.01,
-                                       .solid = 1,
                                        .reference_temperature = NAN,
                                        .wlf_c1 = NAN,
                                        .wlf_c2 = NAN};
@@ -93,21 +92,28 @@ static int sort_temperatures(struct rst_dma *d, const double *temperature, const
         d->reference++;
     if (d->reference == d->temperatures)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it", wanted);
+    for (size_t i = 0; !isnan(o->wlf_c1) && i < d->n; i++)
+        if (isnan(rst_fit_wlf(o->wlf_c1, o->wlf_c2, temperature[i] - wanted)))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                              "row[%zu]: temperature = %g: must be above the pole of WLF, %g, with a_T in [1e-30, 1e30]",
+                              i, temperature[i], wanted - o->wlf_c2);
     return RESTITUTE_OK;
 }
 
-/* log y at log x of the rows of a temperature, sorted by frequency; NaN outside of them. */
-static double curve(const struct rst_dma *d, size_t t, const double *modulus, double log_omega)
+/* Log of a modulus at omega between the rows of a temperature; NaN outside of them. No logarithm in the loop: it is
+ * passed for every row and every trial shift. */
+static double curve(const struct rst_dma *d, size_t t, const double *modulus, double omega)
 {
-    double below = -INFINITY, above = INFINITY, low = NAN, high = NAN;
+    size_t below = d->n, above = d->n;
     for (size_t i = 0; i < d->n; i++) {
-        const double x = log(d->omega[i]);
         if (d->group[i] != t) continue;
-        if (x <= log_omega && x > below) below = x, low = log(modulus[i]);
-        if (x >= log_omega && x < above) above = x, high = log(modulus[i]);
+        if (d->omega[i] <= omega && (below == d->n || d->omega[i] > d->omega[below])) below = i;
+        if (d->omega[i] >= omega && (above == d->n || d->omega[i] < d->omega[above])) above = i;
     }
-    if (isinf(below) || isinf(above)) return NAN;
-    return above > below ? low + (high - low) * (log_omega - below) / (above - below) : low;
+    if (below == d->n || above == d->n) return NAN;
+    if (!(d->omega[above] > d->omega[below])) return log(modulus[below]);
+    return log(modulus[below]) + log(modulus[above] / modulus[below]) * log(omega / d->omega[below]) /
+                                     log(d->omega[above] / d->omega[below]);
 }
 
 /* Mean squared difference of the curves of t, moved by `shift`, and of s where both are; too few: infinity. */
@@ -117,8 +123,8 @@ static double mismatch(const struct rst_dma *d, size_t s, size_t t, double shift
     int count = 0;
     for (size_t i = 0; i < d->n; i++) {
         if (d->group[i] != t) continue;
-        const double x = log(d->omega[i]) + shift, a = curve(d, s, d->storage, x) - log(d->storage[i]),
-                     b = curve(d, s, d->loss, x) - log(d->loss[i]);
+        const double omega = d->omega[i] * exp(shift), a = curve(d, s, d->storage, omega) - log(d->storage[i]),
+                     b = curve(d, s, d->loss, omega) - log(d->loss[i]);
         if (!isnan(a) && !isnan(b)) sum += a * a + b * b, count++;
     }
     return count >= 3 ? sum / count : INFINITY;
@@ -208,8 +214,6 @@ static int fit(struct rst_dma *d, const double *temperature, const restitute_dma
     status = rst_dma_begin(d);
     if (status >= 0) status = rst_dma_shorten(d);
     rst_fit_gsl_end();
-    if (status >= 0 && d->terms == 0 && d->equilibrium <= 0)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "no positive term comes near these moduli: check their units");
     if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
     return write_result(d, o, r, rest, error);
 }
@@ -236,7 +240,7 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     status = d && memory && group ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (!status) {
         const double factor = o.tension ? 1 / (2 * (1 + o.poisson_ratio)) : 1;
-        d->n = n, d->noise = o.noise, d->solid = o.solid;
+        d->n = n, d->noise = o.noise;
         d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->group = group;
         for (size_t i = 0; i < n; i++)
             omega[i] = 2 * pi * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];

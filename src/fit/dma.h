@@ -12,7 +12,6 @@ struct rst_dma {
     double *storage, *loss; /* shear moduli */
     size_t *group;          /* temperature of a row */
     double noise;
-    int solid; /* an equilibrium modulus is among the unknowns */
     size_t temperatures, reference;
     int free_shifts;
     double shift[RESTITUTE_DMA_SHIFTS]; /* log a_T */

@@ -8,10 +8,10 @@
 #include "dma.h"
 #include "least.h"
 
-/* Grid of the first fit: the nonnegative solution on a finer one has pairs of neighbours where this has one term. BEYOND:
+/* PER_DECADE: terms of the first fit; the end has about one a decade. TURNS of that fit, which is only a start. BEYOND:
  * decades before and behind the window of 1/w, where terms still are seen. ITERATIONS of one refinement. TRIES: pairs that
  * are merged on trial, the cheapest first, before a series counts as short enough. */
-enum { PER_DECADE = 6, ITERATIONS = 40, TRIES = 3 };
+enum { PER_DECADE = 2, TURNS = 500, ITERATIONS = 40, TRIES = 3 };
 static const double BEYOND = 1;
 
 static double at(const struct rst_dma *d, size_t row, double log_tau)
@@ -130,20 +130,35 @@ static void merge(struct rst_dma *d, size_t i)
     memmove(d->g + i + 1, d->g + i + 2, (d->terms - i - 1) * sizeof *d->g);
 }
 
-/* Neighbours on the grid are one term in between: their weights tell where. */
 static void take_grid(struct rst_dma *d, const double *x, size_t grid, double first, double step)
 {
-    size_t last = grid;
     d->terms = 0;
     for (size_t k = 0; k < grid; k++) {
         if (!(x[k] > 0)) continue;
         if (d->terms == RESTITUTE_DMA_TERMS) merge(d, d->terms - 2);
         d->g[d->terms] = log(x[k]), d->tau[d->terms++] = first + step * (double)k;
-        if (last + 1 == k && d->terms > 1) merge(d, d->terms - 2); /* and the pair is closed */
-        last = last + 1 == k ? grid : k;
     }
 }
 
+/* A^T A and A^T b of the moduli on the grid, equilibrium last; both halves of a row. `work`: 2 x columns. */
+static void normal_equations(const struct rst_dma *d, size_t columns, double first, double step, double *aa, double *ab,
+                             double *work)
+{
+    double *storage = work, *loss = work + columns;
+    for (size_t i = 0; i < d->n; i++) {
+        for (size_t k = 0; k < columns; k++)
+            part(d, i, first + step * (double)k, &storage[k], &loss[k]);
+        storage[columns - 1] = 1 / (d->storage[i] * d->noise), loss[columns - 1] = 0;
+        for (size_t k = 0; k < columns; k++) {
+            ab[k] += (storage[k] + loss[k]) / d->noise;
+            for (size_t l = 0; l < columns; l++)
+                aa[k * columns + l] += storage[k] * storage[l] + loss[k] * loss[l];
+        }
+    }
+}
+
+/* Moduli on a grid of times by x_k (A^T b)_k/(A^T A x)_k, as Lee and Seung do: A and b are positive, so x stays so, and the
+ * sum of squares never rises. */
 int rst_dma_begin(struct rst_dma *d)
 {
     double low = INFINITY, high = -INFINITY;
@@ -153,22 +168,23 @@ int rst_dma_begin(struct rst_dma *d)
     }
     low -= BEYOND * log(10), high += BEYOND * log(10);
     const double step = log(10) / PER_DECADE;
-    const size_t grid = (size_t)((high - low) / step) + 2, columns = grid + (d->solid ? 1 : 0), rows = 2 * d->n;
-    double *a = calloc(rows * columns + rows + columns, sizeof *a), *b = a + rows * columns, *x = b + rows;
-    if (!a) return RESTITUTE_ERROR_MEMORY;
-    for (size_t i = 0; i < d->n; i++) {
-        for (size_t k = 0; k < grid; k++)
-            part(d, i, low + step * (double)k, &a[i * columns + k], &a[(d->n + i) * columns + k]);
-        if (d->solid) a[i * columns + grid] = 1 / (d->storage[i] * d->noise);
-        b[i] = b[d->n + i] = 1 / d->noise;
-    }
-    int status = rst_fit_nonnegative(rows, columns, a, b, x);
-    if (status >= 0) {
-        d->equilibrium = d->solid ? x[grid] : 0;
-        take_grid(d, x, grid, low, step);
-    }
-    free(a);
-    return status < 0 ? status : refine(d);
+    const size_t grid = (size_t)((high - low) / step) + 2, columns = grid + 1;
+    double *aa = calloc(columns * columns + 4 * columns, sizeof *aa), *ab = aa + columns * columns, *x = ab + columns;
+    if (!aa) return RESTITUTE_ERROR_MEMORY;
+    normal_equations(d, columns, low, step, aa, ab, x + columns);
+    for (size_t k = 0; k < columns; k++)
+        x[k] = ab[k] / aa[k * columns + k];
+    for (int turn = 0; turn < TURNS; turn++)
+        for (size_t k = 0; k < columns; k++) {
+            double sum = 0;
+            for (size_t l = 0; l < columns; l++)
+                sum += aa[k * columns + l] * x[l];
+            x[k] *= sum > 0 ? ab[k] / sum : 0;
+        }
+    d->equilibrium = x[grid];
+    take_grid(d, x, grid, low, step);
+    free(aa);
+    return refine(d);
 }
 
 static double square(const struct rst_dma *d, double *r)
@@ -225,7 +241,8 @@ static int shorten_once(struct rst_dma *d, double *r, int *shorter)
         make_candidate(d, best, &candidate);
         const int status = refine(&candidate);
         if (status < 0) return status;
-        *shorter = candidate.sum - d->sum < (double)(unknowns(d) - unknowns(&candidate)) * log(2 * (double)d->n);
+        *shorter = unknowns(d) > 2 * d->n || /* more than any data determine, and not refined */
+                   candidate.sum - d->sum < (double)(unknowns(d) - unknowns(&candidate)) * log(2 * (double)d->n);
     }
     if (*shorter) *d = candidate;
     return RESTITUTE_OK;

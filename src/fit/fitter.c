@@ -86,7 +86,7 @@ static void add_rivals(restitute_fitter *f)
         add_shorter_series(f);
 }
 
-static int check_counts(const restitute_fitter *f, restitute_error *error)
+static int check_model(const restitute_fitter *f, restitute_error *error)
 {
     const struct rst_fit_model *m = &f->search.model;
     if (m->count > RESTITUTE_FIT_CONSTANTS)
@@ -96,6 +96,12 @@ static int check_counts(const restitute_fitter *f, restitute_error *error)
     if (f->data.rows < m->free)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "%zu measured values are fewer than the %zu constants of the model", f->data.rows, m->free);
+    for (size_t i = 0; i < m->solid; i++) /* 1e8 on both sides is searched, and the core takes 1e-30 to 1e30 */
+        if (!(fabs(m->centre[i]) <= log(1e20)))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                              "contact times or known constants call for a modulus or viscosity near %.3g: must be in "
+                              "[1e-20, 1e20]; check units",
+                              exp(m->centre[i]));
     return RESTITUTE_OK;
 }
 
@@ -108,7 +114,7 @@ static int prepare(restitute_fitter *f, restitute_error *error)
         f->weight[i] = 1;
     f->search.model = model;
     f->turns = (size_t)f->data.options.starts + 3 + MOST_RIVALS;
-    const int status = check_counts(f, error);
+    const int status = check_model(f, error);
     if (status) return status;
     if (!f->weight || rst_fit_search_create(&f->data, &model, f->weight, (size_t)f->data.options.starts, &f->search))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", f->data.n);

@@ -27,7 +27,4 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
 /* Singular values (descending) and right vectors, v[k * unknowns + j] component j of vector k, of rows x unknowns. */
 int rst_fit_singular(size_t rows, size_t unknowns, const double *j, double *values, double *v);
 
-/* x >= 0 that minimises |a x - b|: Lawson and Hanson's active set. a is rows x unknowns, row by row. */
-int rst_fit_nonnegative(size_t rows, size_t unknowns, const double *a, const double *b, double *x);
-
 #endif

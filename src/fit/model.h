@@ -46,7 +46,8 @@ void rst_fit_data_release(struct rst_fit_data *data);
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
 
-/* log10 a_T by the constants of Williams, Landel and Ferry. */
+/* log10 a_T by the constants of Williams, Landel and Ferry. NaN: at T_r - c2 or below, where the law has its pole, or a
+ * shift beyond 1e30, where no relaxation time is left. */
 double rst_fit_wlf(double c1, double c2, double difference);
 
 /* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of theirs. */

@@ -32,9 +32,7 @@ void restitute_fit_options_init(restitute_fit_options *options)
                                        .wlf_c2 = NAN,
                                        .starts = 4,
                                        .seed = 1,
-                                       .threads = 1,
-                                       .speed_limit = 0.1,
-                                       .radius_limit = 0.1};
+                                       .threads = 1};
 }
 
 void restitute_fit_result_init(restitute_fit_result *result)
@@ -52,7 +50,8 @@ size_t rst_fit_solid_constants(int kind, size_t terms)
 
 double rst_fit_wlf(double c1, double c2, double difference)
 {
-    return -c1 * difference / (c2 + difference);
+    const double shift = -c1 * difference / (c2 + difference);
+    return c2 + difference > 0 && fabs(shift) <= 30 ? shift : NAN;
 }
 
 static int outside(const char *name, double value, double low, double high, restitute_error *error)
@@ -129,6 +128,9 @@ static int check_point(size_t i, const restitute_fit_point *p, int noise_known, 
     }
     if (values == 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: ez, ex or contact_time must be measured", i);
+    if (isinf(p->temperature))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu].temperature = %g: must be finite", i,
+                          p->temperature);
     snprintf(name, sizeof name, "points[%zu].scene.normal_speed", i);
     return outside(name, p->scene.normal_speed, 1e-50, 1e50, error);
 }
@@ -198,6 +200,11 @@ static int make_groups(struct rst_fit_data *d, restitute_error *error)
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: more than %d temperatures", i,
                               RESTITUTE_DMA_SHIFTS);
         if (k == d->temperatures) t[d->temperatures++] = p->temperature;
+        if (!isnan(d->options.wlf_c1) && !isnan(t[k]) &&
+            isnan(rst_fit_wlf(d->options.wlf_c1, d->options.wlf_c2, t[k] - t[0])))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                              "points[%zu].temperature = %g: must be above the pole of WLF, %g, with a_T in [1e-30, 1e30]",
+                              i, t[k], t[0] - d->options.wlf_c2);
         while (g < d->groups && (d->points[d->first[g]].scene.material != p->scene.material ||
                                  (d->points[d->first[g]].temperature != p->temperature && !isnan(p->temperature))))
             g++;
@@ -235,8 +242,6 @@ static void set_solver(struct rst_fit_data *d)
     restitute_options_init(&d->solver);
     d->solver.method = restitute_method_sync();
     d->solver.max_updates = 100000;
-    d->solver.speed_limit = d->options.speed_limit;
-    d->solver.radius_limit = d->options.radius_limit;
 }
 
 int rst_fit_data_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,

@@ -271,6 +271,13 @@ static void refusals(void **state)
     REFUSED(scene.normal_speed, -1, "points[2].scene.normal_speed = -1");
     REFUSED(scene.radius1, 0, "points[2]: radius1 (m) = 0");
     REFUSED(temperature, 20, "points[2].temperature = 20");
+    REFUSED(temperature, INFINITY, "points[2].temperature = inf: must be finite");
+    for (int i = 0; i < 4; i++)
+        points[i].temperature = 20;
+    options.wlf_c1 = 17, options.wlf_c2 = 51;
+    REFUSED(temperature, -40, "points[2].temperature = -40: must be above the pole of WLF, -31");
+    REFUSED(temperature, -30.9, "points[2].temperature = -30.9: must be"); /* 10^8500: no time is left */
+    options.wlf_c1 = options.wlf_c2 = NAN;
     refused(2, points, &options, RESTITUTE_ERROR_DOMAIN, "2 measured values are fewer than the 3 constants");
     refused(0, points, &options, RESTITUTE_ERROR_DOMAIN, "n = 0");
     refused(4, NULL, &options, RESTITUTE_ERROR_NULL, "points is NULL");

@@ -82,6 +82,7 @@ bad 'column ez (or' speed_m_s 1 2 3
 bad 'column speed_m_s (or drop_height_m) is missing' ez 0.4 0.5 0.6
 bad 'unknown column "speed"; known are' speed,ez 1,0.4 2,0.4 3,0.4
 bad '2 measured values are fewer than the 3 constants' speed_m_s,ez 1,0.4 2,0.4
+bad 'contact times or known constants call for a modulus' speed_m_s,ez,contact_time_s 1,0.5,1e-90 2,0.4,1e-90
 bad 'row 2): nothing is measured' speed_m_s,ez 1,0.4 2, 3,0.4
 bad 'row 1): rebound_height_m = 2' drop_height_m,rebound_height_m 1,2 2,1 2,1
 bad 'row 1): column radius1_m and option' speed_m_s,ez,radius1_m 1,0.4,1 2,0.4,1 3,0.3,1
@@ -101,4 +102,9 @@ cp drop.csv clash.json
 refused 'is an input of this run' fit --input clash.json $ball --output clash.json
 cmp drop.csv clash.json || fail "the input was overwritten"
 refused '--known: "modulus7"' fit --input drop.csv $ball --known modulus7=1
+refused '--known: modulus1 is given twice' fit --input drop.csv $ball --known modulus1=1,modulus1=2
+refused 'drop.csv has no column temperature_C' fit --input drop.csv $ball --wlf 17:51
+refused 'curve.csv has no column temperature_C' fit --dma curve.csv --reference-temperature 20
+awk -F, '{ print $0 "," (NR == 1 ? "temperature_C" : NR < 9 ? 20 : -40) }' curve.csv >cold.csv
+refused 'cold.csv line 9 (row 8): temperature = -40: must be above the pole' fit --dma cold.csv --wlf 17:51
 refused '--terms and --model prony' fit --input drop.csv $ball --model prony
