@@ -86,7 +86,8 @@ static int start(struct rst_builder *b, restitute_error *error)
     const double widest = 4;        /* octaves of a first cell: the fewest columns over six decades */
     const double *speed = b->options.speed;
     if (b->contact.timeless || speed[0] >= speed[1]) return start_alone(b, error);
-    const double low = rst_axis_place(speed[0], NULL), high = rst_axis_place(speed[1], NULL);
+    const double low = rst_axis_place(speed[0], NULL), narrowest = low + (fewest - 1) * rst_narrowest;
+    const double high = fmax(rst_axis_place(speed[1], NULL), narrowest); /* the last columns may lie above the range */
     const int n = (int)fmax(fewest, fmin(most, 1 + ceil((high - low) / widest)));
     struct rst_task task[most];
     for (int i = 0; i < n; i++) {
@@ -94,7 +95,7 @@ static int start(struct rst_builder *b, restitute_error *error)
         task[i] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .by_speed = 1, .checked = {-1, -1}}};
     }
     task[0].column.speed = speed[0];
-    task[n - 1].column.speed = speed[1];
+    task[n - 1].column.speed = high > narrowest ? speed[1] : fmax(speed[1], rst_axis_speed(high));
     task[n - 1].column.at = high;
     return add_columns(b, n, task, error);
 }
