@@ -57,8 +57,9 @@ typedef struct restitute_table_options {
     int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
-    int64_t max_impacts;  /**< most impacts that a table may take, > 0; default 60000. A build that reaches it gives its
-                             best with TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if there is none yet */
+    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 60000. Checks come on top: in all it is
+                             a tenth more at 60000, twice as many at some hundred. The build gives its best then, with
+                             TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
 

@@ -171,8 +171,8 @@ static bool check_query(const struct table_settings *s, struct reason *why)
 static bool find_one(const struct table_settings *s, struct query *q, restitute_table_value *pair, struct reason *why)
 {
     q->value[0] = NAN;
-    if (!table_number(s, TABLE_NORMAL_SPEED, 0, 1e300, &q->value[0], why) ||
-        !table_number(s, TABLE_TANGENTIAL_SPEED, -1e300, 1e300, &q->value[1], why))
+    if (!table_number(s, TABLE_NORMAL_SPEED, 0, 1e100, &q->value[0], why) ||
+        !table_number(s, TABLE_TANGENTIAL_SPEED, -1e100, 1e100, &q->value[1], why))
         return false;
     if (isnan(q->value[0])) return refuse(why, "--normal-speed is missing");
     return look_up(q, pair) >= 0 ? true : refuse(why, "the table has no answer to this");

@@ -166,9 +166,13 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
 {
     *b = (struct rst_builder){.options = *options, .stick = first_stick, .slip = first_slip};
     int status = rst_contact_set(scene, &b->contact, error);
+    const double chi = b->contact.numbers.chi;
+    if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: a table takes [%g, %g]", chi,
+                            rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
     if (b->contact.sliding != RST_SLIDES) b->stick = b->slip = 1;
-    if (2 * b->contact.numbers.chi <= 1) b->slip = 1;
+    if (2 * chi <= 1) b->slip = 1;
     b->threads = rst_table_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");

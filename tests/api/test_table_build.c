@@ -324,6 +324,9 @@ static void refusals(void **state)
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "radius_limit");
     options = good, options.max_impacts = 100;
     refuse(&scene, &options, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_impacts = 100");
+    scene.inertia1 = 1e-11; /* of 4e-8 */
+    refuse(&scene, &good, RESTITUTE_ERROR_DOMAIN, "chi = 3");
+    scene.inertia1 = 0;
     options = good, options.struct_size = 8;
     refuse(&scene, &options, RESTITUTE_ERROR_STRUCT_SIZE, "struct_size");
     scene.friction = -0.1;

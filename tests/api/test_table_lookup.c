@@ -324,6 +324,7 @@ static void axes_collapse(void **state)
     restitute_table *smooth = table_of(&ball, 1e-3, 10, 1e-4);
     restitute_table_describe(smooth, &info, NULL);
     CHECK(info.stick_cells == 1 && info.slip_cells == 1, "no friction: %lld cells", (long long)info.slip_cells);
+    CHECK(info.checks < info.impacts, "%lld checks of %lld impacts", (long long)info.checks, (long long)info.impacts);
     CHECK(look_up(smooth, 1, 0).ex == -1 && look_up(smooth, 1, 5).ex == -1 && look_up(smooth, 0, 0).ex == -1, "mu = 0");
     CHECK_NEAR(look_up(smooth, 1, 0).ez, look_up(table, 1, 0).ez, 2e-4, "ez does not know of friction");
     restitute_table_destroy(smooth);
