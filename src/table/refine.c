@@ -53,7 +53,7 @@ double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, 
     return rst_gain * worst;
 }
 
-int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error)
+static int double_panel(struct rst_builder *b, int panel, restitute_error *error)
 {
     const int64_t stick = b->stick, slip = b->slip;
     struct rst_task *task = calloc((size_t)b->columns, sizeof *task);
@@ -239,7 +239,7 @@ static int refine_once(struct rst_builder *b, int *done, restitute_error *error)
         if (worst <= enough || worst < fmin(speed, largest_guess) || 2 * cells > rst_most_cells ||
             b->columns * cells > left(b))
             continue;
-        return rst_double_panel(b, panel, error);
+        return double_panel(b, panel, error);
     }
     if (speed > enough) return halve_cells(b, fmax(enough, speed / rst_together), done, error);
     *done = 1;
