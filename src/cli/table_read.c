@@ -147,7 +147,8 @@ static int look_up(struct query *q, restitute_table_value *pair)
 /* The table takes such a speed as the end. That of a solid whose e_z is the same at all speeds says nothing. */
 static bool outside(const struct query *q)
 {
-    return q->info.speeds > 2 && (q->value[0] < q->info.speed[0] || q->value[0] > q->info.speed[1]);
+    const bool one = q->info.speed[0] >= q->info.speed[1];
+    return (q->info.speeds > 2 || one) && (q->value[0] < q->info.speed[0] || q->value[0] > q->info.speed[1]);
 }
 
 static void warn(const struct query *q)
