@@ -183,6 +183,9 @@ RESTITUTE_API int restitute_table_pairs(const restitute_table *table, const rest
 /** One impact of two bodies, by the table: what @ref restitute_collide does, with the pair from the table.
  *
  *  The bodies may have any size; their chi must be the table's. Positions and speeds are checked as there; positions stay.
+ *  What deforms is what the table was built for: the default of a scene is one body, that of @ref restitute_contact both.
+ *  A size is a factor on the speed, for solid spheres size^-5: half the size is 32 times the speed in the table. Where that leaves the
+ *  table's range its end is taken, so build for speeds that cover the sizes.
  *
  *  @param contact       NULL: the table's own. Its size is not used, that of the bodies is
  *  @param first,second  in: before, out: after the impact. One may be a plane
