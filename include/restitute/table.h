@@ -57,8 +57,9 @@ typedef struct restitute_table_options {
     int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
-    int64_t max_impacts;  /**< most impacts that a table may take, > 0; default 60000. A build that reaches it gives its
-                             best with TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if there is none yet */
+    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 60000. Checks come on top: in all it is
+                             a tenth more at 60000, twice as many at some hundred. The build gives its best then, with
+                             TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
 
@@ -182,6 +183,9 @@ RESTITUTE_API int restitute_table_pairs(const restitute_table *table, const rest
 /** One impact of two bodies, by the table: what @ref restitute_collide does, with the pair from the table.
  *
  *  The bodies may have any size; their chi must be the table's. Positions and speeds are checked as there; positions stay.
+ *  What deforms is what the table was built for: the default of a scene is one body, that of @ref restitute_contact both.
+ *  A size is a factor on the speed, for solid spheres size^-5: half the size is 32 times the speed in the table. Where that leaves the
+ *  table's range its end is taken, so build for speeds that cover the sizes.
  *
  *  @param contact       NULL: the table's own. Its size is not used, that of the bodies is
  *  @param first,second  in: before, out: after the impact. One may be a plane

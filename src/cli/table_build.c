@@ -117,7 +117,9 @@ int table_build_run(const struct table_settings *settings)
     if (output_is_stream(output))
         complain("--output = %.200s: a table needs a file", output);
     else if (!output_check(output, "--output", &why) || (figure && !figure_check(figure, &why)) || !read_scene(b, &why) ||
-             !read_options(b, &why) || !check_places(b, &why))
+             !read_options(b, &why) || !check_places(b, &why) ||
+             (figure && b->options.speed[0] >= b->options.speed[1] &&
+              !refuse(&why, "--figure: a table of one speed has no curves")))
         complain("%s", why.text);
     else
         status = build(b);

@@ -93,7 +93,6 @@ bool table_figure(const restitute_table *table, const struct table_settings *set
     restitute_options_init(&none.solver);
     restitute_table_info_init(&info);
     restitute_table_describe(table, &info, NULL);
-    if (!(info.speed[1] > info.speed[0])) return refuse(why, "--figure: a table of one speed has no curves");
     struct chart *chart = chart_new(&none, 2);
     snprintf(chart->title, sizeof chart->title, "Restitution of one contact");
     snprintf(chart->description, sizeof chart->description,

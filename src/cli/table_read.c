@@ -147,7 +147,8 @@ static int look_up(struct query *q, restitute_table_value *pair)
 /* The table takes such a speed as the end. That of a solid whose e_z is the same at all speeds says nothing. */
 static bool outside(const struct query *q)
 {
-    return q->info.speeds > 2 && (q->value[0] < q->info.speed[0] || q->value[0] > q->info.speed[1]);
+    const bool one = q->info.speed[0] >= q->info.speed[1];
+    return (q->info.speeds > 2 || one) && (q->value[0] < q->info.speed[0] || q->value[0] > q->info.speed[1]);
 }
 
 static void warn(const struct query *q)
@@ -171,8 +172,8 @@ static bool check_query(const struct table_settings *s, struct reason *why)
 static bool find_one(const struct table_settings *s, struct query *q, restitute_table_value *pair, struct reason *why)
 {
     q->value[0] = NAN;
-    if (!table_number(s, TABLE_NORMAL_SPEED, 0, 1e300, &q->value[0], why) ||
-        !table_number(s, TABLE_TANGENTIAL_SPEED, -1e300, 1e300, &q->value[1], why))
+    if (!table_number(s, TABLE_NORMAL_SPEED, 0, 1e100, &q->value[0], why) ||
+        !table_number(s, TABLE_TANGENTIAL_SPEED, -1e100, 1e100, &q->value[1], why))
         return false;
     if (isnan(q->value[0])) return refuse(why, "--normal-speed is missing");
     return look_up(q, pair) >= 0 ? true : refuse(why, "the table has no answer to this");

@@ -86,7 +86,8 @@ static int start(struct rst_builder *b, restitute_error *error)
     const double widest = 4;        /* octaves of a first cell: the fewest columns over six decades */
     const double *speed = b->options.speed;
     if (b->contact.timeless || speed[0] >= speed[1]) return start_alone(b, error);
-    const double low = rst_axis_place(speed[0], NULL), high = rst_axis_place(speed[1], NULL);
+    const double low = rst_axis_place(speed[0], NULL), narrowest = low + (fewest - 1) * rst_narrowest;
+    const double high = fmax(rst_axis_place(speed[1], NULL), narrowest); /* the last columns may lie above the range */
     const int n = (int)fmax(fewest, fmin(most, 1 + ceil((high - low) / widest)));
     struct rst_task task[most];
     for (int i = 0; i < n; i++) {
@@ -94,7 +95,7 @@ static int start(struct rst_builder *b, restitute_error *error)
         task[i] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .by_speed = 1, .checked = {-1, -1}}};
     }
     task[0].column.speed = speed[0];
-    task[n - 1].column.speed = speed[1];
+    task[n - 1].column.speed = high > narrowest ? speed[1] : fmax(speed[1], rst_axis_speed(high));
     task[n - 1].column.at = high;
     return add_columns(b, n, task, error);
 }
@@ -165,9 +166,13 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
 {
     *b = (struct rst_builder){.options = *options, .stick = first_stick, .slip = first_slip};
     int status = rst_contact_set(scene, &b->contact, error);
+    const double chi = b->contact.numbers.chi;
+    if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: a table takes [%g, %g]", chi,
+                            rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
     if (b->contact.sliding != RST_SLIDES) b->stick = b->slip = 1;
-    if (2 * b->contact.numbers.chi <= 1) b->slip = 1;
+    if (2 * chi <= 1) b->slip = 1;
     b->threads = rst_table_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");

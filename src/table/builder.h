@@ -78,10 +78,7 @@ static inline int64_t rst_builder_places(const struct rst_builder *b)
     return b->stick + b->slip + 2;
 }
 
-/* psi at a place of a column, and how many places are solved for (solve.c). */
-double rst_psi_at(const struct rst_builder *b, int64_t place, double ez);
-
-/* Solve tasks; their columns get values. Fewer impacts are left then. */
+/* Solve tasks (solve.c); their columns get values. Fewer impacts are left then. */
 int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
 /* Impacts of n columns. */
@@ -90,21 +87,21 @@ int64_t rst_cost(const struct rst_builder *b, int64_t n);
 /* Put solved columns in their places; on failure they are released. */
 int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
-/* Weights of five neighbouring nodes for a derivative (refine.c). */
+/* Weights of up to five neighbouring columns for the slopes of column i, all on its side of seams (refine.c). */
 struct rst_stencil {
     int64_t first;
     int n;
     double w[5];
 };
-void rst_stencil_at(const double *at, int64_t low, int64_t high, int64_t i, struct rst_stencil *s);
+void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stencil *s);
+
+/* Slope at i of cells + 1 even values, `stride` apart, by i. */
+double rst_even_slope(const double *f, int64_t stride, int64_t cells, int64_t i);
 
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);
 
-/* Twice the cells of psi of a panel: 0 stick, 1 slip. */
-int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error);
-
-/* By how much the cubics of a column may miss in a panel. */
+/* By how much the cubics of a column may miss in a panel: 0 stick, 1 slip. */
 double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, int panel);
 
 /* The table of the columns (make.c). */

@@ -6,6 +6,8 @@
 
 /* Sums of rounding; solid spheres of any size have one chi. */
 static const double same_chi = 1e-9;
+/* Times a speed it does not overflow. */
+static const double largest_factor = 1e200;
 
 static int check_chi(const restitute_table *t, const restitute_table_contact *c, double mass, const restitute_body *a,
                      const restitute_body *b, restitute_error *error)
@@ -28,6 +30,11 @@ static int collide(const restitute_table *t, const restitute_table_contact *c, r
     const double radius = 1 / (1 / a->radius + (is_plane(b) ? 0 : 1 / b->radius)), ratio = c->mass / mass;
     restitute_table_contact own = *c;
     own.speed_factor *= ratio * ratio * (radius / c->radius);
+    if (!(own.speed_factor > 0 && own.speed_factor <= largest_factor))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "speed_factor = %g of the bodies: must be in (0, %g]; they are too far from the table's contact, "
+                          "or contact is not one of restitute_table_contact_of",
+                          own.speed_factor, largest_factor);
     status = restitute_table_pair_of(t, &own, f.approach, f.sliding, pair, NULL);
     if (status) return rst_report(error, status, "contact: not one of restitute_table_contact_of");
     part_with(pair->ez, pair->ex, &f, a, b);

@@ -31,7 +31,8 @@ struct spot {
 static inline void find_speed(const restitute_table *t, double speed, struct spot *at)
 {
     const double v = smaller(larger(speed, t->d.low), t->d.high); /* NaN: low */
-    const double place = smaller(rst_axis_place(v, NULL), t->end);
+    /* s rounds up and down: a speed just above the lowest node may lie below it */
+    const double place = larger(smaller(rst_axis_place(v, NULL), t->end), t->node->at);
     const struct rst_node *node = t->node + t->bin[(int)((place - t->node->at) * t->bins_per_s)];
     node -= node->at > place; /* a bin begins a hair late */
     while (node[1].at <= place)

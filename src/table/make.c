@@ -58,18 +58,12 @@ static void describe(const struct rst_builder *b, struct rst_table_data *d)
     snprintf(d->version, sizeof d->version, "%s", restitute_version());
 }
 
-/* Slopes by s of a column, at all places; `of` picks g or its slope by psi from the nodes. */
-static void slopes_by_speed(const struct rst_builder *b, const double *at, int64_t i, struct rst_table_data *d)
+/* Slopes by s of a column, of e_z and of g and its slopes by psi, which the nodes have. */
+static void slopes_by_speed(const struct rst_builder *b, int64_t i, struct rst_table_data *d)
 {
     struct rst_stencil s;
     const int64_t places = rst_places(d);
-    int64_t low = i, high = i;
-    while (low > 0 && at[low - 1] < at[low])
-        low--;
-    while (high + 1 < b->columns && at[high + 1] > at[high])
-        high++;
-    rst_stencil_at(at, low, high, i, &s);
-    if (b->column[i].normal.ez <= 0) s.n = 0; /* as in refine.c */
+    rst_column_stencil(b, i, &s);
     d->ez[2 * i + 1] = 0;
     for (int k = 0; k < s.n; k++)
         d->ez[2 * i + 1] += s.w[k] * b->column[s.first + k].normal.ez;
@@ -87,26 +81,18 @@ static void slopes_by_speed(const struct rst_builder *b, const double *at, int64
 /* g and its slope by psi, of a panel. */
 static void slopes_by_psi(const double *g, int64_t cells, double *node)
 {
-    double place[5] = {0, 1, 2, 3, 4};
-    struct rst_stencil s;
     for (int64_t j = 0; j <= cells; j++) {
-        const int64_t last = cells < 4 ? cells : 4;
-        const int64_t first = j < 2 || cells < 5 ? 0 : j + 2 > cells ? cells - 4 : j - 2;
-        rst_stencil_at(place, 0, last, j - first, &s);
         node[4 * j] = g[j];
-        node[4 * j + 2] = 0;
-        for (int k = 0; k < s.n; k++)
-            node[4 * j + 2] += s.w[k] * g[first + s.first + k];
+        node[4 * j + 2] = rst_even_slope(g, 1, cells, j);
     }
 }
 
-static void fill(const struct rst_builder *b, double *at, struct rst_table_data *d)
+static void fill(const struct rst_builder *b, struct rst_table_data *d)
 {
     const int64_t places = rst_places(d);
     restitute_material_series(b->contact.scene.material, NULL, NULL, d->relaxation_time, d->modulus);
     for (int64_t i = 0; i < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
-        at[i] = c->at;
         d->speed[i] = c->speed;
         d->ez[2 * i] = c->normal.ez;
         memcpy(d->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
@@ -114,22 +100,20 @@ static void fill(const struct rst_builder *b, double *at, struct rst_table_data 
         slopes_by_psi(c->g + b->stick + 1, b->slip, d->ex + 4 * (i * places + b->stick + 1));
     }
     for (int64_t i = 0; i < b->columns; i++)
-        slopes_by_speed(b, at, i, d);
+        slopes_by_speed(b, i, d);
 }
 
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error)
 {
     struct rst_table_data d;
     describe(b, &d);
-    double *at = malloc((size_t)b->columns * sizeof *at);
     int status = RESTITUTE_OK;
-    if (!allocate(b, &d) || !at)
+    if (!allocate(b, &d))
         status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
     else {
-        fill(b, at, &d);
+        fill(b, &d);
         status = restitute_private_table_make(&d, table, error);
     }
-    free(at);
     release(&d);
     return status;
 }

@@ -4,13 +4,12 @@
 
 #include <stdlib.h>
 
-/* Derivative at node i of the polynomial through the five nodes of [low, high] around it. */
-void rst_stencil_at(const double *at, int64_t low, int64_t high, int64_t i, struct rst_stencil *s)
+/* Derivative at node i of the polynomial through the five of n nodes around it. */
+static void find_stencil(const double *at, int64_t n, int64_t i, struct rst_stencil *s)
 {
-    const int64_t most = high - low + 1;
-    s->n = most < 5 ? (int)most : 5;
-    s->first = i - 2 < low ? low : i - 2;
-    if (s->first + s->n - 1 > high) s->first = high - s->n + 1;
+    s->n = n < 5 ? (int)n : 5;
+    s->first = i < 2 ? 0 : i - 2;
+    if (s->first + s->n > n) s->first = n - s->n;
     const double *x = at + s->first;
     const int here = (int)(i - s->first);
     for (int j = 0; j < s->n; j++) {
@@ -27,15 +26,15 @@ void rst_stencil_at(const double *at, int64_t low, int64_t high, int64_t i, stru
 
 /* ---- psi */
 
-static double even_slope(const double *f, int64_t n, int64_t i)
+double rst_even_slope(const double *f, int64_t stride, int64_t cells, int64_t i)
 {
     static const double place[5] = {0, 1, 2, 3, 4};
-    const int64_t first = i - 2 < 0 ? 0 : i + 2 > n ? n - 4 : i - 2;
+    const int64_t first = i < 2 || cells < 5 ? 0 : i + 2 > cells ? cells - 4 : i - 2;
     struct rst_stencil s;
-    rst_stencil_at(place, 0, 4, i - first, &s);
+    find_stencil(place, cells < 4 ? cells + 1 : 5, i - first, &s);
     double sum = 0;
-    for (int j = 0; j < 5; j++)
-        sum += s.w[j] * f[2 * (first + j)];
+    for (int j = 0; j < s.n; j++)
+        sum += s.w[j] * f[stride * (first + s.first + j)];
     return sum;
 }
 
@@ -47,14 +46,14 @@ double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, 
     double worst = 0;
     if (n < 4) return 0;
     for (int64_t i = 0; i < n; i++) {
-        const double low = even_slope(f, n, i), high = even_slope(f, n, i + 1);
+        const double low = rst_even_slope(f, 2, n, i), high = rst_even_slope(f, 2, n, i + 1);
         const double middle = 0.5 * (f[2 * i] + f[2 * i + 2]) + 0.125 * (low - high);
         worst = fmax(worst, fabs(middle - f[2 * i + 1]));
     }
     return rst_gain * worst;
 }
 
-int rst_double_panel(struct rst_builder *b, int panel, restitute_error *error)
+static int double_panel(struct rst_builder *b, int panel, restitute_error *error)
 {
     const int64_t stick = b->stick, slip = b->slip;
     struct rst_task *task = calloc((size_t)b->columns, sizeof *task);
@@ -95,40 +94,44 @@ static double worst_of_panel(const struct rst_builder *b, int panel)
 
 /* ---- speed */
 
-/* Nodes on the same side of seams. */
-static void segment(const double *at, int64_t n, int64_t i, int64_t *low, int64_t *high)
+static double value(const struct rst_column *c, int64_t place)
 {
-    for (*low = i; *low > 0 && at[*low - 1] < at[*low]; --*low)
-        ;
-    for (*high = i; *high < n - 1 && at[*high + 1] > at[*high]; ++*high)
-        ;
+    return place < 0 ? c->normal.ez : c->g[place];
+}
+
+void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stencil *s)
+{
+    const struct rst_column *c = b->column;
+    int64_t low = i, high = i;
+    double at[9];
+    while (low > 0 && low > i - 4 && c[low - 1].at < c[low].at)
+        low--;
+    while (high + 1 < b->columns && high < i + 4 && c[high + 1].at > c[high].at)
+        high++;
+    for (int64_t k = low; k <= high; k++)
+        at[k - low] = c[k].at;
+    find_stencil(at, high - low + 1, i - low, s);
+    s->first += low;
+    if (c[i].normal.ez <= 0) s->n = 0; /* e_z and e_x begin with no slope, and wildly */
 }
 
 /* By how much the cubics of the cell above column i miss a new column in it. */
-static double miss(const struct rst_builder *b, const double *at, int64_t i, const struct rst_column *c)
+static double miss(const struct rst_builder *b, int64_t i, const struct rst_column *c)
 {
-    int64_t low, high;
-    struct rst_stencil s[2];
-    double x[4], worst;
-    segment(at, b->columns, i, &low, &high);
-    if (at[i] >= at[i + 1]) return 0;
-    rst_stencil_at(at, low, high, i, &s[0]);
-    rst_stencil_at(at, low, high, i + 1, &s[1]);
-    if (b->column[i].normal.ez <= 0) s[0].n = 0; /* e_z and e_x begin with no slope, and wildly */
-    const double width = at[i + 1] - at[i];
-    rst_hermite((c->at - at[i]) / width, x);
     const struct rst_column *o = b->column;
-    double sum = x[0] * o[i].normal.ez + x[2] * o[i + 1].normal.ez;
-    for (int side = 0; side < 2; side++)
-        for (int k = 0; k < s[side].n; k++)
-            sum += x[1 + 2 * side] * width * s[side].w[k] * o[s[side].first + k].normal.ez;
-    worst = fabs(sum - c->normal.ez);
-    for (int64_t j = 0; j < rst_builder_places(b); j++) {
-        sum = x[0] * o[i].g[j] + x[2] * o[i + 1].g[j];
+    struct rst_stencil s[2];
+    double x[4], worst = 0;
+    if (o[i].at >= o[i + 1].at) return 0;
+    rst_column_stencil(b, i, &s[0]);
+    rst_column_stencil(b, i + 1, &s[1]);
+    const double width = o[i + 1].at - o[i].at;
+    rst_hermite((c->at - o[i].at) / width, x);
+    for (int64_t j = -1; j < rst_builder_places(b); j++) {
+        double sum = x[0] * value(&o[i], j) + x[2] * value(&o[i + 1], j);
         for (int side = 0; side < 2; side++)
             for (int k = 0; k < s[side].n; k++)
-                sum += x[1 + 2 * side] * width * s[side].w[k] * o[s[side].first + k].g[j];
-        worst = fmax(worst, fabs(sum - c->g[j]));
+                sum += x[1 + 2 * side] * width * s[side].w[k] * value(&o[s[side].first + k], j);
+        worst = fmax(worst, fabs(sum - value(c, j)));
     }
     return worst;
 }
@@ -156,16 +159,9 @@ static void judge(struct rst_column *low, struct rst_column *middle, double miss
 
 static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)
 {
-    double *at = malloc((size_t)b->columns * sizeof *at);
-    int status = at ? rst_solve_tasks(b, n, task, error) : RESTITUTE_ERROR_MEMORY;
-    if (!at) rst_report(error, status, "out of memory for the columns");
-    if (status) {
-        free(at);
-        return status;
-    }
+    const int status = rst_solve_tasks(b, n, task, error);
+    if (status) return status;
     b->impacts += rst_cost(b, n);
-    for (int64_t i = 0; i < b->columns; i++)
-        at[i] = b->column[i].at;
     int64_t solved = 0;
     for (int64_t k = 0; k < n; k++) {
         if (task[k].status < 0) {
@@ -173,10 +169,9 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
             b->column[cell[k]].by_speed = 0; /* cannot be halved */
             continue;
         }
-        judge(&b->column[cell[k]], &task[k].column, miss(b, at, cell[k], &task[k].column));
+        judge(&b->column[cell[k]], &task[k].column, miss(b, cell[k], &task[k].column));
         task[solved++] = task[k];
     }
-    free(at);
     return rst_insert(b, solved, task, error);
 }
 
@@ -244,7 +239,7 @@ static int refine_once(struct rst_builder *b, int *done, restitute_error *error)
         if (worst <= enough || worst < fmin(speed, largest_guess) || 2 * cells > rst_most_cells ||
             b->columns * cells > left(b))
             continue;
-        return rst_double_panel(b, panel, error);
+        return double_panel(b, panel, error);
     }
     if (speed > enough) return halve_cells(b, fmax(enough, speed / rst_together), done, error);
     *done = 1;

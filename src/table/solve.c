@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-double rst_psi_at(const struct rst_builder *b, int64_t place, double ez)
+static double psi_at(const struct rst_builder *b, int64_t place, double ez)
 {
     if (place <= b->stick) return (double)place / (double)b->stick;
     const double y = rst_panel_y((double)(place - b->stick - 1) / (double)b->slip);
@@ -53,7 +53,7 @@ static int solve_places(const struct rst_builder *b, struct rst_column_solver *s
     int status = t->old ? RESTITUTE_OK : rst_column_solve(s, c->speed, &c->normal, 0, NULL, NULL, NULL, &t->why);
     if (status < 0 || c->normal.sunk) return status;
     for (int64_t i = 0; i < places; i++)
-        if (is_solved(b, i) && !known(b, t, i)) psi[n++] = rst_psi_at(b, i, c->normal.ez);
+        if (is_solved(b, i) && !known(b, t, i)) psi[n++] = psi_at(b, i, c->normal.ez);
     status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &t->why);
     if (status < 0) return status;
     c->levels = s->levels > c->levels ? s->levels : c->levels;

@@ -132,7 +132,7 @@ static int look(struct rst_builder *b, const restitute_table *table, int round, 
     }
     free(w.check);
     b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
-    b->checks += n * w.places;
+    b->checks += n * (b->contact.sliding == RST_SLIDES ? w.places : 1);
     return status;
 }
 

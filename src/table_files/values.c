@@ -7,25 +7,8 @@
 static int close_all(int good, hid_t a, hid_t b, hid_t c)
 {
     const hid_t all[3] = {a, b, c};
-    for (int i = 0; i < 3; i++) {
-        if (all[i] < 0) continue;
-        switch (H5Iget_type(all[i])) {
-        case H5I_DATASPACE:
-            H5Sclose(all[i]);
-            break;
-        case H5I_DATATYPE:
-            H5Tclose(all[i]);
-            break;
-        case H5I_ATTR:
-            H5Aclose(all[i]);
-            break;
-        case H5I_GENPROP_LST:
-            H5Pclose(all[i]);
-            break;
-        default:
-            H5Dclose(all[i]);
-        }
-    }
+    for (int i = 0; i < 3; i++)
+        if (all[i] >= 0) H5Idec_ref(all[i]); /* closes what is of any kind */
     return good ? 0 : -1;
 }
 

@@ -101,6 +101,28 @@ static void the_material_may_go(void **state)
     restitute_table_destroy(table);
 }
 
+/* A range of some ulps is a range: it is built, and every cell in it was compared with impacts. */
+static void narrow_ranges(void **state)
+{
+    static const double low[] = {1e-50, 3e-4, 0.1, 1, 1000};
+    restitute_material *material;
+    (void)state;
+    const restitute_scene scene = ball_on(1, &material);
+    for (size_t i = 0; i < sizeof low / sizeof *low; i++)
+        for (int wide = 0; wide < 3; wide++) {
+            restitute_table_options options = options_of(1);
+            options.speed[0] = low[i];
+            options.speed[1] = wide ? low[i] * (1 + (wide == 1 ? 1e-12 : 1e-6)) : nextafter(low[i], INFINITY);
+            restitute_table *table = built(&scene, &options);
+            const restitute_table_info info = describe(table);
+            CHECK(info.checks > 0 && info.error_ex > 0 && info.error_ex <= options.tolerance, "from %g on: %g", low[i],
+                  info.error_ex);
+            CHECK(info.speed[0] == options.speed[0] && info.speed[1] == options.speed[1], "from %g on", low[i]);
+            restitute_table_destroy(table);
+        }
+    restitute_material_destroy(material);
+}
+
 /* The numbers of a table make the same table; others are refused. */
 static void data_makes_the_same_table(void **state)
 {
@@ -302,6 +324,9 @@ static void refusals(void **state)
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "radius_limit");
     options = good, options.max_impacts = 100;
     refuse(&scene, &options, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_impacts = 100");
+    scene.inertia1 = 1e-11; /* of 4e-8 */
+    refuse(&scene, &good, RESTITUTE_ERROR_DOMAIN, "chi = 3");
+    scene.inertia1 = 0;
     options = good, options.struct_size = 8;
     refuse(&scene, &options, RESTITUTE_ERROR_STRUCT_SIZE, "struct_size");
     scene.friction = -0.1;
@@ -316,7 +341,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(a_child_goes_on_with_one_thread),
-        cmocka_unit_test(the_material_may_go),        cmocka_unit_test(data_makes_the_same_table),
+        cmocka_unit_test(the_material_may_go),        cmocka_unit_test(narrow_ranges),
+        cmocka_unit_test(data_makes_the_same_table),
         cmocka_unit_test(rebound_begins_at_a_seam),   cmocka_unit_test(limits_travel),
         cmocka_unit_test(many_tables_at_once),        cmocka_unit_test(few_impacts_give_an_honest_table),
         cmocka_unit_test(refusals)};

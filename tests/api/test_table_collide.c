@@ -171,6 +171,13 @@ static void refusals(void **state)
         odd.velocity[i] = 2 * b.velocity[i] - a.velocity[i];
     refuse(odd, b, NULL, "approach speed");
     restitute_table_contact_init(&contact);
+    refuse(a, b, &contact, "restitute_table_contact_of");
+    assert_int_equal(restitute_table_contact_of(table, &scene, &contact, NULL), RESTITUTE_OK);
+    contact.speed_factor = 1e190; /* times the ratio of the masses squared */
+    odd = a, odd.mass = 1e-20;
+    restitute_body small = b;
+    small.mass = 1e-20;
+    refuse(odd, small, &contact, "too far from the table's contact");
     contact.touch_gap = NAN;
     refuse(a, b, &contact, "touch_gap");
     contact.struct_size = 3;

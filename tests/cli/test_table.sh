@@ -56,6 +56,9 @@ refused '--format = "json"' table query t.h5 --normal-speed 1 --format json
 # Beyond the range the ends are taken, and limits that are passed are said.
 expect 0 table query t.h5 --normal-speed 2
 has err 'warning: normal_speed_m_s is outside'
+expect 0 table build $scene --speed 1 --tolerance 1e-3 --output one.h5
+expect 0 table query one.h5 --normal-speed 2
+has err 'warning: normal_speed_m_s is outside'
 expect 0 table query t.h5 --normal-speed 1 --tangential-speed 1000
 has err 'warning: the sphere slides far'
 
@@ -71,6 +74,8 @@ if command -v gnuplot >/dev/null; then
     has f.svg '<svg' 'slide'
 fi
 refused '--figure' table build $scene --output x.h5 --figure x.txt
+refused 'no curves' table build $scene --speed 1 --output x.h5 --figure x.svg
+[ -e x.h5 ] && fail "refused, and written"
 
 refused 'an action is missing' table
 refused 'unknown action "sort"' table sort
