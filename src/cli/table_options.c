@@ -61,14 +61,14 @@ static const char usage[] =
     "       restitute table build --help, and likewise for the others\n";
 
 static const char *const footers[TABLE_ACTIONS] = {
-    "\n  restitute table build --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
-    "      --speed 1e-3:10 --output pib.h5\n"
-    "\nThe errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not reached (the "
-    "table is\n"
-    "written, with its errors), 2 bad usage, nothing written.\n",
+    ("\n  restitute table build --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\\n"
+     "      --speed 1e-3:10 --output pib.h5\n"
+     "\nThe errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not reached (the "
+     "table is\n"
+     "written, with its errors), 2 bad usage, nothing written.\n"),
     "\nExit status: 0 done, 2 no such table, or damaged.\n",
-    "\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
-    "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n"};
+    ("\n  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5\n"
+     "\nExit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.\n")};
 
 /* Fields of a contact: all of the scene but its speeds. */
 static bool of_contact(enum field field)
