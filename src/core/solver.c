@@ -9,11 +9,7 @@
 #include "method.h"
 #include "output.h"
 #include "status.h"
-#ifdef RESTITUTE_NEXT_SYNC
-#include "collocation.h"
-#else
 #include "sync.h"
-#endif
 #include "validity.h"
 
 struct restitute_solver {
@@ -43,11 +39,7 @@ const restitute_method *restitute_method_euler(void)
 
 const restitute_method *restitute_method_sync(void)
 {
-#ifdef RESTITUTE_NEXT_SYNC
-    return &rst_method_collocation;
-#else
     return &rst_method_sync;
-#endif
 }
 
 const char *restitute_method_name(const restitute_method *method)

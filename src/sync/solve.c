@@ -6,7 +6,7 @@
 #include "motion.h"
 #include "record.h"
 #include "status.h"
-#include "collocation.h"
+#include "sync.h"
 #include "tuning.h"
 #include "walk.h"
 
@@ -228,5 +228,5 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return status;
 }
 
-const struct restitute_method rst_method_collocation = {
+const struct restitute_method rst_method_sync = {
     .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_motion_record};
