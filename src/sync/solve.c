@@ -1,6 +1,7 @@
 /* The method `sync` (docs/sync.md): the normal motion, then the tangential one on it, each at two resolutions that are compared,
  * and at finer ones until the estimate meets the tolerance.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <fenv.h>
 #include <math.h>
 
 #include "motion.h"
@@ -209,7 +210,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
 
 /* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about 0.4 psi, is no slip; the
  * energies in x are those parts of the whole, psi^2. */
-static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                       struct rst_outcome *outcome, restitute_error *error)
 {
     const double psi = problem->psi;
@@ -228,5 +229,26 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return status;
 }
 
+/* Newton's steps that diverge raise what the caller may trap. They are seen and left, so he is not told. */
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    fenv_t callers;
+    feholdexcept(&callers);
+    const int status = solve(problem, workspace, keep_ledger, outcome, error);
+    fesetenv(&callers);
+    return status;
+}
+
+static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    fenv_t callers;
+    feholdexcept(&callers);
+    const int status = rst_motion_record(problem, workspace, outcome, history, error);
+    fesetenv(&callers);
+    return status;
+}
+
 const struct restitute_method rst_method_sync = {
-    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_motion_record};
+    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = sync_record};
