@@ -9,7 +9,7 @@
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
-  use rst_contact_views, only: normal_type, store_type
+  use rst_contact_views, only: normal_type, store_type, of_edge, of_arm
   implicit none (type, external)
   private
   public :: element_type, slack_type, look_at, find_front, held_by
@@ -96,16 +96,15 @@ contains
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, theta
-    real(dp) :: held, weight(0:stages), radius, entered
+    real(dp) :: held, weight(0:stages), edge(of_edge), arm(of_arm)
     integer(ip) :: k, record
     record = store%n_records
     call find_record(store, theta, record, weight)
-    radius = sum(weight*store%record(record)%radius)
-    entered = sum(weight*store%record(record)%time)
+    edge = between(weight, store%record(record)%edge)
     held = 0
     do k = 1, normal%n_arms
-      held = held + exp(-normal%rate(k)*(time - entered)) &
-             *(sum(weight*store%lx(:, k, record)) - radius*sum(weight*store%mx(:, k, record)))
+      arm = between(weight, store%held(:, :, k, record))
+      held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(4) - edge(1)*arm(3))
     end do
   end function held_by
 
@@ -134,27 +133,35 @@ contains
     real(dp), intent(in) :: time, side, theta
     integer(ip), intent(inout) :: record  !! where to begin the search
     type(element_type), intent(out) :: element
-    real(dp) :: weight(0:stages), sink, since, fade, answer
+    real(dp) :: weight(0:stages), edge(of_edge), arm(of_arm), fade, answer
     integer(ip) :: k
     call find_record(store, theta, record, weight)
-    associate (r => store%record(record))
-      element%radius = sum(weight*r%radius)
-      since = time - sum(weight*r%time)
-      sink = sum(weight*r%sink)
-      element%slope = -(sink - side*sum(weight*r%shear))
-    end associate
+    edge = between(weight, store%record(record)%edge)
     element%taken = 0
     element%force = 0
     answer = 0
     do k = 1, normal%n_arms
       fade = 1
-      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*since)
-      element%taken = element%taken + fade*sum(weight*(store%mz(:, k, record) - side*store%mx(:, k, record)))
-      element%force = element%force + fade*sum(weight*(store%lz(:, k, record) - side*store%lx(:, k, record)))
+      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
+      arm = between(weight, store%held(:, :, k, record))
+      element%taken = element%taken + fade*(arm(1) - side*arm(3))
+      element%force = element%force + fade*(arm(2) - side*arm(4))
       answer = answer + normal%g(k)*fade
     end do
-    element%slope = element%slope*answer
+    element%radius = edge(1)
+    element%slope = -(edge(3) - side*edge(4))*answer
     element%stretch = 0
-    if (element%radius > 0) element%stretch = sink/(2*element%radius)
+    if (element%radius > 0) element%stretch = edge(3)/(2*element%radius)
   end subroutine look_at
+
+  !> The values of an element or of an arm of it between the points.
+  pure function between(weight, at_points) result(values)
+    real(dp), intent(in) :: weight(0:stages), at_points(of_edge, 0:stages)
+    real(dp) :: values(of_edge)
+    integer(ip) :: i
+    values = 0
+    do i = 0, stages
+      values = values + weight(i)*at_points(:, i)
+    end do
+  end function between
 end module rst_front
