@@ -27,22 +27,23 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  !> Part e of the slack at the centre at which the search ends. Near its end y is linear in X: H is then off by about e^3, and the
-  !> front by e^2.
-  real(dp), parameter :: at_front = 1.0e-6_dp
+  !> Part e of the slack at the centre at which a search may end. Near its end y is linear in X: H is then off by about e^3, and the
+  !> front by e^2. Within Newton's steps the next search begins where this one ended.
+  real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
 
 contains
 
   !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
-  !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation, as if all stuck.
-  pure subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
+  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation, as if all stuck.
+  pure subroutine find_front(normal, store, time, side, edge_angle, edge, precise, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, edge_angle
     type(element_type), intent(in) :: edge
+    logical, intent(in) :: precise
     type(slack_type), intent(inout) :: slack
     type(element_type) :: element
-    real(dp) :: low, high, y, theta
+    real(dp) :: low, high, y, theta, enough
     integer(ip) :: n, record
     slack%edge = slack%centre - edge%taken
     theta = slack%angle
@@ -56,6 +57,7 @@ contains
       slack%force = edge%force + edge%radius*slack%edge
       return
     end if
+    enough = slack%centre*merge(at_front, near_front, precise)
     record = store%n_records
     low = 0
     high = edge_angle
@@ -65,7 +67,7 @@ contains
       y = slack%centre - element%taken
       if (y > 0) low = theta
       if (y <= 0) high = theta
-      if (abs(y) <= at_front*slack%centre .or. high - low <= rounding*edge_angle) exit
+      if (abs(y) <= enough .or. high - low <= rounding*edge_angle) exit
       if (element%slope < 0) then
         theta = theta - y/element%slope
       else

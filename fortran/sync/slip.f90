@@ -111,14 +111,14 @@ contains
     push = push_factor(contact)
     call look_at_edges(normal, store, ground, side, edge)
     s%front = edge_of(store, ground, 0_ip)
-    call slacken(normal, store, ground, side, edge(0), 0_ip, s)
+    call slacken(normal, store, ground, side, edge(0), 0_ip, .true., s)
     if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, edge(i), i, s)
+        call slacken(normal, store, ground, side, edge(i), i, .false., s)
       end do
       step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
       do j = 1, stages
@@ -138,7 +138,7 @@ contains
     if (fails) return
     call advance_memory(normal, ground, s%w(1:), store)
     do i = 1, stages
-      call slacken(normal, store, ground, side, edge(i), i, s)
+      call slacken(normal, store, ground, side, edge(i), i, .true., s)
     end do
     s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
     if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
@@ -159,18 +159,19 @@ contains
   end subroutine look_at_edges
 
   !> Front, slack and S at the point i.
-  subroutine slacken(normal, store, ground, side, edge, i, s)
+  subroutine slacken(normal, store, ground, side, edge, i, precise, s)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
     type(element_type), intent(in) :: edge
     integer(ip), intent(in) :: i
+    logical, intent(in) :: precise
     type(solution_type), intent(inout) :: s
     type(slack_type) :: slack
     slack%angle = s%front(i)
     slack%centre = normal%eta*(ground%velocity(i) - side*s%w(i)) + sum(store%now_z(i, :) - side*store%now_x(i, :))
-    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, slack)
+    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, precise, slack)
     s%front(i) = slack%angle
     s%stick(i) = slack%radius
     s%centre(i) = slack%centre

@@ -181,7 +181,7 @@ contains
     call look_at(normal, store, time, side, sqrt(loaded), record, edge)
     slack%angle = 0
     slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
-    call find_front(normal, store, time, side, sqrt(loaded), edge, slack)
+    call find_front(normal, store, time, side, sqrt(loaded), edge, .true., slack)
     out = [slack%radius, slack%force, slack%centre, slack%edge]
   end subroutine probe_front
 
