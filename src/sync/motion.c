@@ -111,7 +111,7 @@ static int64_t first_capacity(int halvings)
 }
 
 /* Panels, M_k, P_k and what the restitution needs besides. */
-static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity)
+static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity, double roughness)
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t panels = c * sizeof(struct sync_panel) / sizeof(double);
@@ -120,7 +120,7 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
                                        .radius = motion->radius,
-                                       .closeness = rst_closeness,
+                                       .closeness = fmax(10 * rst_rounding, rst_closeness * roughness),
                                        .g = motion->arms,
                                        .rate = motion->arms + motion->most_arms,
                                        .panel = (struct sync_panel *)run->room,
@@ -139,7 +139,7 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
                                                     .capacity = allowed};
-        if (lay_out(motion, run, capacity)) return NULL;
+        if (lay_out(motion, run, capacity, control.roughness)) return NULL;
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
         if (run->found != RST_LACKS_ROOM || allowed == most) return run;
@@ -157,17 +157,14 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     const size_t now = rst_points * n, square = rst_stages * rst_stages * n;
     struct sync_store *s = &motion->store;
     if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + 4 * points + square + rst_stages * n + 3 * now + 1))
+                  records + pieces + rst_values * points + square + rst_stages * n + 3 * now + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
-    s->mz = next += pieces;
-    s->lz = next += points;
-    s->mx = next += points;
-    s->lx = next += points;
-    s->kernel = next += points;
+    s->held = next += pieces;
+    s->kernel = next += rst_values * points;
     s->decay = next += square;
     s->now_z = next += rst_stages * n;
     s->now_x = next += now;
@@ -180,7 +177,7 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
     int fails = make_arms(motion, arms);
     motion->n_arms = arms;
     for (int i = from; i <= to && !fails; i++)
-        fails = lay_out(motion, &motion->run[i], first_capacity(i));
+        fails = lay_out(motion, &motion->run[i], first_capacity(i), 1);
     if (!fails) fails = lay_out_store(motion, first_capacity(to) + first_pieces);
     motion->n_arms = -1; /* of no solid */
     return fails;
@@ -193,7 +190,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .psi = problem->psi,
                                          .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
                                          .noise = rst_noise * rst_roughness_of(halvings - 1),
-                                         .closeness = fmax(rst_closeness, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
+                                         .closeness = fmax(10 * rst_rounding, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
                                                       fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {

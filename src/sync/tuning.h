@@ -20,9 +20,9 @@ static const double rst_piece_part = 3, rst_share_of_pieces = 0.03, rst_noise = 
  * factor of 64 below. */
 static const double rst_coarse_above = 3e-5;
 
-/* Newton's steps end when the next one would change velocities by less. */
-static const double rst_closeness = 1e-12; /* of the normal motion; of pieces: this part of what they may miss */
-static const double rst_piece_closeness = 1e-3;
+/* Newton's steps end when the next one would change velocities by less than that part of what polynomials may miss: of the normal
+ * motion, of pieces. */
+static const double rst_closeness = 1e-5, rst_piece_closeness = 1e-3;
 
 /* Velocities are known to that in a run, by rounding. */
 static const double rst_rounding = 1e-13;
