@@ -202,26 +202,29 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
-/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. The status may be
- * TOLERANCE_NOT_REACHED if max_updates are spent and there is a result. */
+/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again because panels
+ * are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
+ * there is a result. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {
     struct attempt now, coarse;
-    int known = 0;
+    int known = 0, walks = 0, tried = 0;
     for (int halvings = first_halvings(problem); halvings <= rst_most_halvings; halvings++) {
         const int status = attempt(motion, problem, halvings, &now, outcome, error);
-        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2) return RESTITUTE_TOLERANCE_NOT_REACHED;
+        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;
         if (status) return status;
         if (now.fails) continue;
         coarse = *fine;
         *fine = now;
         if (++known < 2) continue;
         compare(problem, &coarse, fine, outcome);
-        if (fine->sticks_again || coarse.sticks_again) return walk_refining(motion, problem, fine, outcome, error);
-        if (problem->elements > 0 || meets(problem, outcome)) break;
+        walks = fine->sticks_again || coarse.sticks_again;
+        if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
+        if (!walks && (problem->elements > 0 || meets(problem, outcome))) break;
     }
-    return known >= 2 ? RESTITUTE_OK : too_hard(error);
+    if (known < 2) return too_hard(error);
+    return walks ? walk_refining(motion, problem, fine, outcome, error) : RESTITUTE_OK;
 }
 
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

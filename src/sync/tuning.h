@@ -36,6 +36,9 @@ static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
 /* Part of the tolerance that an estimate may take; the rest is for merged terms. */
 static const double rst_acceptance = 0.9;
 
+/* Pairs of runs with finer panels that are tried before elements are, where slip seems to stick again. */
+enum { rst_trials_of_front = 3 };
+
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
 enum { rst_first_elements = 32, rst_most_elements = 8192, rst_ledger_elements = 256 };
 
