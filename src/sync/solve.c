@@ -161,12 +161,24 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     return RESTITUTE_OK;
 }
 
-/* U' by elements, half as many and all of them, until the two agree: of second order, extrapolated. */
+static void note_walk(const struct rst_walk *walk, int64_t parts, double velocity, struct rst_outcome *outcome)
+{
+    outcome->shear_velocity = velocity;
+    outcome->elements = walk->n;
+    outcome->steps = 2 * walk->n;
+    outcome->step = outcome->followed_time / (double)outcome->steps;
+    outcome->spacing = outcome->max_contact_radius / (double)walk->n;
+    outcome->walked = parts;
+}
+
+/* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
+ * agree by chance, so that the change before extrapolation counts, too. */
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_walk coarse, now;
     const double error_ez = outcome->error_ez;
+    double change, least = 1;
     int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
     int status = walk_once(motion, problem, fine, parts, outcome, &coarse, error);
@@ -174,14 +186,13 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
         parts *= 2;
         status = walk_once(motion, problem, fine, parts, outcome, &now, error);
         if (status) break;
-        const double change = now.velocity - coarse.velocity;
-        outcome->shear_velocity = now.velocity + change / 3;
-        outcome->error_ex = (rst_share_of_elements * fabs(change) + rst_rounding * (double)now.n) / problem->psi + error_ez;
-        outcome->elements = now.n;
-        outcome->steps = 2 * now.n;
-        outcome->step = outcome->followed_time / (double)outcome->steps;
-        outcome->spacing = outcome->max_contact_radius / (double)now.n;
-        outcome->walked = parts;
+        const double extrapolated = now.velocity + (now.velocity - coarse.velocity) / 3;
+        change = least * fabs(now.velocity - coarse.velocity);
+        if (least < 1) change = fmax(change, fabs(extrapolated - outcome->shear_velocity));
+        least = rst_share_by_chance;
+        note_walk(&now, parts, extrapolated, outcome);
+        outcome->error_ex =
+            (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + error_ez;
         if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements) break;
         coarse = now;
     }
