@@ -94,9 +94,10 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
+/* Not below rounding, which narrower panels do not lessen. */
 static double rst_roughness_of(int level)
 {
-    return rst_first_roughness * pow(rst_roughness_falls, level);
+    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, level));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
