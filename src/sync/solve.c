@@ -130,12 +130,14 @@ static int first_halvings(const struct rst_problem *problem)
     return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
-/* U' by elements, half as many and all of them, until the two agree: of second order, extrapolated. */
+/* U' by elements, twice as many from walk to walk until two agree: of second order, extrapolated. Two walks may agree by chance, so
+ * that the change before, a quarter of which is left, counts too. */
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_walk coarse, now;
     const double error_ez = outcome->error_ez;
+    double before = INFINITY;
     int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
     if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &coarse))
@@ -148,15 +150,17 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         const double change = now.velocity - coarse.velocity;
         outcome->shear_velocity = now.velocity + change / 3;
-        outcome->error_ex = (rst_share_of_elements * fabs(change) + rst_rounding * (double)now.n) / problem->psi + error_ez;
+        const double left = rst_share_of_elements * fmax(fabs(change), isfinite(before) ? fabs(before) / 4 : 0);
+        outcome->error_ex = (left + rst_rounding * (double)now.n) / problem->psi + error_ez;
         outcome->elements = now.n;
         outcome->steps = 2 * now.n;
         outcome->step = outcome->followed_time / (double)outcome->steps;
         outcome->spacing = outcome->max_contact_radius / (double)now.n;
         outcome->walked = parts;
-        if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements ||
+        if (problem->elements > 0 || (isfinite(before) && meets(problem, outcome)) || 2 * now.n > rst_most_elements ||
             (double)outcome->updates + 4 * work > (double)problem->max_updates)
             return RESTITUTE_OK;
+        before = change;
     }
 }
 

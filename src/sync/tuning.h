@@ -28,7 +28,7 @@ static const double rst_closeness = 1e-5, rst_piece_closeness = 1e-3;
 static const double rst_rounding = 1e-13;
 
 /* Part of the tolerance below which a rebound is none; slower ones are lost in rounding. */
-static const double rst_rest_part = 0.01, rst_slowest = 1e-11;
+static const double rst_rest_part = 0.01, rst_slowest = 1e-10;
 
 /* e_x differs from that without slip by at most this times psi, which is left out where it is a small part of the tolerance. */
 static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
@@ -37,6 +37,6 @@ static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
 static const double rst_acceptance = 0.9;
 
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
-enum { rst_first_elements = 32, rst_most_elements = 8192, rst_ledger_elements = 256 };
+enum { rst_first_elements = 16, rst_most_elements = 8192, rst_ledger_elements = 256 };
 
 #endif
