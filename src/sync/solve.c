@@ -94,11 +94,13 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     const double stop_speed = rst_rest_part * problem->tolerance;
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;
-    outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) + rst_rounding + stops * stop_speed;
+    outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) +
+                        rst_share_by_chance * problem->tolerance + rst_rounding + stops * stop_speed;
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
+                  rst_share_by_chance * problem->tolerance +
                   rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) +
                   stops * fmax(stop_speed, 2 * problem->chi * rst_slowest / problem->psi);
     outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
@@ -138,7 +140,9 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
     struct rst_walk coarse, now;
     const double error_ez = outcome->error_ez;
     double before = INFINITY;
-    int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
+    /* a ring that slips is about psi wide, over the radius, and changes seem small until elements are as close */
+    const double first = fmin(fmax(rst_first_elements, 1 / problem->psi), rst_most_elements / 8);
+    int64_t parts = 1 + (int64_t)first / fine->run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
     if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &coarse))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");

@@ -8,6 +8,9 @@
  * of the tangential one behind a front and with elements. */
 static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5;
 
+/* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
+static const double rst_share_by_chance = 0.003;
+
 /* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
  * give where all is smooth, so that only panels that are not smooth are halved further. */
 static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
