@@ -12,7 +12,7 @@ module rst_tangential_motion
 
   integer(ip), parameter :: lacks_pieces = 2  !! follow_contact was given too few
   integer(ip), parameter :: most_idle = 2     !! events at one place, of which one undoes the other
-  real(dp), parameter :: steady = 1.0e-10_dp  !! slip velocity that is rounding
+  real(dp), parameter :: steady = 1.0e-10_dp, weightless = 1.0e-12_dp  !! slip velocity, and slack, that are rounding
 
 contains
 
@@ -218,7 +218,7 @@ contains
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: lasts
     real(dp) :: matrix(stages, stages), right(stages, 1), slip(stages)
-    integer(ip) :: k
+    integer(ip) :: i, k
     logical :: fails
     call lay_ground(normal, panel, from, 1.0_dp, .false., store, ground, fails)
     s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
@@ -232,7 +232,10 @@ contains
     call solve_linear(1_ip, matrix, right, fails)
     slip = right(:, 1) - (ground%velocity(1:) - side*s%w(1:))
     call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
-    lasts = .not. fails .and. all(slip >= -steady)
+    lasts = .not. fails
+    do i = 1, stages
+      lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless
+    end do
     call advance_memory(normal, ground, s%w(1:), store)
   end subroutine slide_piece
 end module rst_tangential_motion

@@ -27,7 +27,7 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  !> Part e of the slack at the centre at which a search may end. Near its end y is linear in X: H is then off by about e^3, and the
+  !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is linear in X: H is then off by about e^3, and the
   !> front by e^2. Within Newton's steps the next search begins where this one ended.
   real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
 
@@ -57,7 +57,7 @@ contains
       slack%force = edge%force + edge%radius*slack%edge
       return
     end if
-    enough = slack%centre*merge(at_front, near_front, precise)
+    enough = min(slack%centre, -slack%edge)*merge(at_front, near_front, precise)
     record = store%n_records
     low = 0
     high = edge_angle

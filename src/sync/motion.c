@@ -94,14 +94,21 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
+/* Not below rounding, which narrower panels do not lessen. */
 static double rst_roughness_of(int level)
 {
-    return rst_first_roughness * pow(rst_roughness_falls, level);
+    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, level));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
 {
     return fmin(rst_roughness_of(halvings - 1), rst_piece_part * problem->tolerance);
+}
+
+/* Room for four times the panels that there are if none is halved. */
+static int64_t first_capacity(int halvings)
+{
+    return INT64_C(8) << halvings;
 }
 
 /* Panels, M_k, P_k and what the restitution needs besides. */
@@ -123,21 +130,25 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     return 0;
 }
 
-const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings)
+const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most)
 {
     struct rst_run *run = &motion->run[halvings];
-    if (run->found != RST_NOT_SOLVED) return run;
-    for (int64_t capacity = run->capacity > 0 ? run->capacity : INT64_C(8) << halvings;; capacity *= 2) {
+    if (run->found != RST_NOT_SOLVED && run->found != RST_LACKS_ROOM) return run;
+    for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
+        const int64_t allowed = capacity < most ? capacity : most;
         const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
-                                                    .capacity = capacity};
+                                                    .capacity = allowed};
         if (lay_out(motion, run, capacity, control.roughness)) return NULL;
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
-        if (run->found != RST_LACKS_ROOM) return run;
+        if (run->found != RST_LACKS_ROOM || allowed == most) return run;
     }
 }
+
+/* Pieces of a motion of few panels: events take some each. */
+enum { first_pieces = 16 };
 
 static int lay_out_store(struct rst_motion *motion, int64_t capacity)
 {
@@ -162,8 +173,19 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     return 0;
 }
 
+int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms)
+{
+    int fails = make_arms(motion, arms);
+    motion->n_arms = arms;
+    for (int i = from; i <= to && !fails; i++)
+        fails = lay_out(motion, &motion->run[i], first_capacity(i), 1);
+    if (!fails) fails = lay_out_store(motion, first_capacity(to) + first_pieces);
+    motion->n_arms = -1; /* of no solid */
+    return fails;
+}
+
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-                       int halvings, double *velocity, int64_t *found)
+                       int halvings, int64_t most, double *velocity, int64_t *found)
 {
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
@@ -172,9 +194,10 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .closeness = fmax(10 * rst_rounding, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
                                                       fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
-    for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {
+    for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
+        if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);
-        if (*found != RST_LACKS_PIECES) return 0;
+        if (*found != RST_LACKS_PIECES || capacity >= most) return 0;
     }
 }

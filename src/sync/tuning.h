@@ -5,11 +5,11 @@
 #define RST_SYNC_TUNING_H
 
 /* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
- * of the tangential one behind a front and with elements. */
-static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5;
+ * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
+static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.05;
 
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
-static const double rst_share_by_chance = 0.003;
+static const double rst_least_estimate = 0.003;
 
 /* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
  * give where all is smooth, so that only panels that are not smooth are halved further. */
@@ -39,7 +39,10 @@ static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
 /* Part of the tolerance that an estimate may take; the rest is for merged terms. */
 static const double rst_acceptance = 0.9;
 
+/* Pairs of runs with finer panels that are tried before elements are, where slip seems to stick again. */
+enum { rst_trials_of_front = 3 };
+
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
-enum { rst_first_elements = 16, rst_most_elements = 8192, rst_ledger_elements = 256 };
+enum { rst_first_elements = 32, rst_most_elements = 16384, rst_ledger_elements = 256 };
 
 #endif
