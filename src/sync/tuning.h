@@ -8,6 +8,9 @@
  * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
 static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.05;
 
+/* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
+static const double rst_least_estimate = 0.003;
+
 /* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
  * give where all is smooth, so that only panels that are not smooth are halved further. */
 static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
@@ -28,7 +31,7 @@ static const double rst_closeness = 1e-5, rst_piece_closeness = 1e-3;
 static const double rst_rounding = 1e-13;
 
 /* Part of the tolerance below which a rebound is none; slower ones are lost in rounding. */
-static const double rst_rest_part = 0.01, rst_slowest = 1e-11;
+static const double rst_rest_part = 0.01, rst_slowest = 1e-10;
 
 /* e_x differs from that without slip by at most this times psi, which is left out where it is a small part of the tolerance. */
 static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
