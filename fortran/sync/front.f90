@@ -100,10 +100,10 @@ contains
     real(dp) :: held, weight(0:stages), edge(of_edge), arm(of_arm)
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
-    edge = between(weight, store%record(record)%edge)
+    edge = edge_between(weight, store, record)
     held = 0
     do k = 1, normal%n_arms
-      arm = between(weight, store%held(:, :, k, record))
+      arm = arm_between(weight, store, k, record)
       held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(4) - edge(1)*arm(3))
     end do
   end function held_by
@@ -137,14 +137,14 @@ contains
     real(dp) :: weight(0:stages), edge(of_edge), arm(of_arm), fade, answer
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
-    edge = between(weight, store%record(record)%edge)
+    edge = edge_between(weight, store, record)
     element%taken = 0
     element%force = 0
     answer = 0
     do k = 1, normal%n_arms
       fade = 1
       if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
-      arm = between(weight, store%held(:, :, k, record))
+      arm = arm_between(weight, store, k, record)
       element%taken = element%taken + fade*(arm(1) - side*arm(3))
       element%force = element%force + fade*(arm(2) - side*arm(4))
       answer = answer + normal%g(k)*fade
@@ -155,14 +155,29 @@ contains
     if (element%radius > 0) element%stretch = edge(3)/(2*element%radius)
   end subroutine look_at
 
-  !> The values of an element or of an arm of it between the points.
-  pure function between(weight, at_points) result(values)
-    real(dp), intent(in) :: weight(0:stages), at_points(of_edge, 0:stages)
+  !> What an element at the edge has between the points of a record.
+  pure function edge_between(weight, store, record) result(values)
+    real(dp), intent(in) :: weight(0:stages)
+    type(store_type), intent(in) :: store
+    integer(ip), intent(in) :: record
     real(dp) :: values(of_edge)
     integer(ip) :: i
     values = 0
     do i = 0, stages
-      values = values + weight(i)*at_points(:, i)
+      values = values + weight(i)*store%record(record)%edge(:, i)
     end do
-  end function between
+  end function edge_between
+
+  !> What an arm of it holds.
+  pure function arm_between(weight, store, arm, record) result(values)
+    real(dp), intent(in) :: weight(0:stages)
+    type(store_type), intent(in) :: store
+    integer(ip), intent(in) :: arm, record
+    real(dp) :: values(of_arm)
+    integer(ip) :: i
+    values = 0
+    do i = 0, stages
+      values = values + weight(i)*store%held(:, i, arm, record)
+    end do
+  end function arm_between
 end module rst_front

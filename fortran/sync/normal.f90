@@ -13,9 +13,11 @@ module rst_normal_motion
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
-  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, slower than stop_speed or, where rounding ends
-  !> the panels, than twice its speed there; that the panels given are too few; nothing.
+  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that will
+  !> not be faster than mesh%left; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
+
+  real(dp), parameter :: worth_telling = 1.0e-2_dp !! a rebound that is slower, though nothing else is known of it
 
   integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
   real(dp), parameter :: unit = acos(0.0_dp)/real(whole, dp)
@@ -79,15 +81,7 @@ contains
         if (fails) then
           width = width/2
           if (width > 0) cycle
-          found = does_not_converge
-          if (n == 1) return
-          if (back) then
-            if (creeps_out(control%stop_speed, mesh%n_compression, n - 1, panel)) found = stops
-            if (found == stops) mesh%n_panels = mesh%n_compression
-          else if (has_stopped(solid, g, 2*panel(n - 1)%velocity(stages), panel(n - 1), memory(:, :, n - 1), &
-                               loading(:, :, n - 1))) then
-            found = stops
-          end if
+          call give_up(found)
           return
         end if
         mesh%n_panels = n
@@ -95,6 +89,7 @@ contains
         place = place + width
         if (.not. back) then
           found = stops
+          mesh%left = control%stop_speed
           if (has_stopped(solid, g, control%stop_speed, panel(n), memory(:, :, n), loading(:, :, n))) return
         end if
         do while (width < widest .and. modulo(place, 2*width) == 0)
@@ -104,6 +99,20 @@ contains
       end do
       found = rebounds
     end subroutine go_through
+
+    !> Rounding ends the panels. What is left after the compression may be too slow to matter.
+    subroutine give_up(found)
+      integer(ip), intent(out) :: found
+      integer(ip) :: last
+      found = does_not_converge
+      if (mesh%n_panels == 0) return
+      last = mesh%n_compression
+      mesh%left = fastest_later(g, panel(last), loading(stages, :, last))
+      if (creeps_out(control%stop_speed, last, mesh%n_panels, panel)) mesh%left = control%stop_speed
+      if (.not. mesh%left < worth_telling) return
+      found = stops
+      mesh%n_panels = last
+    end subroutine give_up
   end subroutine follow_normal
 
   !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is not smooth.
@@ -160,12 +169,26 @@ contains
     type(panel_type), intent(in) :: panel
     real(dp), intent(in), dimension(0:stages, solid%n_arms) :: memory, loading
     logical :: yes
-    real(dp) :: energy
     yes = .false.
     if (panel%velocity(stages) >= stop_speed .or. .not. panel%velocity(stages) > 0) return
-    energy = 2*mass_factor*sum(loading(stages, :)**2/g)/panel%radius(stages)
-    yes = energy < stop_speed**2 .or. sum(memory(stages, :)) < stop_speed*solid%eta
+    yes = stored(g, panel, loading(stages, :)) < stop_speed**2 .or. sum(memory(stages, :)) < stop_speed*solid%eta
   end function has_stopped
+
+  !> The square of the speed that springs could give the sphere, with stresses up to twice their mean.
+  pure function stored(g, panel, loading) result(energy)
+    real(dp), intent(in) :: g(:), loading(:)
+    type(panel_type), intent(in) :: panel
+    real(dp) :: energy
+    energy = 2*mass_factor*sum(loading**2/g)/panel%radius(stages)
+  end function stored
+
+  !> The speed that the sphere will not exceed after a panel of the compression, by its energy.
+  pure function fastest_later(g, panel, loading) result(speed)
+    real(dp), intent(in) :: g(:), loading(:)
+    type(panel_type), intent(in) :: panel
+    real(dp) :: speed
+    speed = sqrt(panel%velocity(stages)**2 + stored(g, panel, loading))
+  end function fastest_later
 
   !> Whether the sphere has come back by some panels, and never as fast as stop_speed: where rounding ends them, it may as well stay.
   pure function creeps_out(stop_speed, n_compression, n_panels, panel) result(yes)

@@ -15,10 +15,11 @@ module rst_panel
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> How the motion is divided: the scale r of the radius in theta, when iterations end, panels of the compression and of all.
+  !> How the motion is divided: the scale r of the radius in theta, when iterations end, the speed that a sphere that has stopped will
+  !> not exceed, panels of the compression and of all.
   !> Twin of `struct sync_mesh` in C.
   type, bind(c) :: mesh_type
-    real(dp) :: radius, closeness
+    real(dp) :: radius, closeness, left
     integer(ip) :: n_compression, n_panels
   end type mesh_type
 

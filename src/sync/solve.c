@@ -103,14 +103,14 @@ static double largest_force(const struct sync_normal *normal)
 }
 
 /* What both attempts say: the finer one, and what they differ by. */
-static void compare(const struct rst_problem *problem, double stop_speed, const struct attempt *coarse,
-                    const struct attempt *fine, struct rst_outcome *outcome)
+static void compare(const struct rst_problem *problem, const struct attempt *coarse, const struct attempt *fine,
+                    struct rst_outcome *outcome)
 {
     const struct sync_normal *n = &fine->run->normal;
     const struct sync_panel *end = last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
-    const double left = stops ? fmax(stop_speed, 2 * end->velocity[rst_stages]) : 0; /* faster it will not be again */
+    const double left = stops ? 2 * n->left : 0; /* its velocity changes by no more */
     const double least = rst_least_estimate * problem->tolerance + rst_rounding;
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;
@@ -120,7 +120,7 @@ static void compare(const struct rst_problem *problem, double stop_speed, const 
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
                   rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) + least +
-                  4 * problem->chi * left / problem->psi; /* |S| <= F bounds the change of U' */
+                  2 * problem->chi * left / problem->psi; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
         outcome->error_ex += fabs(fine->shear_velocity) / problem->psi;
         outcome->shear_velocity = 0;
@@ -267,7 +267,7 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
         coarse = *fine;
         *fine = now;
         if (++known < 2) continue;
-        compare(problem, motion->stop_speed, &coarse, fine, outcome);
+        compare(problem, &coarse, fine, outcome);
         walks = fine->sticks_again || coarse.sticks_again;
         if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
         if (!walks && (problem->elements > 0 || meets(problem, outcome))) return RESTITUTE_OK;

@@ -28,7 +28,7 @@ struct sync_normal_control {
 struct sync_normal {
     double eta;
     int64_t n_arms;
-    double radius, closeness;
+    double radius, closeness, left;
     int64_t n_compression, n_panels;
     double *g, *rate;
     struct sync_panel *panel;
