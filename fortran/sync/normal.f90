@@ -80,9 +80,14 @@ contains
           width = width/2
           if (width > 0) cycle
           found = does_not_converge
-          if (n == 1 .or. back) return
-          if (has_stopped(solid, g, 2*panel(n - 1)%velocity(stages), panel(n - 1), memory(:, :, n - 1), loading(:, :, n - 1))) &
+          if (n == 1) return
+          if (back) then
+            if (creeps_out(control%stop_speed, mesh%n_compression, n - 1, panel)) found = stops
+            if (found == stops) mesh%n_panels = mesh%n_compression
+          else if (has_stopped(solid, g, 2*panel(n - 1)%velocity(stages), panel(n - 1), memory(:, :, n - 1), &
+                               loading(:, :, n - 1))) then
             found = stops
+          end if
           return
         end if
         mesh%n_panels = n
@@ -161,4 +166,17 @@ contains
     energy = 2*mass_factor*sum(loading(stages, :)**2/g)/panel%radius(stages)
     yes = energy < stop_speed**2 .or. sum(memory(stages, :)) < stop_speed*solid%eta
   end function has_stopped
+
+  !> Whether the sphere has come back by some panels, and never as fast as stop_speed: where rounding ends them, it may as well stay.
+  pure function creeps_out(stop_speed, n_compression, n_panels, panel) result(yes)
+    real(dp), intent(in) :: stop_speed
+    integer(ip), intent(in) :: n_compression, n_panels
+    type(panel_type), intent(in) :: panel(n_panels)
+    logical :: yes
+    integer(ip) :: i
+    yes = n_panels > n_compression
+    do i = n_compression + 1, n_panels
+      yes = yes .and. all(abs(panel(i)%velocity) < stop_speed)
+    end do
+  end function creeps_out
 end module rst_normal_motion

@@ -145,6 +145,9 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
         if (run->found != RST_LACKS_ROOM || allowed == most) return run;
+        if (allowed < rst_most_panels) continue;
+        run->found = RST_DOES_NOT_CONVERGE;
+        return run;
     }
 }
 
