@@ -206,7 +206,7 @@ contains
         place = first_rise(i, -s%centre)
         return
       end if
-      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*contact%stress) then
+      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
         event = slip_leaves
         place = first_rise(i, s%edge)
         return
