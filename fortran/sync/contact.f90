@@ -234,7 +234,7 @@ contains
     call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
     lasts = .not. fails
     do i = 1, stages
-      lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless
+      lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless*contact%stress
     end do
     call advance_memory(normal, ground, s%w(1:), store)
   end subroutine slide_piece

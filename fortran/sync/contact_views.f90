@@ -22,8 +22,9 @@ module rst_contact_views
   type, bind(c) :: contact_type
     real(dp) :: chi, psi
     real(dp) :: roughness   !! what the polynomial of a piece may miss of U'
-    real(dp) :: noise       !! slack, angles and velocities that the polynomials of the normal motion may miss
+    real(dp) :: noise       !! slack over `stress`, angles and velocities that the polynomials of the normal motion may miss
     real(dp) :: closeness   !! iterations end when U' changes by less
+    real(dp) :: stress      !! a usual stress: largest force over largest radius
     integer(ip) :: no_slip  !! /= 0: friction without limit
   end type contact_type
 

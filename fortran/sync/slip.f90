@@ -206,7 +206,7 @@ contains
         place = first_rise(i, -s%centre)
         return
       end if
-      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise) then
+      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
         event = slip_leaves
         place = first_rise(i, s%edge)
         return
@@ -274,7 +274,7 @@ contains
       call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
-      if (abs(miss) <= contact%closeness) return
+      if (abs(miss) <= contact%closeness*merge(1.0_dp, contact%stress, event == slip_begins)) return
       if (n == 1) then
         slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
         slope = slope/merge((to - range(1))*(1 - point(stages - 1))**2, (to - range(1))*(1 - point(stages - 1)), &

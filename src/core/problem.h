@@ -41,6 +41,7 @@ struct rst_outcome {
     struct euler_ledger ledger;
     int sunk;
     int halvings;   /* sync: those of the run that gave the pair */
+    int without_slip; /* sync: slip was left out */
     int64_t walked; /* sync: elements in a panel, if elements gave it, else 0 */
 };
 

@@ -188,6 +188,15 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
     return fails;
 }
 
+/* Largest force over largest radius: solids of other units have other stresses. */
+static double usual_stress(const struct sync_normal *normal)
+{
+    double force = 0;
+    for (int64_t p = 0; p < normal->n_compression; p++)
+        force = fmax(force, normal->panel[p].force[rst_stages]);
+    return force / normal->panel[normal->n_compression - 1].radius[rst_stages];
+}
+
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
@@ -197,6 +206,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .noise = rst_noise * rst_roughness_of(halvings - 1),
                                          .closeness = fmax(10 * rst_rounding, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
                                                       fmin(1, problem->psi),
+                                         .stress = usual_stress(&run->normal),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;

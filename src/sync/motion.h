@@ -46,6 +46,15 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
  * NULL: out of memory. */
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most);
 
+/* The same with friction without limit, U' over psi. */
+static inline struct rst_problem rst_without_slip(const struct rst_problem *problem)
+{
+    struct rst_problem without = *problem;
+    without.mode = RST_NO_SLIP;
+    without.psi = 1;
+    return without;
+}
+
 /* What the polynomials of U' may miss, over psi. */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 

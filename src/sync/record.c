@@ -28,6 +28,8 @@ static double value(const double *weight, const double *y)
 static double place_of(const struct sync_panel *panel, double time)
 {
     double low = 0, high = 1, weight[rst_points];
+    if (time <= panel->time[0]) return 0;
+    if (time >= panel->time[rst_stages]) return 1;
     for (int i = 0; i < 60 && high - low > 1e-15; i++) {
         const double x = 0.5 * (low + high);
         rst_sync_weights_at(x, weight);
@@ -101,6 +103,10 @@ static void sample_at(const struct trace *trace, double time, int64_t *p, int64_
         follow_walk(trace, at, sample);
     else
         slide(trace->problem, sample);
+    if (trace->problem->mode == RST_NO_SLIP) {
+        sample->stick_radius = sample->contact_radius;
+        return;
+    }
     sample->shear_force = fmax(-sample->normal_force, fmin(sample->normal_force, sample->shear_force));
 }
 

@@ -274,6 +274,11 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
         if (!walks && larger_error(outcome) < larger_error(&best)) best = *outcome;
     }
     if (known < 2) return too_hard(error);
+    if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
+        rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip at all */
+        outcome->error_ex = INFINITY;
+        return RESTITUTE_TOLERANCE_NOT_REACHED;
+    }
     if (walks) return walk_refining(motion, problem, fine, outcome, error);
     return return_best(motion, problem, &best, fine, outcome, error);
 }
@@ -294,25 +299,39 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     return status ? status : conclude(problem, spent, outcome, error);
 }
 
-/* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about 0.4 psi, is no slip; the
- * energies in x are those parts of the whole, psi^2. */
-static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                      struct rst_outcome *outcome, restitute_error *error)
+/* As if there were no slip; the energies in x are those parts of the whole, psi^2. */
+static int leave_out_slip(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                          struct rst_outcome *outcome, restitute_error *error)
 {
     const double psi = problem->psi;
-    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-                       rst_change_by_slip * psi < rst_negligible_part * problem->tolerance;
-    struct rst_problem without_slip = *problem;
-    if (!strong) return solve_refining(problem, workspace, keep_ledger, outcome, error);
-    without_slip.mode = RST_NO_SLIP;
-    without_slip.psi = 1;
-    const int status = solve_refining(&without_slip, workspace, keep_ledger, outcome, error);
+    const struct rst_problem without = rst_without_slip(problem);
+    const int status = solve_refining(&without, workspace, keep_ledger, outcome, error);
+    outcome->without_slip = 1;
     outcome->shear_velocity *= psi;
     outcome->error_ex += rst_change_by_slip * psi;
     outcome->ledger.friction_x *= psi * psi;
     outcome->ledger.viscous_x *= psi * psi;
     outcome->ledger.left_x *= psi * psi;
     return status;
+}
+
+/* Friction may be so strong that slip at the edge, which changes e_x by about 0.4 psi, counts less than the tolerance, or than the error
+ * of following it. */
+static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                 struct rst_outcome *outcome, restitute_error *error)
+{
+    const double change = rst_change_by_slip * problem->psi;
+    const int may = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0;
+    if (may && change < rst_negligible_part * problem->tolerance)
+        return leave_out_slip(problem, workspace, keep_ledger, outcome, error);
+    const int status = solve_refining(problem, workspace, keep_ledger, outcome, error);
+    if (!may || status != RESTITUTE_TOLERANCE_NOT_REACHED || outcome->error_ex < change) return status;
+    const int64_t updates = outcome->updates;
+    struct rst_problem rest = *problem;
+    rest.max_updates -= updates;
+    const int again = leave_out_slip(&rest, workspace, keep_ledger, outcome, error);
+    outcome->updates += updates;
+    return again;
 }
 
 /* Room for three runs on a standard solid. */
@@ -340,7 +359,10 @@ static int sync_record(const struct rst_problem *problem, struct rst_workspace *
 {
     fenv_t callers;
     feholdexcept(&callers);
-    const int status = rst_motion_record(problem, workspace, outcome, history, error);
+    const struct rst_problem without = rst_without_slip(problem);
+    const int status = rst_motion_record(outcome->without_slip ? &without : problem, workspace, outcome, history, error);
+    for (size_t i = 0; i < history->count && outcome->without_slip; i++)
+        history->samples[i].shear_force *= problem->psi;
     fesetenv(&callers);
     return status;
 }

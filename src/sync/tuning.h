@@ -34,7 +34,7 @@ static const double rst_rounding = 1e-13;
 static const double rst_rest_part = 0.01, rst_slowest = 1e-10;
 
 /* e_x differs from that without slip by at most this times psi, which is left out where it is a small part of the tolerance. */
-static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
+static const double rst_change_by_slip = 2, rst_negligible_part = 0.25;
 
 /* Part of the tolerance that an estimate may take; the rest is for merged terms. */
 static const double rst_acceptance = 0.9;

@@ -13,7 +13,7 @@ struct count {
     int missed, far, low, far_too_low;
 };
 
-/* One impact, against the same at 1e-8, whose estimate is taken as its error. */
+/* One impact, against the same at 1e-8, whose estimate is taken as its error. That is 2 psi where slip had to be left out. */
 static void judge(restitute_impact impact, double tolerance, struct count *count)
 {
     const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
@@ -24,7 +24,7 @@ static void judge(restitute_impact impact, double tolerance, struct count *count
     const double low = fmax(z / s.result.error_ez, x / s.result.error_ex);
     CHECK(estimate_keeps_tolerance(&s, tolerance) && isfinite(s.result.ez) && isfinite(s.result.ex), "status %d",
           s.status);
-    CHECK(fine.error_ez < 1e-7 && fine.error_ex < 3e-7, "reference: %g, %g", fine.error_ez, fine.error_ex);
+    CHECK(fine.error_ez < 1e-7 && fine.error_ex < fmax(3e-7, 2.1 * impact.psi), "reference: %g, %g", fine.error_ez, fine.error_ex);
     count->missed += error > tolerance;
     count->far += error > 3 * tolerance;
     count->low += low > 1;

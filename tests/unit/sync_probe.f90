@@ -127,7 +127,8 @@ contains
     real(c_double), intent(out) :: velocity
     integer(c_int64_t), intent(out) :: n_pieces
     integer(c_int64_t) :: found
-    call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, closeness=1.0e-12_dp, &
+    call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, &
+                        closeness=1.0e-12_dp, stress=1.0_dp, &
                                              no_slip=0_ip), store, velocity, found)
     n_pieces = store%n_pieces
   end function probe_contact
