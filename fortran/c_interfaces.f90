@@ -7,14 +7,8 @@ module rst_c_interfaces
   use rst_merging, only: merge_terms
   use rst_series, only: chain_type, series_chain
   use rst_profile, only: plane_profile
-  use rst_compression, only: scout_compression
+  use rst_compression, only: likely_depth, scout_compression
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact
-  use rst_sync_grid, only: grid_type, level_type, node_type, likely_depth, choose_grid
-  use rst_sync_dense, only: trace_type, thin_levels
-  use rst_sync_elements, only: sync_scene_type => scene_type, shear_type, term_type, columns
-  use rst_sync_record, only: knot_type, sample_type, trace_shear, edge_rates, sample_impact
-  use rst_sync_ledger, only: keep_ledger, loss_type
-  use rst_ledger, only: ledger_type
   implicit none (type, external)
   private
 contains
@@ -146,79 +140,4 @@ contains
     real(c_double) :: depth
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
   end function rst_likely_depth
-
-  pure subroutine rst_choose_grid(g_inf, eta, n_terms, g, tau, grid) bind(c, name="rst_choose_grid")
-    real(c_double), intent(in), value :: g_inf, eta
-    integer(c_int64_t), intent(in), value :: n_terms
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    type(grid_type), intent(out) :: grid
-    grid = choose_grid(g_inf, eta, n_terms, g, tau)
-  end subroutine rst_choose_grid
-
-  pure subroutine rst_thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node) &
-    bind(c, name="rst_thin_levels")
-    integer(c_int64_t), intent(in), value :: n_terms, n
-    type(level_type), intent(in) :: level(0:4*n)
-    type(trace_type), intent(in) :: trace(n_terms, 0:4*n)
-    type(node_type), intent(in) :: node(0:2*n)
-    type(level_type), intent(out) :: thin_level(0:2*n)
-    type(trace_type), intent(out) :: thin_trace(n_terms, 0:2*n)
-    type(node_type), intent(out) :: thin_node(0:n)
-    call thin_levels(n_terms, n, level, trace, node, thin_level, thin_trace, thin_node)
-  end subroutine rst_thin_levels
-
-  subroutine rst_trace_shear(scene, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot) &
-    bind(c, name="rst_trace_shear")
-    type(sync_scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    type(node_type), intent(in) :: node(0:scene%n)
-    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
-    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
-    type(term_type), intent(inout) :: term(scene%n_terms)
-    integer(c_int64_t), intent(out) :: n_knots
-    type(knot_type), intent(out) :: knot(0:2*scene%n)
-    call trace_shear(scene, g, tau, level, trace, node, body, beta, faded, term, n_knots, knot)
-  end subroutine rst_trace_shear
-
-  pure subroutine rst_edge_rates(scene, g, tau, level, trace, rate) bind(c, name="rst_edge_rates")
-    type(sync_scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    real(c_double), intent(out) :: rate(scene%n:2*scene%n)
-    call edge_rates(scene, g, tau, level, trace, rate)
-  end subroutine rst_edge_rates
-
-  pure subroutine rst_sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample) &
-    bind(c, name="rst_sample_impact")
-    type(sync_scene_type), intent(in) :: scene
-    integer(c_int64_t), intent(in), value :: slides, n_knots, l, i
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    type(node_type), intent(in) :: node(0:scene%n)
-    real(c_double), intent(in) :: rate(scene%n:2*scene%n)
-    type(knot_type), intent(in) :: knot(0:2*scene%n)
-    real(c_double), intent(in), value :: time
-    type(sample_type), intent(out) :: sample
-    call sample_impact(scene, slides, level, node, rate, n_knots, knot, l, i, time, sample)
-  end subroutine rst_sample_impact
-
-  subroutine rst_keep_ledger(scene, kind, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, &
-                             ledger) bind(c, name="rst_keep_ledger")
-    type(sync_scene_type), intent(in) :: scene
-    integer(c_int64_t), intent(in), value :: kind
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    type(trace_type), intent(in) :: trace(scene%n_terms, 0:2*scene%n)
-    type(level_type), intent(in) :: level(0:2*scene%n)
-    type(node_type), intent(in) :: node(0:scene%n)
-    real(c_double), intent(out) :: body(0:scene%capacity - 1, columns)
-    real(c_double), intent(out), dimension(0:scene%capacity - 1, scene%n_terms) :: beta, faded
-    type(term_type), intent(inout) :: term(scene%n_terms)
-    real(c_double), intent(out) :: before(0:scene%capacity - 1, scene%n_terms + 2)
-    type(term_type), intent(inout) :: now(scene%n_terms)
-    type(loss_type), intent(inout) :: loss(scene%n_terms)
-    type(ledger_type), intent(out) :: ledger
-    call keep_ledger(scene, kind, g, tau, level, trace, node, body, beta, faded, term, before, now, loss, ledger)
-  end subroutine rst_keep_ledger
 end module rst_c_interfaces

@@ -6,12 +6,36 @@ module rst_compression
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: scout_compression
+  public :: likely_depth, scout_compression
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
   real(dp), parameter :: growth = 0.01_dp  !! steps grow with the time elapsed: decades cost alike
 
 contains
+
+  !> Largest indentation, roughly (a few per cent): the energy balance with the modulus at that age,
+  !> 1 = D^(5/2) (G_inf + sum g_k/(1 + 0.8 D/tau_k) + (5/4) eta/D), which has the elastic and the viscous limit right.
+  !> It starts from the solid's own scale, so that scaled moduli give the same steps.
+  pure function likely_depth(g_inf, eta, n_terms, g, tau) result(depth)
+    real(dp), intent(in) :: g_inf, eta
+    integer(ip), intent(in) :: n_terms
+    real(dp), intent(in) :: g(n_terms), tau(n_terms)
+    real(dp) :: depth, modulus, factor
+    integer(ip) :: i, k
+    modulus = g_inf
+    if (.not. g_inf > 0) modulus = sum(g)
+    depth = (1.25_dp*max(eta, tiny(1.0_dp)))**(-2.0_dp/3.0_dp)
+    if (modulus > 0) depth = modulus**(-0.4_dp)
+    do i = 1, 100
+      modulus = g_inf + 1.25_dp*eta/depth
+      do k = 1, n_terms
+        modulus = modulus + g(k)/(1 + 0.8_dp*depth/tau(k))
+      end do
+      factor = 1/sqrt(modulus*depth*depth*sqrt(depth))
+      depth = depth*factor
+      if (abs(factor - 1) < 0.01_dp) exit
+    end do
+  end function likely_depth
 
   !> Follow the compression with steps of 1 % of the time elapsed, all forces implicit in the velocity, so that no
   !> relaxation time, however short, limits the step. About 1 % accurate: it sizes the foundation and its steps.

@@ -51,7 +51,7 @@ contains
       end if
       weight(j) = barycentric(j)/away
     end do
-    weight = weight/sum(weight)
+    weight = weight*(1/sum(weight))
   end function weights_at
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.

@@ -3,7 +3,7 @@ module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, solve_linear
   use rst_arms, only: advance
-  use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type
+  use rst_contact_views, only: normal_type, contact_type, piece_type, store_type
   use rst_piece, only: ground_type, lay_ground, advance_memory
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
   implicit none (type, external)
@@ -12,7 +12,7 @@ module rst_tangential_motion
 
   integer(ip), parameter :: lacks_pieces = 2  !! follow_contact was given too few
   integer(ip), parameter :: most_idle = 2     !! events at one place, of which one undoes the other
-  real(dp), parameter :: steady = 1.0e-10_dp  !! slip velocity that is rounding
+  real(dp), parameter :: steady = 1.0e-10_dp, weightless = 1.0e-12_dp  !! slip velocity, and slack, that are rounding
 
 contains
 
@@ -124,14 +124,17 @@ contains
     integer(ip) :: i, k
     store%n_records = panel
     associate (on => normal%panel(panel))
-      store%record(panel) = record_type(on%from, on%to, on%to, on%radius, on%time, on%velocity*on%pace, on%velocity*on%pace)
+      store%record(panel)%from = on%from
+      store%record(panel)%to = on%to
+      store%record(panel)%end = on%to
+      do i = 0, stages
+        store%record(panel)%edge(:, i) = [on%radius(i), on%time(i), on%velocity(i)*on%pace(i), on%velocity(i)*on%pace(i)]
+      end do
     end associate
     do k = 1, normal%n_arms
       do i = 0, stages
-        store%mz(i, k, panel) = normal%memory(i, k, panel)
-        store%mx(i, k, panel) = normal%memory(i, k, panel)
-        store%lz(i, k, panel) = normal%loading(i, k, panel)
-        store%lx(i, k, panel) = normal%loading(i, k, panel)
+        store%held(1:2, i, k, panel) = [normal%memory(i, k, panel), normal%loading(i, k, panel)]
+        store%held(3:4, i, k, panel) = store%held(1:2, i, k, panel)
       end do
     end do
   end subroutine record_slip
@@ -151,15 +154,15 @@ contains
     if (.not. abs(side) > 0 .and. .not. ground%returning) then
       n = store%n_records + 1
       store%n_records = n
-      store%record(n) = record_type(ground%angle(0), ground%angle(stages), ground%angle(stages), ground%radius, ground%time, &
-                                    ground%velocity*ground%pace, s%w*ground%pace)
+      store%record(n)%from = ground%angle(0)
+      store%record(n)%to = ground%angle(stages)
+      store%record(n)%end = ground%angle(stages)
       do i = 0, stages
+        store%record(n)%edge(:, i) = [ground%radius(i), ground%time(i), ground%velocity(i)*ground%pace(i), s%w(i)*ground%pace(i)]
         weight = weights_at(ground%place(i))
         do k = 1, normal%n_arms
-          store%mz(i, k, n) = store%now_z(i, k)
-          store%mx(i, k, n) = store%now_x(i, k)
-          store%lz(i, k, n) = sum(weight*normal%loading(:, k, ground%panel))
-          store%lx(i, k, n) = store%now_l(i, k)
+          store%held(:, i, k, n) = [store%now_z(i, k), sum(weight*normal%loading(:, k, ground%panel)), &
+                                    store%now_x(i, k), store%now_l(i, k)]
         end do
       end do
     end if
@@ -215,7 +218,7 @@ contains
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: lasts
     real(dp) :: matrix(stages, stages), right(stages, 1), slip(stages)
-    integer(ip) :: k
+    integer(ip) :: i, k
     logical :: fails
     call lay_ground(normal, panel, from, 1.0_dp, .false., store, ground, fails)
     s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
@@ -229,7 +232,10 @@ contains
     call solve_linear(1_ip, matrix, right, fails)
     slip = right(:, 1) - (ground%velocity(1:) - side*s%w(1:))
     call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
-    lasts = .not. fails .and. all(slip >= -steady)
+    lasts = .not. fails
+    do i = 1, stages
+      lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless
+    end do
     call advance_memory(normal, ground, s%w(1:), store)
   end subroutine slide_piece
 end module rst_tangential_motion

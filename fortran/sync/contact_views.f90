@@ -5,7 +5,10 @@ module rst_contact_views
   use rst_panel, only: panel_type
   implicit none (type, external)
   private
-  public :: normal_type, contact_type, record_type, piece_type, store_type
+  public :: normal_type, contact_type, record_type, piece_type, store_type, of_edge, of_arm
+
+  !> Kinds of values of an element and of each of its arms, beside each other since one needs all of them at an angle.
+  integer(ip), parameter :: of_edge = 4, of_arm = 4
 
   !> The normal motion of a solid: eta, arms, panels, M_k and P_k at their points; n: panels of the compression and of all.
   type :: normal_type
@@ -24,11 +27,12 @@ module rst_contact_views
     integer(ip) :: no_slip  !! /= 0: friction without limit
   end type contact_type
 
-  !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it. The edge
-  !> angle goes from `from` to `to`, and the last point is at `end`, which may be beyond. Arrays mz, lz, mx, lx of store_type are at its points too. Twin of `struct sync_record` in C.
+  !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it, here and in
+  !> `held` of store_type. The edge angle goes from `from` to `to`; the last point is at `end`, which may be beyond. edge: X, t_X, and D'
+  !> and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
   type, bind(c) :: record_type
     real(dp) :: from, to, end
-    real(dp), dimension(0:stages) :: radius, time, sink, shear  !! sink, shear: D' and U' times |ds/dtheta|
+    real(dp) :: edge(of_edge, 0:stages)
   end type record_type
 
   !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is left of it. U', S and the stick
@@ -44,7 +48,7 @@ module rst_contact_views
     integer(ip) :: n_records, n_pieces
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
-    real(dp), pointer, contiguous, dimension(:, :, :) :: mz, lz, mx, lx  !! (0:stages, arms, records): M_k, P_k in z and x
+    real(dp), pointer, contiguous :: held(:, :, :, :)                    !! (of_arm, 0:stages, arms, records): M_k, P_k in z, in x
     real(dp), pointer, contiguous :: kernel(:, :, :), decay(:, :)        !! of the arms (module rst_arms)
     real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
   end type store_type

@@ -30,6 +30,7 @@ module rst_sync_element_step
     integer(ip) :: n, n_terms
     integer(ip) :: capacity    !! room for elements: n + 1, rounded up to a multiple of 8
     integer(ip) :: start       !! level at which gross slip ends: 0 for psi <= 1, 2 n if never
+    integer(ip) :: end         !! the last level: 2 n, or n for a sphere that stops in the solid
     integer(ip) :: no_slip     !! 1: friction without limit
     integer(ip) :: prescribed  !! 1: U' is given from the level `start` on
     real(dp) :: chi, psi, g_inf, eta

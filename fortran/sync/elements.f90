@@ -7,9 +7,9 @@
 !> The sums over elements and over time lean on the normal problem, whose force N and impulse are known: each is
 !> the share of friction that is used, by the trapezoidal rule, times the known one. So full slip is exact.
 !>
-!> To call follow_elements: fill walk, level(0:2n), memory(n_terms, 0:2n) and, with walk%prescribed,
-!> shear(start:2n)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
-!> contain. Results: shear(0:2n) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
+!> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with walk%prescribed,
+!> shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
+!> contain. Results: shear(0:end) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
 module rst_sync_walk
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
@@ -59,10 +59,10 @@ contains
     integer(ip) :: l
     body = 0
     stress = 0
-    do l = 0, walk%start  ! gross slip
+    do l = 0, min(walk%start, walk%end)  ! gross slip
       shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force)
     end do
-    do l = 0, 2*walk%n - 1
+    do l = 0, walk%end - 1
       call measure_step(walk, g, tau, l, level(l + 1)%step, term, step)
       term(0)%normal = walk%g_inf*level(l)%depth
       term(1:)%normal = memory(:, l)
@@ -76,7 +76,7 @@ contains
         call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account)
       if (l >= walk%n) call leave_contact(walk, step%last, term, body(:, c_weight), stress, account)
     end do
-    call close_accounts(walk, level(walk%start)%velocity, account, ledger)
+    call close_accounts(walk, level(min(walk%start, walk%end))%velocity, account, ledger)
   end subroutine follow_elements
 
   !> Element j is touched. It moves with the contact point unless that is faster than the sphere: then it slips at

@@ -9,85 +9,104 @@
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
-  use rst_contact_views, only: normal_type, store_type
+  use rst_contact_views, only: normal_type, store_type, of_edge, of_arm
   implicit none (type, external)
   private
-  public :: slack_type, find_front, held_by
+  public :: element_type, slack_type, look_at, find_front, held_by
 
-  !> At the instant `time`: the front, its radius, H, and y at the centre and at the edge of what has been recorded.
+  !> An element that has stuck since the edge was at an angle theta: its radius X, the slack that it had taken on when it was touched,
+  !> sum_k E_k m_k(t_X), sum_k E_k p_k(t_X), the slope of y over theta, and dX/dtheta.
+  type :: element_type
+    real(dp) :: radius, taken, force, slope, stretch
+  end type element_type
+
+  !> At an instant: the front, its radius, H, and y at the centre and at the edge of what has been recorded.
   type :: slack_type
     real(dp) :: angle, radius, force, centre, edge
   end type slack_type
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  !> Part of the slack at the centre that is left at the front: H, which is largest there, is off by its square.
-  real(dp), parameter :: at_front = 1.0e-7_dp
+  !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is linear in X: H is then off by about e^3, and the
+  !> front by e^2. Within Newton's steps the next search begins where this one ended.
+  real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
 
 contains
 
-  !> The front among the elements up to the angle `edge`. The arms of now_z and now_x at the point i of the piece are the m_k; slip: r.
-  !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation, as if all stuck.
-  pure subroutine find_front(normal, store, i, time, side, slip, edge, slack)
+  !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
+  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation, as if all stuck.
+  pure subroutine find_front(normal, store, time, side, edge_angle, edge, precise, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    integer(ip), intent(in) :: i
-    real(dp), intent(in) :: time, side, slip, edge
-    type(slack_type), intent(inout) :: slack  !! angle: where to begin the search
-    real(dp) :: low, high, y, slope, theta, start, force, radius
+    real(dp), intent(in) :: time, side, edge_angle
+    type(element_type), intent(in) :: edge
+    logical, intent(in) :: precise
+    type(slack_type), intent(inout) :: slack
+    type(element_type) :: element
+    real(dp) :: low, high, y, theta, enough
     integer(ip) :: n, record
-    record = store%n_records
-    slack%centre = normal%eta*slip + sum(store%now_z(i, :) - side*store%now_x(i, :))
-    call look_at(normal, store, i, time, side, edge, record, y, slope, radius, force)
-    slack%edge = y + normal%eta*slip
-    start = slack%angle
+    slack%edge = slack%centre - edge%taken
+    theta = slack%angle
     slack%angle = 0
     slack%radius = 0
     slack%force = 0
     if (slack%centre <= 0) return
     if (slack%edge >= 0) then
-      slack%angle = edge
-      slack%radius = radius
-      slack%force = force + radius*slack%edge
+      slack%angle = edge_angle
+      slack%radius = edge%radius
+      slack%force = edge%force + edge%radius*slack%edge
       return
     end if
+    enough = min(slack%centre, -slack%edge)*merge(at_front, near_front, precise)
+    record = store%n_records
     low = 0
-    high = edge
-    theta = start
+    high = edge_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
     do n = 1, most_iterations
-      call look_at(normal, store, i, time, side, theta, record, y, slope, radius, force)
-      y = y + normal%eta*slip
+      call look_at(normal, store, time, side, theta, record, element)
+      y = slack%centre - element%taken
       if (y > 0) low = theta
       if (y <= 0) high = theta
-      if (abs(y) <= at_front*slack%centre .or. high - low <= rounding*edge) exit
-      if (slope < 0) then
-        theta = theta - y/slope
+      if (abs(y) <= enough .or. high - low <= rounding*edge_angle) exit
+      if (element%slope < 0) then
+        theta = theta - y/element%slope
       else
         theta = low
       end if
       if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
     end do
     slack%angle = theta
-    slack%radius = radius
-    slack%force = force + radius*y
+    slack%radius = element%radius
+    slack%force = element%force + element%radius*y
+    if (element%slope < 0) call go_on(element, y, slack)
   end subroutine find_front
+
+  !> From an element with little slack y to the front, with y linear in between.
+  pure subroutine go_on(element, y, slack)
+    type(element_type), intent(in) :: element
+    real(dp), intent(in) :: y
+    type(slack_type), intent(inout) :: slack
+    real(dp) :: further
+    further = -y/element%slope*element%stretch
+    slack%angle = slack%angle - y/element%slope
+    slack%radius = slack%radius + further
+    slack%force = slack%force + 0.5_dp*y*further
+  end subroutine go_on
 
   !> Without slip: what the force of the contact lacks of A q, q by the arms' memory alone, for an edge at the angle theta.
   pure function held_by(normal, store, time, theta) result(held)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, theta
-    real(dp) :: held, weight(0:stages), radius, entered
+    real(dp) :: held, weight(0:stages), edge(of_edge), arm(of_arm)
     integer(ip) :: k, record
     record = store%n_records
     call find_record(store, theta, record, weight)
-    radius = sum(weight*store%record(record)%radius)
-    entered = sum(weight*store%record(record)%time)
+    edge = between(weight, store%record(record)%edge)
     held = 0
     do k = 1, normal%n_arms
-      held = held + exp(-normal%rate(k)*(time - entered)) &
-             *(sum(weight*store%lx(:, k, record)) - radius*sum(weight*store%mx(:, k, record)))
+      arm = between(weight, store%held(:, :, k, record))
+      held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(4) - edge(1)*arm(3))
     end do
   end function held_by
 
@@ -108,34 +127,43 @@ contains
     end associate
   end subroutine find_record
 
-  !> y without the dashpot for the element that the edge reached at the angle theta, its slope over theta,
-  !> -r ds/dtheta sum_k g_k E_k, its radius, and sum_k E_k p_k.
-  pure subroutine look_at(normal, store, i, time, side, theta, record, y, slope, radius, force)
+  !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
+  !> dy/dtheta = -r ds/dtheta sum_k g_k E_k.
+  pure subroutine look_at(normal, store, time, side, theta, record, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    integer(ip), intent(in) :: i
     real(dp), intent(in) :: time, side, theta
-    integer(ip), intent(inout) :: record
-    real(dp), intent(out) :: y, slope, radius, force
-    real(dp) :: weight(0:stages), entered, left, fade
+    integer(ip), intent(inout) :: record  !! where to begin the search
+    type(element_type), intent(out) :: element
+    real(dp) :: weight(0:stages), edge(of_edge), arm(of_arm), fade, answer
     integer(ip) :: k
     call find_record(store, theta, record, weight)
-    associate (r => store%record(record))
-      radius = sum(weight*r%radius)
-      entered = sum(weight*r%time)
-      slope = -sum(weight*(r%sink - side*r%shear))
-    end associate
-    y = 0
-    force = 0
-    left = 0
+    edge = between(weight, store%record(record)%edge)
+    element%taken = 0
+    element%force = 0
+    answer = 0
     do k = 1, normal%n_arms
       fade = 1
-      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - entered))
-      y = y + ((store%now_z(i, k) - side*store%now_x(i, k)) &
-               - fade*sum(weight*(store%mz(:, k, record) - side*store%mx(:, k, record))))
-      force = force + fade*sum(weight*(store%lz(:, k, record) - side*store%lx(:, k, record)))
-      left = left + normal%g(k)*fade
+      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
+      arm = between(weight, store%held(:, :, k, record))
+      element%taken = element%taken + fade*(arm(1) - side*arm(3))
+      element%force = element%force + fade*(arm(2) - side*arm(4))
+      answer = answer + normal%g(k)*fade
     end do
-    slope = slope*left
+    element%radius = edge(1)
+    element%slope = -(edge(3) - side*edge(4))*answer
+    element%stretch = 0
+    if (element%radius > 0) element%stretch = edge(3)/(2*element%radius)
   end subroutine look_at
+
+  !> The values of an element or of an arm of it between the points.
+  pure function between(weight, at_points) result(values)
+    real(dp), intent(in) :: weight(0:stages), at_points(of_edge, 0:stages)
+    real(dp) :: values(of_edge)
+    integer(ip) :: i
+    values = 0
+    do i = 0, stages
+      values = values + weight(i)*at_points(:, i)
+    end do
+  end function between
 end module rst_front

@@ -5,7 +5,7 @@ module rst_sync_interface
   use rst_arms, only: solid_type
   use rst_panel, only: panel_type, mesh_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: normal_type, contact_type, store_type
+  use rst_contact_views, only: normal_type, contact_type, store_type, of_arm
   use rst_tangential_motion, only: follow_contact, find_velocity
   implicit none (type, external)
   private
@@ -18,10 +18,10 @@ module rst_sync_interface
     type(c_ptr) :: g, rate, panel, memory, loading
   end type normal_arrays_type
 
-  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; room: 8 + 7 stages times arms, see below.
+  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; the arrays are those of store_type.
   type, bind(c) :: store_arrays_type
     integer(c_int64_t) :: capacity, n_records, n_pieces
-    type(c_ptr) :: record, piece, mz, lz, mx, lx, kernel, decay, now_z, now_x, now_l
+    type(c_ptr) :: record, piece, held, kernel, decay, now_z, now_x, now_l
   end type store_arrays_type
 
 contains
@@ -94,19 +94,13 @@ contains
     type(store_arrays_type), intent(in) :: store
     integer(c_int64_t), intent(in) :: n_arms
     type(store_type) :: s
-    real(c_double), pointer, contiguous :: flat(:, :, :), line(:, :)
+    real(c_double), pointer, contiguous :: flat(:, :, :, :), line(:, :)
     s%n_records = 0
     s%n_pieces = 0
     call c_f_pointer(store%record, s%record, [store%capacity])
     call c_f_pointer(store%piece, s%piece, [store%capacity])
-    call c_f_pointer(store%mz, flat, [1 + stages, n_arms, store%capacity])
-    s%mz(0:, 1:, 1:) => flat
-    call c_f_pointer(store%lz, flat, [1 + stages, n_arms, store%capacity])
-    s%lz(0:, 1:, 1:) => flat
-    call c_f_pointer(store%mx, flat, [1 + stages, n_arms, store%capacity])
-    s%mx(0:, 1:, 1:) => flat
-    call c_f_pointer(store%lx, flat, [1 + stages, n_arms, store%capacity])
-    s%lx(0:, 1:, 1:) => flat
+    call c_f_pointer(store%held, flat, [of_arm, 1 + stages, n_arms, store%capacity])
+    s%held(1:, 0:, 1:, 1:) => flat
     call c_f_pointer(store%kernel, s%kernel, [stages, stages, n_arms])
     call c_f_pointer(store%decay, s%decay, [stages, n_arms])
     call c_f_pointer(store%now_z, line, [1 + stages, n_arms])

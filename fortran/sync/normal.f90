@@ -13,7 +13,8 @@ module rst_normal_motion
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
-  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good; that the panels given are too few; nothing.
+  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, slower than stop_speed or, where rounding ends
+  !> the panels, than twice its speed there; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
   integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
@@ -77,9 +78,12 @@ contains
         if (.not. fails) fails = missed(mesh%radius, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
+          if (width > 0) cycle
           found = does_not_converge
-          if (width == 0) return
-          cycle
+          if (n == 1 .or. back) return
+          if (has_stopped(solid, g, 2*panel(n - 1)%velocity(stages), panel(n - 1), memory(:, :, n - 1), loading(:, :, n - 1))) &
+            found = stops
+          return
         end if
         mesh%n_panels = n
         if (.not. back) mesh%n_compression = n

@@ -5,7 +5,7 @@ module rst_slip
                              has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
-  use rst_front, only: slack_type, find_front, held_by
+  use rst_front, only: element_type, slack_type, look_at, find_front, held_by
   implicit none (type, external)
   private
   public :: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
@@ -105,18 +105,20 @@ contains
     logical, intent(in) :: warm  !! s%w is a guess
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
+    type(element_type) :: edge(0:stages)
     real(dp) :: matrix(stages, stages), step(stages, 1), push, change, previous
     integer(ip) :: i, j, n
     push = push_factor(contact)
+    call look_at_edges(normal, store, ground, side, edge)
     s%front = edge_of(store, ground, 0_ip)
-    call slacken(normal, store, ground, side, 0_ip, s)
+    call slacken(normal, store, ground, side, edge(0), 0_ip, .true., s)
     if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, i, s)
+        call slacken(normal, store, ground, side, edge(i), i, .false., s)
       end do
       step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
       do j = 1, stages
@@ -136,23 +138,40 @@ contains
     if (fails) return
     call advance_memory(normal, ground, s%w(1:), store)
     do i = 1, stages
-      call slacken(normal, store, ground, side, i, s)
+      call slacken(normal, store, ground, side, edge(i), i, .true., s)
     end do
     s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
     if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
   end subroutine slip_behind
 
-  !> Front, slack and S at the point i.
-  subroutine slacken(normal, store, ground, side, i, s)
+  !> At every point, the outermost element that may stick.
+  subroutine look_at_edges(normal, store, ground, side, edge)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
+    type(element_type), intent(out) :: edge(0:stages)
+    integer(ip) :: i, record
+    record = store%n_records
+    do i = 0, stages
+      call look_at(normal, store, ground%time(i), side, edge_of(store, ground, i), record, edge(i))
+    end do
+  end subroutine look_at_edges
+
+  !> Front, slack and S at the point i.
+  subroutine slacken(normal, store, ground, side, edge, i, precise, s)
+    type(normal_type), intent(in) :: normal
+    type(store_type), intent(in) :: store
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: side
+    type(element_type), intent(in) :: edge
     integer(ip), intent(in) :: i
+    logical, intent(in) :: precise
     type(solution_type), intent(inout) :: s
     type(slack_type) :: slack
     slack%angle = s%front(i)
-    call find_front(normal, store, i, ground%time(i), side, ground%velocity(i) - side*s%w(i), edge_of(store, ground, i), slack)
+    slack%centre = normal%eta*(ground%velocity(i) - side*s%w(i)) + sum(store%now_z(i, :) - side*store%now_x(i, :))
+    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, precise, slack)
     s%front(i) = slack%angle
     s%stick(i) = slack%radius
     s%centre(i) = slack%centre

@@ -38,7 +38,6 @@ struct rst_outcome {
     double max_indentation, max_contact_radius, max_normal_force;
     double spacing, step;
     int64_t elements, steps, updates;
-    int64_t normal_levels; /* sync: those of the normal problem, a divisor of `elements` */
     struct euler_ledger ledger;
     int sunk;
     int halvings;   /* sync: those of the run that gave the pair */

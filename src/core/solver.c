@@ -10,11 +10,7 @@
 #include "output.h"
 #include "solver.h"
 #include "status.h"
-#ifdef RESTITUTE_NEXT_SYNC
-#include "collocation.h"
-#else
 #include "sync.h"
-#endif
 #include "validity.h"
 
 struct restitute_solver {
@@ -44,11 +40,7 @@ const restitute_method *restitute_method_euler(void)
 
 const restitute_method *restitute_method_sync(void)
 {
-#ifdef RESTITUTE_NEXT_SYNC
-    return &rst_method_collocation;
-#else
     return &rst_method_sync;
-#endif
 }
 
 const char *restitute_method_name(const restitute_method *method)
@@ -270,7 +262,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     if (result) *result = found;
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);
-    if (!outcome.sunk)
+    if (!outcome.sunk || !problem.solid.can_sink) /* with a spring at rest the sphere comes back, however slowly */
         status = judge_tolerance(&problem, &found, status, error);
     else if (status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));

@@ -26,33 +26,10 @@ int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
     return grow(&workspace->elements, &workspace->elements_size, count);
 }
 
-int rst_shelf_levels(struct rst_shelf *shelf, size_t count)
-{
-    if (count <= shelf->levels_size) return 0;
-    if (count > SIZE_MAX / sizeof(double)) return 1;
-    double *larger = realloc(shelf->levels, count * sizeof(double));
-    if (!larger) return 1;
-    larger[0] = 0;
-    shelf->levels = larger;
-    shelf->levels_size = count;
-    return 0;
-}
-
-int rst_shelf_dense(struct rst_shelf *shelf, size_t count)
-{
-    return grow(&shelf->dense, &shelf->dense_size, count);
-}
-
 void rst_workspace_free(struct rst_workspace *workspace)
 {
     free(workspace->terms);
     free(workspace->elements);
-    for (int i = 0; i < rst_shelves; i++) {
-        free(workspace->shelves[i].levels);
-        free(workspace->shelves[i].dense);
-    }
-    free(workspace->spare.levels);
-    free(workspace->spare.dense);
     if (workspace->own) workspace->own->release(workspace->own);
     *workspace = (struct rst_workspace){0};
 }

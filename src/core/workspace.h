@@ -13,31 +13,20 @@ struct rst_own_memory {
     void (*release)(struct rst_own_memory *memory);
 };
 
-/* What the method sync keeps from impact to impact: a normal problem, and levels made from it. */
-struct rst_shelf {
-    double *levels, *dense;
-    size_t levels_size, dense_size;
-};
-enum { rst_shelves = 2 };
-
 struct rst_workspace {
     double *terms; /* term_arrays times n_terms values: g, tau, decay, gain, stress */
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;
-    struct rst_shelf shelves[rst_shelves], spare; /* spare: of what is not kept */
-    struct rst_own_memory *own;                   /* of the solver's method; NULL: none */
-    int keeps_motion;                             /* whether a normal motion stays for later impacts on the same solid */
+    struct rst_own_memory *own; /* of the solver's method; NULL: none */
+    int keeps_motion;           /* whether a normal motion stays for later impacts on the same solid */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 
-/* Room for `count` doubles of element data; on a shelf, of levels, where new room keeps what the old had but the first
- * of them, which is 0, and of dense levels. Nonzero: out of memory, the old contents are kept. */
+/* Room for `count` doubles of element data. Nonzero: out of memory, the old contents are kept. */
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count);
-int rst_shelf_levels(struct rst_shelf *shelf, size_t count);
-int rst_shelf_dense(struct rst_shelf *shelf, size_t count);
 
 void rst_workspace_free(struct rst_workspace *workspace);
 

@@ -93,9 +93,10 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
+/* Not below rounding, which narrower panels do not lessen. */
 static double rst_roughness_of(int level)
 {
-    return rst_first_roughness * pow(rst_roughness_falls, level);
+    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, level));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
@@ -103,8 +104,14 @@ double rst_piece_roughness(const struct rst_problem *problem, int halvings)
     return fmin(rst_roughness_of(halvings - 1), rst_piece_part * problem->tolerance);
 }
 
+/* Room for four times the panels that there are if none is halved. */
+static int64_t first_capacity(int halvings)
+{
+    return INT64_C(8) << halvings;
+}
+
 /* Panels, M_k, P_k and what the restitution needs besides. */
-static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity)
+static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity, double roughness)
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t panels = c * sizeof(struct sync_panel) / sizeof(double);
@@ -113,7 +120,7 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
                                        .radius = motion->radius,
-                                       .closeness = rst_closeness,
+                                       .closeness = fmax(10 * rst_rounding, rst_closeness * roughness),
                                        .g = motion->arms,
                                        .rate = motion->arms + motion->most_arms,
                                        .panel = (struct sync_panel *)run->room,
@@ -133,29 +140,33 @@ static double same_up_to(const struct rst_run *run, double stop_speed)
 
 static int is_solved(const struct rst_run *run, double stop_speed)
 {
-    if (run->found == RST_NOT_SOLVED) return 0;
+    if (run->found == RST_NOT_SOLVED || run->found == RST_LACKS_ROOM) return 0;
     return run->found == RST_REBOUNDS ? stop_speed <= run->stop_speed : stop_speed == run->stop_speed;
 }
 
-const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings)
+const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most)
 {
     struct rst_run *run = &motion->run[halvings];
     if (is_solved(run, motion->stop_speed)) return run;
-    for (int64_t capacity = run->capacity > 0 ? run->capacity : INT64_C(8) << halvings;; capacity *= 2) {
+    for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
+        const int64_t allowed = capacity < most ? capacity : most;
         const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
-                                                    .capacity = capacity};
+                                                    .capacity = allowed};
         run->found = RST_NOT_SOLVED;
-        if (lay_out(motion, run, capacity)) return NULL;
+        if (lay_out(motion, run, capacity, control.roughness)) return NULL;
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
-        if (run->found != RST_LACKS_ROOM) break;
+        if (run->found != RST_LACKS_ROOM || allowed == most) break;
     }
     run->stop_speed = motion->stop_speed;
     if (run->found == RST_REBOUNDS) run->stop_speed = same_up_to(run, motion->stop_speed);
     return run;
 }
+
+/* Pieces of a motion of few panels: events take some each. */
+enum { first_pieces = 16 };
 
 static int lay_out_store(struct rst_motion *motion, int64_t capacity)
 {
@@ -165,17 +176,14 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     const size_t now = rst_points * n, square = rst_stages * rst_stages * n;
     struct sync_store *s = &motion->store;
     if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + 4 * points + square + rst_stages * n + 3 * now + 1))
+                  records + pieces + rst_values * points + square + rst_stages * n + 3 * now + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
-    s->mz = next += pieces;
-    s->lz = next += points;
-    s->mx = next += points;
-    s->lx = next += points;
-    s->kernel = next += points;
+    s->held = next += pieces;
+    s->kernel = next += rst_values * points;
     s->decay = next += square;
     s->now_z = next += rst_stages * n;
     s->now_x = next += now;
@@ -183,19 +191,31 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     return 0;
 }
 
+int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms)
+{
+    int fails = make_arms(motion, arms);
+    motion->n_arms = arms;
+    for (int i = from; i <= to && !fails; i++)
+        fails = lay_out(motion, &motion->run[i], first_capacity(i), 1);
+    if (!fails) fails = lay_out_store(motion, first_capacity(to) + first_pieces);
+    motion->n_arms = -1; /* of no solid */
+    return fails;
+}
+
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-                       int halvings, double *velocity, int64_t *found)
+                       int halvings, int64_t most, double *velocity, int64_t *found)
 {
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
                                          .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
                                          .noise = rst_noise * rst_roughness_of(halvings - 1),
-                                         .closeness = fmax(rst_closeness, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
+                                         .closeness = fmax(10 * rst_rounding, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
                                                       fmin(1, problem->psi),
                                          .no_slip = problem->mode == RST_NO_SLIP};
-    for (int64_t capacity = 2 * run->normal.n_panels + 16;; capacity *= 2) {
+    for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
+        if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);
-        if (*found != RST_LACKS_PIECES) return 0;
+        if (*found != RST_LACKS_PIECES || capacity >= most) return 0;
     }
 }

@@ -40,14 +40,19 @@ struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
 /* Take the solid of the problem. keep: runs stay if they were for the same solid, bit by bit. Nonzero: out of memory. */
 int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep);
 
-/* The normal motion with panels of at most (pi/2)/2^halvings; NULL: out of memory. */
-const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings);
+/* Room for runs with `from` to `to` halvings on solids of up to that many arms. Nonzero: out of memory. */
+int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms);
+
+/* The normal motion with panels of at most (pi/2)/2^halvings; RST_LACKS_ROOM: it wants more than `most` of them.
+ * NULL: out of memory. */
+const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most);
 
 /* What the polynomials of U' may miss, over psi. */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
-/* The tangential motion on a run: U' at the end, over psi as the problem has it. Nonzero: out of memory. */
+/* The tangential motion on a run: U' at the end, over psi as the problem has it; RST_LACKS_PIECES: it wants more than
+ * `most` of them. Nonzero: out of memory. */
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-                       int halvings, double *velocity, int64_t *found);
+                       int halvings, int64_t most, double *velocity, int64_t *found);
 
 #endif

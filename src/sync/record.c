@@ -125,7 +125,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {
-        if (rst_motion_contact(motion, run, problem, outcome->halvings, &velocity, &found))
+        if (rst_motion_contact(motion, run, problem, outcome->halvings, INT64_MAX, &velocity, &found))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
         trace.store = &motion->store;
     }

@@ -1,19 +1,21 @@
 /* The method `sync` (docs/sync.md): the normal motion, then the tangential one on it, each at two resolutions that are compared,
  * and at finer ones until the estimate meets the tolerance.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <fenv.h>
 #include <math.h>
 
 #include "motion.h"
 #include "record.h"
 #include "status.h"
-#include "collocation.h"
+#include "sync.h"
 #include "tuning.h"
 #include "walk.h"
 
 /* One resolution. */
 struct attempt {
     const struct rst_run *run;
-    int halvings, sticks_again; /* sticks_again: slip is not behind one front, there is no shear_velocity */
+    int halvings, fails;
+    int sticks_again; /* slip is not behind one front, there is no shear_velocity */
     double velocity, shear_velocity;
 };
 
@@ -39,24 +41,41 @@ static int too_hard(restitute_error *error)
                       "sync did not converge for this solid; use the method euler");
 }
 
-/* The pair at one resolution. */
+static int too_much_work(const struct rst_problem *problem, restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: too few for this impact",
+                      (long long)problem->max_updates);
+}
+
+static int attempt_contact(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *a,
+                           struct rst_outcome *outcome, restitute_error *error)
+{
+    const int64_t cost = rst_points * (1 + a->run->normal.n_arms); /* updates of a panel or piece */
+    int64_t found;
+    if (rst_motion_contact(motion, a->run, problem, a->halvings, (problem->max_updates - outcome->updates) / cost,
+                           &a->shear_velocity, &found))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
+    outcome->updates += motion->store.n_pieces * cost;
+    if (found == RST_LACKS_PIECES) return too_much_work(problem, error);
+    a->sticks_again = found == RST_STICKS_AGAIN;
+    return RESTITUTE_OK;
+}
+
+/* The pair at one resolution, if max_updates allow it. */
 static int attempt(struct rst_motion *motion, const struct rst_problem *problem, int halvings, struct attempt *a,
                    struct rst_outcome *outcome, restitute_error *error)
 {
-    int64_t found;
-    *a = (struct attempt){.run = rst_motion_run(motion, halvings), .halvings = halvings};
+    const int64_t cost = rst_points * (1 + motion->n_arms), most = (problem->max_updates - outcome->updates) / cost;
+    *a = (struct attempt){.run = rst_motion_run(motion, halvings, most), .halvings = halvings};
     if (!a->run) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for panels");
-    if (a->run->found == RST_DOES_NOT_CONVERGE) return too_hard(error);
+    if (a->run->found == RST_LACKS_ROOM || a->run->normal.n_panels > most) return too_much_work(problem, error);
+    outcome->updates += a->run->normal.n_panels * cost;
+    a->fails = a->run->found == RST_DOES_NOT_CONVERGE;
+    if (a->fails) return RESTITUTE_OK;
     a->velocity = a->run->found == RST_STOPS ? 0 : last_panel(a->run)->velocity[rst_stages];
-    outcome->updates += a->run->normal.n_panels * rst_points * (1 + a->run->normal.n_arms);
-    if (problem->mode == RST_FRICTIONLESS || slips_to_the_end(problem, -a->velocity)) {
-        a->shear_velocity = problem->mode == RST_FRICTIONLESS ? problem->psi : full_slip(problem, a->velocity);
-        return RESTITUTE_OK;
-    }
-    if (rst_motion_contact(motion, a->run, problem, halvings, &a->shear_velocity, &found))
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
-    outcome->updates += motion->store.n_pieces * rst_points * (1 + a->run->normal.n_arms);
-    a->sticks_again = found == RST_STICKS_AGAIN;
+    if (problem->mode != RST_FRICTIONLESS && !slips_to_the_end(problem, -a->velocity))
+        return attempt_contact(motion, problem, a, outcome, error);
+    a->shear_velocity = problem->mode == RST_FRICTIONLESS ? problem->psi : full_slip(problem, a->velocity);
     return RESTITUTE_OK;
 }
 
@@ -84,23 +103,28 @@ static double largest_force(const struct sync_normal *normal)
 }
 
 /* What both attempts say: the finer one, and what they differ by. */
-static void compare(const struct rst_problem *problem, const struct attempt *coarse, const struct attempt *fine,
-                    struct rst_outcome *outcome)
+static void compare(const struct rst_problem *problem, double stop_speed, const struct attempt *coarse,
+                    const struct attempt *fine, struct rst_outcome *outcome)
 {
     const struct sync_normal *n = &fine->run->normal;
     const struct sync_panel *end = last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
-    const double stop_speed = rst_rest_part * problem->tolerance;
+    const double left = stops ? fmax(stop_speed, 2 * end->velocity[rst_stages]) : 0; /* faster it will not be again */
+    const double least = rst_least_estimate * problem->tolerance + rst_rounding;
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;
-    outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) + rst_rounding + stops * stop_speed;
+    outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) + least + left;
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
-                  rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) +
-                  stops * fmax(stop_speed, 2 * problem->chi * rst_slowest / problem->psi);
+                  rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) + least +
+                  4 * problem->chi * left / problem->psi; /* |S| <= F bounds the change of U' */
+    if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
+        outcome->error_ex += fabs(fine->shear_velocity) / problem->psi;
+        outcome->shear_velocity = 0;
+    }
     outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
     outcome->followed_time = end->time[rst_stages];
     outcome->max_indentation = turn->depth[rst_stages];
@@ -130,86 +154,114 @@ static int first_halvings(const struct rst_problem *problem)
     return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
-/* U' by elements, half as many and all of them, until the two agree: of second order, extrapolated. */
+static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
+                     int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)
+{
+    const double n = (double)(parts * (fine->run->normal.n_compression + 1));
+    const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
+    if ((double)outcome->updates + work > (double)problem->max_updates) return too_much_work(problem, error);
+    outcome->updates += (int64_t)work;
+    if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, walk))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
+    return RESTITUTE_OK;
+}
+
+static void note_walk(const struct rst_walk *walk, int64_t parts, double velocity, struct rst_outcome *outcome)
+{
+    outcome->shear_velocity = velocity;
+    outcome->elements = walk->n;
+    outcome->steps = 2 * walk->n;
+    outcome->step = outcome->followed_time / (double)outcome->steps;
+    outcome->spacing = outcome->max_contact_radius / (double)walk->n;
+    outcome->walked = parts;
+}
+
+/* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
+ * agree by chance, so that the change before extrapolation counts, too. */
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_walk coarse, now;
     const double error_ez = outcome->error_ez;
+    double change, least = 1;
     int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
-    if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &coarse))
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
-    for (;; coarse = now) {
-        const double work = 2.0 * (double)coarse.n * (double)coarse.n * (1.0 + (double)problem->solid.n_terms);
-        outcome->updates += (int64_t)work;
+    int status = walk_once(motion, problem, fine, parts, outcome, &coarse, error);
+    while (!status) {
         parts *= 2;
-        if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, &now))
-            return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
-        const double change = now.velocity - coarse.velocity;
-        outcome->shear_velocity = now.velocity + change / 3;
-        outcome->error_ex = (rst_share_of_elements * fabs(change) + rst_rounding * (double)now.n) / problem->psi + error_ez;
-        outcome->elements = now.n;
-        outcome->steps = 2 * now.n;
-        outcome->step = outcome->followed_time / (double)outcome->steps;
-        outcome->spacing = outcome->max_contact_radius / (double)now.n;
-        outcome->walked = parts;
-        if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements ||
-            (double)outcome->updates + 4 * work > (double)problem->max_updates)
-            return RESTITUTE_OK;
+        status = walk_once(motion, problem, fine, parts, outcome, &now, error);
+        if (status) break;
+        const double extrapolated = now.velocity + (now.velocity - coarse.velocity) / 3;
+        change = least * fabs(now.velocity - coarse.velocity);
+        if (least < 1) change = fmax(change, fabs(extrapolated - outcome->shear_velocity));
+        least = rst_share_by_chance;
+        note_walk(&now, parts, extrapolated, outcome);
+        outcome->error_ex =
+            (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + error_ez;
+        if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements) break;
+        coarse = now;
     }
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
 }
 
-static int conclude(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_error *error)
+/* What is said of a result; `spent`: max_updates kept it from being refined. */
+static int conclude(const struct rst_problem *problem, int spent, const struct rst_outcome *outcome,
+                    restitute_error *error)
 {
     if (meets(problem, outcome)) return rst_done(error);
+    if (spent)
+        return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
+                          problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->tolerance,
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
-/* The pair of two attempts on end: a resolution that is too coarse to converge is passed over. */
-static int attempt_twice(struct rst_motion *motion, const struct rst_problem *problem, int *halvings,
-                         struct attempt *coarse, struct attempt *fine, struct rst_outcome *outcome,
-                         restitute_error *error)
+/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again because panels
+ * are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
+ * there is a result. */
+static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
+                  struct rst_outcome *outcome, restitute_error *error)
 {
-    int status = attempt(motion, problem, *halvings, coarse, outcome, error);
-    while (status == RESTITUTE_ERROR_TOO_MUCH_WORK && *halvings < rst_most_halvings - 1)
-        status = attempt(motion, problem, ++*halvings, coarse, outcome, error);
-    if (!status) status = attempt(motion, problem, ++*halvings, fine, outcome, error);
-    return status;
+    struct attempt now, coarse;
+    int known = 0, walks = 0, tried = 0;
+    for (int halvings = first_halvings(problem); halvings <= rst_most_halvings; halvings++) {
+        const int status = attempt(motion, problem, halvings, &now, outcome, error);
+        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;
+        if (status) return status;
+        if (now.fails) continue;
+        coarse = *fine;
+        *fine = now;
+        if (++known < 2) continue;
+        compare(problem, motion->stop_speed, &coarse, fine, outcome);
+        walks = fine->sticks_again || coarse.sticks_again;
+        if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
+        if (!walks && (problem->elements > 0 || meets(problem, outcome))) break;
+    }
+    if (known < 2) return too_hard(error);
+    return walks ? walk_refining(motion, problem, fine, outcome, error) : RESTITUTE_OK;
 }
 
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                           struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_motion *motion = rst_motion_of(workspace);
-    struct attempt coarse, fine;
+    struct attempt fine = {0};
     if (!motion || rst_motion_begin(motion, problem, workspace->keeps_motion))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the motion");
     *outcome = (struct rst_outcome){0};
-    int halvings = first_halvings(problem);
-    int status = attempt_twice(motion, problem, &halvings, &coarse, &fine, outcome, error);
-    while (!status) {
-        compare(problem, &coarse, &fine, outcome);
-        if (fine.sticks_again || coarse.sticks_again) {
-            if (outcome->sunk) return too_hard(error); /* the walk goes over a rebound */
-            status = walk_refining(motion, problem, &fine, outcome, error);
-            break;
-        }
-        if (problem->elements > 0 || halvings == rst_most_halvings || meets(problem, outcome)) break;
-        coarse = fine;
-        status = attempt(motion, problem, ++halvings, &fine, outcome, error);
-    }
-    if (status) return status;
+    int status = refine(motion, problem, &fine, outcome, error);
+    const int spent = status == RESTITUTE_TOLERANCE_NOT_REACHED;
+    if (status < 0) return status;
     outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
-    if (keep_ledger) status = rst_motion_ledger(motion, problem, fine.run, outcome, error);
-    return status ? status : conclude(problem, outcome, error);
+    status = keep_ledger ? rst_motion_ledger(motion, problem, fine.run, outcome, error) : RESTITUTE_OK;
+    return status ? status : conclude(problem, spent, outcome, error);
 }
 
 /* Friction so strong that slip at the edge changes e_x by less than the tolerance, by about 0.4 psi, is no slip; the
  * energies in x are those parts of the whole, psi^2. */
-static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                       struct rst_outcome *outcome, restitute_error *error)
 {
     const double psi = problem->psi;
@@ -228,5 +280,38 @@ static int sync_solve(const struct rst_problem *problem, struct rst_workspace *w
     return status;
 }
 
-const struct restitute_method rst_method_collocation = {
-    .name = "sync", .records_between_steps = 1, .solve = sync_solve, .record = rst_motion_record};
+/* Room for three runs on a standard solid. */
+static int reserve(double tolerance, struct rst_workspace *workspace)
+{
+    const struct rst_problem usual = {.tolerance = tolerance};
+    const int first = first_halvings(&usual);
+    struct rst_motion *motion = rst_motion_of(workspace);
+    return !motion || rst_workspace_terms(workspace, 1) || rst_motion_reserve(motion, first, first + 2, 2);
+}
+
+/* Newton's steps that diverge raise what the caller may trap. They are seen and left, so he is not told. */
+static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    fenv_t callers;
+    feholdexcept(&callers);
+    const int status = solve(problem, workspace, keep_ledger, outcome, error);
+    fesetenv(&callers);
+    return status;
+}
+
+static int sync_record(const struct rst_problem *problem, struct rst_workspace *workspace,
+                       const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+{
+    fenv_t callers;
+    feholdexcept(&callers);
+    const int status = rst_motion_record(problem, workspace, outcome, history, error);
+    fesetenv(&callers);
+    return status;
+}
+
+const struct restitute_method rst_method_sync = {.name = "sync",
+                                                 .reserve = reserve,
+                                                 .records_between_steps = 1,
+                                                 .solve = sync_solve,
+                                                 .record = sync_record};

@@ -8,6 +8,9 @@
 /* Points of a panel beside its start. */
 enum { rst_stages = 6, rst_points = rst_stages + 1 };
 
+/* Values of an element at the edge, and of an arm of it: of_edge and of_arm. */
+enum { rst_values = 4 };
+
 /* Twin of panel_type. */
 struct sync_panel {
     double from, to; /* edge angle */
@@ -41,7 +44,7 @@ struct sync_contact {
 /* Twin of record_type. */
 struct sync_record {
     double from, to, end;
-    double radius[rst_points], time[rst_points], sink[rst_points], shear[rst_points];
+    double edge[rst_points][rst_values];
 };
 
 /* Twin of piece_type. */
@@ -56,7 +59,7 @@ struct sync_store {
     int64_t capacity, n_records, n_pieces;
     struct sync_record *record;
     struct sync_piece *piece;
-    double *mz, *lz, *mx, *lx, *kernel, *decay, *now_z, *now_x, *now_l;
+    double *held, *kernel, *decay, *now_z, *now_x, *now_l;
 };
 
 /* What rst_follow_normal and rst_follow_contact found. */

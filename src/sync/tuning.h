@@ -5,8 +5,11 @@
 #define RST_SYNC_TUNING_H
 
 /* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
- * of the tangential one behind a front and with elements. */
-static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5;
+ * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
+static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.05;
+
+/* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
+static const double rst_least_estimate = 0.003;
 
 /* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
  * give where all is smooth, so that only panels that are not smooth are halved further. */
@@ -20,15 +23,15 @@ static const double rst_piece_part = 3, rst_share_of_pieces = 0.03, rst_noise = 
  * factor of 64 below. */
 static const double rst_coarse_above = 3e-5;
 
-/* Newton's steps end when the next one would change velocities by less. */
-static const double rst_closeness = 1e-12; /* of the normal motion; of pieces: this part of what they may miss */
-static const double rst_piece_closeness = 1e-3;
+/* Newton's steps end when the next one would change velocities by less than that part of what polynomials may miss: of the normal
+ * motion, of pieces. */
+static const double rst_closeness = 1e-5, rst_piece_closeness = 1e-3;
 
 /* Velocities are known to that in a run, by rounding. */
 static const double rst_rounding = 1e-13;
 
 /* Part of the tolerance below which a rebound is none; slower ones are lost in rounding. */
-static const double rst_rest_part = 0.01, rst_slowest = 1e-11;
+static const double rst_rest_part = 0.01, rst_slowest = 1e-10;
 
 /* e_x differs from that without slip by at most this times psi, which is left out where it is a small part of the tolerance. */
 static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
@@ -36,7 +39,10 @@ static const double rst_change_by_slip = 2, rst_negligible_part = 0.05;
 /* Part of the tolerance that an estimate may take; the rest is for merged terms. */
 static const double rst_acceptance = 0.9;
 
+/* Pairs of runs with finer panels that are tried before elements are, where slip seems to stick again. */
+enum { rst_trials_of_front = 3 };
+
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
-enum { rst_first_elements = 32, rst_most_elements = 8192, rst_ledger_elements = 256 };
+enum { rst_first_elements = 32, rst_most_elements = 16384, rst_ledger_elements = 256 };
 
 #endif

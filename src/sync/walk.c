@@ -107,11 +107,12 @@ static void set_level(const struct sync_normal *normal, int64_t p, double angle,
         memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
 }
 
-static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, size_t terms, struct room *r)
+static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, size_t terms,
+                       struct room *r)
 {
     const int64_t n = ladder->n_marks * ladder->parts;
     int64_t p = 0;
-    for (int64_t l = 0; l <= 2 * n; l++) {
+    for (int64_t l = 0; l <= end; l++) {
         const double angle = angle_of(ladder, l <= n ? l : 2 * n - l);
         while (p < normal->n_panels - 1 &&
                (p < normal->n_compression ? angle > normal->panel[p].to || l > n : angle < normal->panel[p].to))
@@ -132,12 +133,13 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
     if (lay_out(motion, normal->n_compression, (normal->n_compression + 1) * parts, terms, &r)) return 1;
     struct ladder ladder = {.parts = parts, .mark = r.mark};
     set_marks(normal, problem, sliding, &ladder);
-    set_levels(normal, &ladder, terms, &r);
-    const int64_t n = ladder.n_marks * parts;
+    const int64_t n = ladder.n_marks * parts, end = normal->n_panels > normal->n_compression ? 2 * n : n;
+    set_levels(normal, &ladder, end, terms, &r);
     const struct walk w = {.n = n,
                            .n_terms = s->n_terms,
                            .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
                            .start = sliding == RST_STICKS_SOMETIME ? ladder.start : 2 * n,
+                           .end = end,
                            .no_slip = problem->mode == RST_NO_SLIP,
                            .chi = sliding == RST_WITHOUT_FRICTION ? 0 : problem->chi,
                            .psi = problem->psi,
@@ -145,7 +147,7 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
                            .eta = s->eta};
     rst_follow_elements(&w, s->g, s->tau, r.level, r.memory, r.shear, r.term, r.body, r.stress, &walk->ledger);
     walk->n = n;
-    walk->velocity = r.shear[2 * n].velocity;
+    walk->velocity = r.shear[end].velocity;
     walk->time = r.time;
     walk->shear = r.shear;
     return 0;

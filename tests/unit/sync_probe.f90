@@ -8,8 +8,8 @@ module sync_probe
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type
-  use rst_front, only: slack_type, find_front
+  use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type, of_arm
+  use rst_front, only: element_type, slack_type, look_at, find_front
   use rst_tangential_motion, only: follow_contact
   implicit none (type, external)
   private
@@ -21,7 +21,8 @@ module sync_probe
   type(normal_type) :: normal
   type(store_type) :: store
   real(dp), target :: g_room(arms), rate_room(arms), entry_room(2*stages*arms)
-  real(dp), target, dimension(points*arms*room) :: memory_room, loading_room, mz_room, lz_room, mx_room, lx_room
+  real(dp), target, dimension(points*arms*room) :: memory_room, loading_room
+  real(dp), target :: held_room(of_arm*points*arms*room)
   real(dp), target :: kernel_room(stages*stages*arms), decay_room(stages*arms)
   real(dp), target, dimension(points*arms) :: now_z_room, now_x_room, now_l_room
   type(panel_type), target :: panel_room(room)
@@ -99,10 +100,7 @@ contains
     store%n_pieces = 0
     store%record => record_room
     store%piece => piece_room
-    store%mz(0:stages, 1:n, 1:room) => mz_room
-    store%lz(0:stages, 1:n, 1:room) => lz_room
-    store%mx(0:stages, 1:n, 1:room) => mx_room
-    store%lx(0:stages, 1:n, 1:room) => lx_room
+    store%held(1:of_arm, 0:stages, 1:n, 1:room) => held_room
     store%kernel(1:stages, 1:stages, 1:n) => kernel_room
     store%decay(1:stages, 1:n) => decay_room
     store%now_z(0:stages, 1:n) => now_z_room
@@ -158,8 +156,9 @@ contains
     real(c_double), value :: eta, shear, loaded, time, slip, side
     real(c_double), intent(out) :: out(4)
     type(slack_type) :: slack
-    real(dp) :: stress, force
-    integer(ip) :: i, j, k
+    type(element_type) :: edge
+    real(dp) :: stress, force, radius
+    integer(ip) :: i, j, k, record
     integer(ip), parameter :: records = 4
     call hold(eta, n, g, rate)
     store%n_records = records
@@ -168,25 +167,21 @@ contains
         r%from = sqrt(loaded)*real(j - 1, dp)/records
         r%to = sqrt(loaded)*real(j, dp)/records
         r%end = r%to
-        r%radius = r%from + (r%to - r%from)*point
-        r%time = r%radius**2
-        r%sink = 2*r%radius
-        r%shear = shear*r%sink
         do i = 0, stages
+          radius = r%from + (r%to - r%from)*point(i)
+          r%edge(:, i) = [radius, radius**2, 2*radius, shear*2*radius]
           do k = 1, n
-            call load(g(k), rate(k), r%time(i), stress, force)
-            store%mz(i, k, j) = stress
-            store%mx(i, k, j) = shear*stress
-            store%lz(i, k, j) = force
-            store%lx(i, k, j) = shear*force
+            call load(g(k), rate(k), radius**2, stress, force)
+            store%held(:, i, k, j) = [stress, force, shear*stress, shear*force]
           end do
         end do
       end associate
     end do
-    store%now_z(1, :) = m(:, 1)
-    store%now_x(1, :) = m(:, 2)
+    record = records
+    call look_at(normal, store, time, side, sqrt(loaded), record, edge)
     slack%angle = 0
-    call find_front(normal, store, 1_ip, time, side, slip, sqrt(loaded), slack)
+    slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
+    call find_front(normal, store, time, side, sqrt(loaded), edge, .true., slack)
     out = [slack%radius, slack%force, slack%centre, slack%edge]
   end subroutine probe_front
 

@@ -46,6 +46,7 @@ static void follow(const struct solid *s, const struct motion *m, const struct w
 static struct walk walk_of(const struct solid *s, int n, double chi, double psi)
 {
     return (struct walk){.n = n,
+                         .end = 2 * n,
                          .n_terms = s->n,
                          .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
                          .chi = chi,

@@ -1,4 +1,4 @@
-/* The method `sync`.
+/* The method `sync` (docs/sync.md).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_H
 #define RST_SYNC_H
