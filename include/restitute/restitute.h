@@ -428,9 +428,8 @@ RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_
 /** The normal motion of one impact, for any number of sliding speeds.
  *
  *  A sphere that meets the same partner with the same normal speed moves in z as it did before, however it slides. With
- *  the method `sync` a plan solves this normal motion once, at each resolution that a call needs, and every further call
- *  has the tangential motion alone to solve. That takes a part of the work of a whole impact which is the smaller the
- *  more Prony terms there are. With other methods each call solves the whole impact.
+ *  the method `sync` a plan solves this normal motion once, at each resolution that a call needs. Every further call has
+ *  the tangential motion alone to solve, which is half of the work. With other methods each call solves the whole impact.
  *
  *  Every call gives the status, the message and the bits that @ref restitute_solve gives this impact; `updates` counts
  *  what was solved before as if it were solved again. One thread at a time, as a solver. */
