@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "column.h"
 
-/* Some hundred levels: an impact that hardly rebounds would take a hundred times the usual work, and says by its
- * estimated error that it was not finished. */
-static const int64_t most_updates = 1000000;
+/* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated
+ * error that it was not finished. */
+static const int64_t most_updates = 10000000;
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
                         restitute_error *error)
