@@ -311,7 +311,7 @@ typedef struct restitute_result {
     double ez, ex;             /**< restitution pair. Its limits: ex = -1 for mu = 0; psi = 0 gives the no-slip value;
                                   the sign is that of (26): ex > 0 if the contact point turns back */
     double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms included */
-    double contact_time;       /**< T or s; infinity with NO_REBOUND */
+    double contact_time;       /**< T or s; infinity with NO_REBOUND, and of `sync` where ez is less than 0.01 tolerance */
     double max_indentation;    /**< d0 or m; with NO_REBOUND where the sphere was given up */
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */

@@ -101,7 +101,8 @@ static double rst_roughness_of(int level)
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
 {
-    return fmin(rst_roughness_of(halvings - 1), rst_piece_part * problem->tolerance);
+    const double roughness = rst_roughness_of(halvings - 1);
+    return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
 }
 
 /* Room for four times the panels that there are if none is halved. */

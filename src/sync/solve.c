@@ -137,9 +137,14 @@ static void compare(const struct rst_problem *problem, double stop_speed, const 
     outcome->halvings = fine->halvings;
 }
 
+static double larger_error(const struct rst_outcome *outcome)
+{
+    return fmax(outcome->error_ez, outcome->error_ex);
+}
+
 static int meets(const struct rst_problem *problem, const struct rst_outcome *outcome)
 {
-    return fmax(outcome->error_ez, outcome->error_ex) <= rst_acceptance * problem->tolerance;
+    return larger_error(outcome) <= rst_acceptance * problem->tolerance;
 }
 
 /* Panels of the first run, and of the last one. */
@@ -218,6 +223,18 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
+/* Where rounding makes finer runs worse, the best pair is the result. Its pieces are made again, for the history. */
+static int return_best(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_outcome *best,
+                       struct attempt *fine, struct rst_outcome *outcome, restitute_error *error)
+{
+    if (!(larger_error(best) < larger_error(outcome))) return RESTITUTE_OK;
+    const int64_t updates = outcome->updates;
+    *outcome = *best;
+    outcome->updates = updates;
+    const int status = attempt(motion, problem, best->halvings, fine, outcome, error);
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
+}
+
 /* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again because panels
  * are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
  * there is a result. */
@@ -225,6 +242,7 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
                   struct rst_outcome *outcome, restitute_error *error)
 {
     struct attempt now, coarse;
+    struct rst_outcome best = {.error_ez = INFINITY};
     int known = 0, walks = 0, tried = 0;
     for (int halvings = first_halvings(problem); halvings <= rst_most_halvings; halvings++) {
         const int status = attempt(motion, problem, halvings, &now, outcome, error);
@@ -237,10 +255,12 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
         compare(problem, motion->stop_speed, &coarse, fine, outcome);
         walks = fine->sticks_again || coarse.sticks_again;
         if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
-        if (!walks && (problem->elements > 0 || meets(problem, outcome))) break;
+        if (!walks && (problem->elements > 0 || meets(problem, outcome))) return RESTITUTE_OK;
+        if (!walks && larger_error(outcome) < larger_error(&best)) best = *outcome;
     }
     if (known < 2) return too_hard(error);
-    return walks ? walk_refining(motion, problem, fine, outcome, error) : RESTITUTE_OK;
+    if (walks) return walk_refining(motion, problem, fine, outcome, error);
+    return return_best(motion, problem, &best, fine, outcome, error);
 }
 
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

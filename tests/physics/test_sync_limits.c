@@ -218,8 +218,8 @@ static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
 }
 
 /* e_z -> (4/(5 theta))^(2/3)/theta; at delta1 = 10 it is 10 % away (the closed ODE of test_kelvin_voigt.c), at ten times the
- * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. From delta1 = 1e5 on a
- * rebound below 1e-8 is lost in rounding, and refused. */
+ * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. A rebound that is a small
+ * part of the tolerance is none, which is no error: there is a spring, so the sphere does not sink for good. */
 static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
 {
     const double tolerances[] = {1e-3, 1e-5, 1e-7};
@@ -238,9 +238,7 @@ static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
             CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
             const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
             restitute_solver_destroy(solver);
-            if (delta1 > 5e4 && status == RESTITUTE_ERROR_TOO_MUCH_WORK && strstr(error.message, "damping")) continue;
-            if (delta1 < 5e4 && status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k]))
-                continue;
+            if (status == RESTITUTE_OK && fabs(r.ez - ez) <= part * ez + allowed(&r, tolerances[k])) continue;
             print_error("delta1 %g at %g: status %d, ez %g, not %g; %s\n", delta1, tolerances[k], status, r.ez, ez,
                         error.message);
             wrong++;

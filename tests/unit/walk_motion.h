@@ -1,4 +1,4 @@
-/* The normal motion of an impact at the levels of a walk over elements (src/core/walk.h), by fine steps of Runge and
+/* The normal motion of an impact at the levels of a walk over elements (src/sync/walk.h), by fine steps of Runge and
  * Kutta's method: independent of the library, and good to 1e-9 if no relaxation time is below 0.05.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_WALK_MOTION_H
