@@ -44,7 +44,7 @@ contains
     type(slack_type), intent(inout) :: slack
     type(element_type) :: element
     real(dp) :: low, high, y, theta, enough
-    integer(ip) :: n, record
+    integer(ip) :: n
     slack%edge = slack%centre - edge%taken
     theta = slack%angle
     slack%angle = 0
@@ -58,12 +58,11 @@ contains
       return
     end if
     enough = min(slack%centre, -slack%edge)*merge(at_front, near_front, precise)
-    record = store%n_records
     low = 0
     high = edge_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
     do n = 1, most_iterations
-      call look_at(normal, store, time, side, theta, record, element)
+      call look_at(normal, store, time, side, theta, element)
       y = slack%centre - element%taken
       if (y > 0) low = theta
       if (y <= 0) high = theta
@@ -100,7 +99,6 @@ contains
     real(dp), intent(in) :: time, theta
     real(dp) :: held, weight(0:stages), edge(of_edge), arm(of_arm)
     integer(ip) :: k, record
-    record = store%n_records
     call find_record(store, theta, record, weight)
     edge = between(weight, store%record(record)%edge)
     held = 0
@@ -114,13 +112,15 @@ contains
   pure subroutine find_record(store, theta, record, weight)
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: theta
-    integer(ip), intent(inout) :: record  !! where to begin the search
+    integer(ip), intent(out) :: record
     real(dp), intent(out) :: weight(0:stages)
-    do while (record > 1 .and. theta < store%record(record)%from)
-      record = record - 1
-    end do
-    do while (record < store%n_records .and. theta > store%record(record)%to)
-      record = record + 1
+    integer(ip) :: last, middle
+    record = 1
+    last = store%n_records
+    do while (record < last)
+      middle = (record + last + 1)/2
+      if (theta < store%record(middle)%from) last = middle - 1
+      if (theta >= store%record(middle)%from) record = middle
     end do
     associate (r => store%record(record))
       weight = weights_at((theta - r%from)/(r%end - r%from))
@@ -129,14 +129,13 @@ contains
 
   !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
   !> dy/dtheta = -r ds/dtheta sum_k g_k E_k.
-  pure subroutine look_at(normal, store, time, side, theta, record, element)
+  pure subroutine look_at(normal, store, time, side, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, theta
-    integer(ip), intent(inout) :: record  !! where to begin the search
     type(element_type), intent(out) :: element
     real(dp) :: weight(0:stages), edge(of_edge), arm(of_arm), fade, answer
-    integer(ip) :: k
+    integer(ip) :: k, record
     call find_record(store, theta, record, weight)
     edge = between(weight, store%record(record)%edge)
     element%taken = 0

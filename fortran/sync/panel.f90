@@ -29,14 +29,15 @@ contains
     real(dp), intent(in) :: theta
     integer(ip), intent(in) :: n_panels
     type(panel_type), intent(in) :: panel(n_panels)
-    integer(ip), intent(inout) :: p  !! where to begin the search
+    integer(ip), intent(out) :: p
     real(dp), intent(out) :: weight(0:stages)
-    p = max(1_ip, min(n_panels, p))
-    do while (p > 1 .and. theta < panel(p)%from)
-      p = p - 1
-    end do
-    do while (p < n_panels .and. theta > panel(p)%to)
-      p = p + 1
+    integer(ip) :: last, middle
+    p = 1
+    last = n_panels
+    do while (p < last)
+      middle = (p + last + 1)/2
+      if (theta < panel(middle)%from) last = middle - 1
+      if (theta >= panel(middle)%from) p = middle
     end do
     weight = weights_at(place_on(panel(p), theta))
   end subroutine find_angle

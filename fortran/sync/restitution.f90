@@ -73,7 +73,6 @@ contains
     real(dp), intent(out) :: entry(stages, solid%n_arms, 2)
     real(dp) :: weight(0:stages)
     integer(ip) :: i, k, p
-    p = mesh%n_compression
     do i = 1, stages
       call find_angle(new%from + point(i)*(new%to - new%from), mesh%n_compression, panel, p, weight)
       m%entered(i) = sum(weight*panel(p)%time)

@@ -151,10 +151,9 @@ contains
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
     type(element_type), intent(out) :: edge(0:stages)
-    integer(ip) :: i, record
-    record = store%n_records
+    integer(ip) :: i
     do i = 0, stages
-      call look_at(normal, store, ground%time(i), side, edge_of(store, ground, i), record, edge(i))
+      call look_at(normal, store, ground%time(i), side, edge_of(store, ground, i), edge(i))
     end do
   end subroutine look_at_edges
 

@@ -160,6 +160,9 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
         if (run->found != RST_LACKS_ROOM || allowed == most) break;
+        if (allowed < rst_most_panels) continue;
+        run->found = RST_DOES_NOT_CONVERGE;
+        break;
     }
     run->stop_speed = motion->stop_speed;
     if (run->found == RST_REBOUNDS) run->stop_speed = same_up_to(run, motion->stop_speed);

@@ -171,6 +171,19 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     return RESTITUTE_OK;
 }
 
+/* A walk is over the ends of all panels at least: the finest run that is not too fine for four walks. */
+static struct attempt ground_of_walk(const struct rst_motion *motion, const struct attempt *fine)
+{
+    struct attempt ground = *fine;
+    while (ground.halvings > 0 && 8 * ground.run->normal.n_compression > rst_most_elements) {
+        const struct rst_run *coarser = &motion->run[ground.halvings - 1];
+        if (coarser->found != ground.run->found) break;
+        ground.run = coarser;
+        ground.halvings--;
+    }
+    return ground;
+}
+
 static void note_walk(const struct rst_walk *walk, int64_t parts, double velocity, struct rst_outcome *outcome)
 {
     outcome->shear_velocity = velocity;
@@ -186,15 +199,17 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
+    const struct attempt ground = ground_of_walk(motion, fine);
     struct rst_walk coarse, now;
     const double error_ez = outcome->error_ez;
     double change, least = 1;
-    int64_t parts = 1 + rst_first_elements / fine->run->normal.n_compression;
-    if (problem->elements > 0) parts = 1 + problem->elements / (2 * fine->run->normal.n_compression);
-    int status = walk_once(motion, problem, fine, parts, outcome, &coarse, error);
+    int64_t parts = 1 + rst_first_elements / ground.run->normal.n_compression;
+    if (problem->elements > 0) parts = 1 + problem->elements / (2 * ground.run->normal.n_compression);
+    outcome->halvings = ground.halvings;
+    int status = walk_once(motion, problem, &ground, parts, outcome, &coarse, error);
     while (!status) {
         parts *= 2;
-        status = walk_once(motion, problem, fine, parts, outcome, &now, error);
+        status = walk_once(motion, problem, &ground, parts, outcome, &now, error);
         if (status) break;
         const double extrapolated = now.velocity + (now.velocity - coarse.velocity) / 3;
         change = least * fabs(now.velocity - coarse.velocity);

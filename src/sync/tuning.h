@@ -42,6 +42,9 @@ static const double rst_acceptance = 0.9;
 /* Pairs of runs with finer panels that are tried before elements are, where slip seems to stick again. */
 enum { rst_trials_of_front = 3 };
 
+/* A motion that takes more panels is lost in rounding. */
+enum { rst_most_panels = 4096 };
+
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
 enum { rst_first_elements = 32, rst_most_elements = 16384, rst_ledger_elements = 256 };
 

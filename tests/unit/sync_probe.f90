@@ -158,7 +158,7 @@ contains
     type(slack_type) :: slack
     type(element_type) :: edge
     real(dp) :: stress, force, radius
-    integer(ip) :: i, j, k, record
+    integer(ip) :: i, j, k
     integer(ip), parameter :: records = 4
     call hold(eta, n, g, rate)
     store%n_records = records
@@ -177,8 +177,7 @@ contains
         end do
       end associate
     end do
-    record = records
-    call look_at(normal, store, time, side, sqrt(loaded), record, edge)
+    call look_at(normal, store, time, side, sqrt(loaded), edge)
     slack%angle = 0
     slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
     call find_front(normal, store, time, side, sqrt(loaded), edge, .true., slack)
