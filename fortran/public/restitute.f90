@@ -5,7 +5,7 @@
 !> - Optional arguments are optional here, where C passes NULL: error, ledger, history, result, ...
 !> - Every function that can fail returns a status, RESTITUTE_OK = 0 or one of the constants; negative: failed.
 !> - restitute_scene() gives a prepared scene, as restitute_scene_init does; likewise every struct that has a size.
-!> - Materials, methods and solvers are small types that hold a C address; assigning one copies the address, not the thing.
+!> - Materials, methods, solvers and plans are small types that hold a C address; assigning one copies the address, not the thing.
 !> - Arrays know their size, texts are Fortran texts: restitute_message(error), restitute_method_name(result).
 !>
 !>     use restitute
@@ -21,7 +21,7 @@ module restitute
                                          c_null_char, c_null_ptr, c_ptr, c_size_t
   implicit none (type, external)
   private
-  public :: restitute_material, restitute_method, restitute_solver, restitute_error
+  public :: restitute_material, restitute_method, restitute_solver, restitute_plan, restitute_error
   public :: restitute_impact, restitute_impact_init
   public :: restitute_scene, restitute_scene_init
   public :: restitute_numbers, restitute_numbers_init
@@ -40,6 +40,7 @@ module restitute
   public :: restitute_solver_create, restitute_solver_destroy, restitute_history_arrays
   public :: restitute_solve, restitute_solve_scene, restitute_collide
   public :: restitute_solve_many, restitute_solve_scenes
+  public :: restitute_plan_create, restitute_plan_create_scene, restitute_plan_solve, restitute_plan_destroy
   public :: restitute_pair, restitute_scene_pair, restitute_critical_psi
 
   !> Kinds of all numbers that go in and out.
@@ -91,6 +92,12 @@ module restitute
   type, bind(c) :: restitute_solver
     type(c_ptr) :: address = c_null_ptr
   end type restitute_solver
+
+  !> One normal motion for many sliding speeds, made by restitute_plan_create or restitute_plan_create_scene, released by
+  !> restitute_plan_destroy.
+  type, bind(c) :: restitute_plan
+    type(c_ptr) :: address = c_null_ptr
+  end type restitute_plan
 
   !> One dimensionless impact: restitute_impact of the C header, prepared by restitute_impact() or restitute_impact_init.
   type, bind(c) :: restitute_impact
@@ -481,6 +488,46 @@ module restitute
       integer(c_int) :: status
     end function c_solve_scenes
 
+    function c_plan_create(options, impact, plan, error) result(status) bind(c, name="restitute_plan_create")
+      import :: c_int, restitute_error, restitute_impact, restitute_options, restitute_plan
+      implicit none (type, external)
+      type(restitute_options), intent(in), optional :: options
+      type(restitute_impact), intent(in) :: impact
+      type(restitute_plan), intent(inout) :: plan
+      type(restitute_error), intent(inout), optional :: error
+      integer(c_int) :: status
+    end function c_plan_create
+
+    function c_plan_create_scene(options, scene, plan, error) result(status) &
+      bind(c, name="restitute_plan_create_scene")
+      import :: c_int, restitute_error, restitute_options, restitute_plan, restitute_scene
+      implicit none (type, external)
+      type(restitute_options), intent(in), optional :: options
+      type(restitute_scene), intent(in) :: scene
+      type(restitute_plan), intent(inout) :: plan
+      type(restitute_error), intent(inout), optional :: error
+      integer(c_int) :: status
+    end function c_plan_create_scene
+
+    function c_plan_solve(plan, sliding, result, ledger, history, error) result(status) &
+      bind(c, name="restitute_plan_solve")
+      import :: c_double, c_int, c_ptr, restitute_error, restitute_history, restitute_ledger, restitute_result
+      implicit none (type, external)
+      type(c_ptr), intent(in), value :: plan
+      real(c_double), intent(in), value :: sliding
+      type(restitute_result), intent(inout), optional :: result
+      type(restitute_ledger), intent(inout), optional :: ledger
+      type(restitute_history), intent(inout), optional :: history
+      type(restitute_error), intent(inout), optional :: error
+      integer(c_int) :: status
+    end function c_plan_solve
+
+    subroutine c_plan_destroy(plan) bind(c, name="restitute_plan_destroy")
+      import :: c_ptr
+      implicit none (type, external)
+      type(c_ptr), intent(in), value :: plan
+    end subroutine c_plan_destroy
+
     function c_collide(solver, contact, first, second, result, error) result(status) bind(c, name="restitute_collide")
       import :: c_int, c_ptr, restitute_body, restitute_contact, restitute_error, restitute_result
       implicit none (type, external)
@@ -811,6 +858,45 @@ contains
       call set_error(error, status, trim(message))
     end subroutine compare
   end function check_lengths
+
+  !> A plan for a dimensionless impact of any psi.
+  function restitute_plan_create(impact, plan, options, error) result(status)
+    type(restitute_impact), intent(in) :: impact
+    type(restitute_plan), intent(inout) :: plan
+    type(restitute_options), intent(in), optional :: options
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = c_plan_create(options, impact, plan, error)
+  end function restitute_plan_create
+
+  !> A plan for a scene, sliding at any speed.
+  function restitute_plan_create_scene(scene, plan, options, error) result(status)
+    type(restitute_scene), intent(in) :: scene
+    type(restitute_plan), intent(inout) :: plan
+    type(restitute_options), intent(in), optional :: options
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = c_plan_create_scene(options, scene, plan, error)
+  end function restitute_plan_create_scene
+
+  !> Sliding: psi, or the speed of the contact point of a scene.
+  function restitute_plan_solve(plan, sliding, result, ledger, history, error) result(status)
+    type(restitute_plan), intent(in) :: plan
+    real(c_double), intent(in) :: sliding
+    type(restitute_result), intent(inout), optional :: result
+    type(restitute_ledger), intent(inout), optional :: ledger
+    type(restitute_history), intent(inout), optional :: history
+    type(restitute_error), intent(inout), optional :: error
+    integer(c_int) :: status
+    status = c_plan_solve(plan%address, sliding, result, ledger, history, error)
+  end function restitute_plan_solve
+
+  !> Release a plan; the variable is empty after it and may be released again.
+  subroutine restitute_plan_destroy(plan)
+    type(restitute_plan), intent(inout) :: plan
+    call c_plan_destroy(plan%address)
+    plan%address = c_null_ptr
+  end subroutine restitute_plan_destroy
 
   function restitute_collide(solver, contact, first, second, result, error) result(status)
     type(restitute_solver), intent(in) :: solver

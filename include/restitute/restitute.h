@@ -28,7 +28,7 @@
  *  - Numbers have the ranges that stand beside them, wider than any system of units needs; what is outside is refused.
  *    Within them nothing overflows: no call raises FE_INVALID, FE_DIVBYZERO or FE_OVERFLOW, which hosts may trap.
  *  - An output pointer that is NULL is not wanted, and is not computed.
- *  - Materials are immutable: any number of threads may share one. A solver belongs to one thread at a time.
+ *  - Materials are immutable: any number of threads may share one. A solver or a plan belongs to one thread at a time.
  *  - SI units (m, kg, s, Pa, N, rad) with @ref restitute_scene; dimensionless with @ref restitute_impact.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
@@ -388,6 +388,9 @@ RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitut
 /** Solve many dimensionless impacts, by several threads. Every case gives the bits that @ref restitute_solve gives it,
  *  whatever the number of threads.
  *
+ *  With the method `sync` cases that follow each other and differ in psi alone share their normal motion, as in a
+ *  @ref restitute_plan.
+ *
  *  A case that fails stops no other; its result stays as it was. For the message of each failed case, give it to
  *  @ref restitute_solve by itself. A long batch that is to show progress or to be stopped goes in pieces: a call costs
  *  no more than one solver a thread.
@@ -419,6 +422,51 @@ RESTITUTE_API int restitute_solve_many(const restitute_options *options, size_t 
 /** Solve many impacts in SI units, of any materials; otherwise like @ref restitute_solve_many ("scene[17]: ..."). */
 RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
                                          restitute_result *results, int *statuses, int threads, restitute_error *error);
+
+/* ------------------------------------------------------------------------------------ one solid, many sliding speeds */
+
+/** The normal motion of one impact, for any number of sliding speeds.
+ *
+ *  A sphere that meets the same partner with the same normal speed moves in z as it did before, however it slides. With
+ *  the method `sync` a plan solves this normal motion once, at each resolution that a call needs. Every further call has
+ *  the tangential motion alone to solve, which is half of the work. With other methods each call solves the whole impact.
+ *
+ *  Every call gives the status, the message and the bits that @ref restitute_solve gives this impact; `updates` counts
+ *  what was solved before as if it were solved again. One thread at a time, as a solver. */
+typedef struct restitute_plan restitute_plan;
+
+/** A plan for a dimensionless impact of any psi.
+ *
+ *  @param options  NULL for the defaults, which have the method euler; copied
+ *  @param impact   its psi is not used; copied, but `solid` is to outlive the plan
+ *  @param plan     the new plan, to be destroyed by @ref restitute_plan_destroy
+ *  @return OK or an error: what @ref restitute_solver_create or @ref restitute_solve refuses is refused here
+ *
+ *      options.method = restitute_method_sync();
+ *      restitute_plan *plan;
+ *      restitute_plan_create(&options, &impact, &plan, &error);
+ *      for (int i = 0; i < n; i++) restitute_plan_solve(plan, psi[i], &result[i], NULL, NULL, &error);
+ *      restitute_plan_destroy(plan); */
+RESTITUTE_API int restitute_plan_create(const restitute_options *options, const restitute_impact *impact,
+                                        restitute_plan **plan, restitute_error *error);
+
+/** A plan for a scene in SI units, sliding at any speed; otherwise like @ref restitute_plan_create.
+ *
+ *  @param scene  its tangential_speed and spins are not used; copied, but `material` is to outlive the plan */
+RESTITUTE_API int restitute_plan_create_scene(const restitute_options *options, const restitute_scene *scene,
+                                              restitute_plan **plan, restitute_error *error);
+
+/** Solve the impact of a plan.
+ *
+ *  @param sliding  of a plan for an impact: psi. Of a plan for a scene: the speed at which the contact point slides before
+ *                  the impact, m/s, tangential_speed + radius1*spin1 + radius2*spin2. Either in its range above
+ *  @param result,ledger,history,error  optional, as in @ref restitute_solve, in the units of the plan
+ *  @return as @ref restitute_solve */
+RESTITUTE_API int restitute_plan_solve(restitute_plan *plan, double sliding, restitute_result *result,
+                                       restitute_ledger *ledger, restitute_history *history, restitute_error *error);
+
+/** Release a plan; NULL is allowed. */
+RESTITUTE_API void restitute_plan_destroy(restitute_plan *plan);
 
 /* ------------------------------------------------------------------------------------------- two bodies in space */
 

@@ -11,7 +11,6 @@ struct bench_method {
     const char *name;
     const restitute_method *(*handle)(void); /* NULL: the paper's algorithm */
     enum paper_motion motion;                /* of the paper's algorithm */
-    int remembers;       /* a solver is faster with a solid that it has just solved: see bench_forget() */
     int takes_time_step; /* else only the number of elements can be prescribed */
     double finest;       /* tolerance at which it can serve as reference in a run; 0: it does not */
     double fine;         /* the same where hundreds of references are needed */
@@ -28,10 +27,6 @@ extern const struct bench_method bench_methods[BENCH_METHODS];
 
 /* The method with the smallest `finest`. */
 const struct bench_method *bench_reference_method(void);
-
-/* Let the solver solve another solid, by restitute_solve_scene(), so that it is found with no knowledge of the one to
- * be timed. */
-void bench_forget(restitute_solver *solver);
 
 /* Index by name, -1 if there is none. */
 int bench_method_index(const char *name, size_t length);

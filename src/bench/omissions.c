@@ -17,6 +17,7 @@ struct variant {
     enum solid solid;
     double psi; /* infinite: no friction */
     int ledger;
+    int planned; /* by a plan, which has the normal motion already */
 };
 
 /* chosen: elements and step are chosen by the method at the default tolerance, else prescribed. */
@@ -27,17 +28,19 @@ struct pair {
 };
 
 static const struct pair pairs[BENCH_OMISSIONS] = {
-    {"dashpot states", {"weak dashpot", WEAK_DASHPOT, 0.7, 0}, {"elastic", ELASTIC, 0.7, 0}, 0},
-    {"tangential states", {"psi = 0.7", STANDARD, 0.7, 0}, {"frictionless: normal only", STANDARD, INFINITY, 0}, 0},
-    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0}, {"psi = 5 > psi_c", STANDARD, 5, 0}, 0},
-    {"tangential elements in gross slip", {"psi = 0.9", STANDARD, 0.9, 0}, {"psi = 1.6", STANDARD, 1.6, 0}, 0},
-    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0}, {"psi = 0: no slip", STANDARD, 0, 0}, 0},
-    {"merged Prony terms", {"30 terms all felt", FELT_TERMS, 0.7, 0}, {"30 terms merged", SPREAD_TERMS, 0.7, 0}, 0},
-    {"energy ledger", {"ledger", STANDARD, 0.7, 1}, {"no ledger", STANDARD, 0.7, 0}, 0},
-    {"default impact", {"Kelvin-Voigt", VOIGT, 0.7, 0}, {"elastic", ELASTIC, 0.7, 0}, 1},
-    {"default impact", {"Maxwell", MAXWELL, 0.7, 0}, {"elastic", ELASTIC, 0.7, 0}, 1},
-    {"default impact", {"standard solid", STANDARD, 0.7, 0}, {"elastic", ELASTIC, 0.7, 0}, 1},
-    {"default impact", {"30 terms merged", SPREAD_TERMS, 0.7, 0}, {"elastic", ELASTIC, 0.7, 0}, 1},
+    {"dashpot states", {"weak dashpot", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
+    {"tangential states", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless: normal only", STANDARD, INFINITY, 0, 0}, 0},
+    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5 > psi_c", STANDARD, 5, 0, 0}, 0},
+    {"tangential elements in gross slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 1.6", STANDARD, 1.6, 0, 0}, 0},
+    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0: no slip", STANDARD, 0, 0, 0}, 0},
+    {"merged Prony terms", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, 0},
+    {"energy ledger", {"ledger", STANDARD, 0.7, 1, 0}, {"no ledger", STANDARD, 0.7, 0, 0}, 0},
+    {"normal motion", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"psi = 0.7 of a plan", STANDARD, 0.7, 0, 1}, 0},
+    {"normal motion", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms of a plan", FELT_TERMS, 0.7, 0, 1}, 0},
+    {"default impact", {"Kelvin-Voigt", VOIGT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
+    {"default impact", {"Maxwell", MAXWELL, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
+    {"default impact", {"standard solid", STANDARD, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
+    {"default impact", {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
 };
 
 /* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most impacts. */
@@ -78,6 +81,7 @@ static int make_solid(enum solid kind, restitute_material **material, restitute_
 struct ready {
     restitute_material *solid;
     restitute_solver *solver;
+    restitute_plan *plan; /* NULL: none */
     restitute_impact impact;
     restitute_scene scene;
     int frictionless, ledger;
@@ -89,6 +93,7 @@ static int solve(struct ready *r, restitute_error *error)
     restitute_ledger ledger;
     restitute_ledger_init(&ledger);
     restitute_ledger *kept = r->ledger ? &ledger : NULL;
+    if (r->plan) return restitute_plan_solve(r->plan, r->impact.psi, &r->result, kept, NULL, error);
     return r->frictionless ? restitute_solve_scene(r->solver, &r->scene, &r->result, kept, NULL, error)
                            : restitute_solve(r->solver, &r->impact, &r->result, kept, NULL, error);
 }
@@ -124,11 +129,13 @@ static int prepare(const struct bench_method *method, const struct variant *vari
     r->impact.solid = r->solid;
     make_scene(r->solid, &r->scene);
     status = restitute_solver_create(&options, &r->solver, error);
+    if (!status && variant->planned) status = restitute_plan_create(&options, &r->impact, &r->plan, error);
     return status ? status : solve(r, error);
 }
 
 static void release(struct ready *r)
 {
+    restitute_plan_destroy(r->plan);
     restitute_solver_destroy(r->solver);
     restitute_material_destroy(r->solid);
 }

@@ -78,13 +78,6 @@ static void solve_by_library(void *context)
     run->status = restitute_solve(run->solver, &run->impact, &run->result, NULL, NULL, NULL);
 }
 
-/* Another solid, so that the solver does not find what it knows of this one. */
-static void forget(void *context)
-{
-    const struct library_run *run = context;
-    bench_forget(run->solver);
-}
-
 /* Nonzero: no memory for a solver. The status of the solution is in `run`. */
 static int run_library(const struct bench_plan *plan, const struct bench_scene *scene, struct bench_run *run)
 {
@@ -96,8 +89,7 @@ static int run_library(const struct bench_plan *plan, const struct bench_scene *
     options.tolerance = run->tolerance;
     options.max_updates = (int64_t)fmax(1, plan->budget * updates_per_second);
     if (restitute_solver_create(&options, &work.solver, NULL)) return 1;
-    const struct bench_time time =
-        bench_time_work(solve_by_library, bench_methods[run->method].remembers ? forget : NULL, &work, long_work);
+    const struct bench_time time = bench_time_work(solve_by_library, &work, long_work);
     if (work.status >= 0) bench_read_work(work.solver, run);
     restitute_solver_destroy(work.solver);
     run->seconds = time.seconds;
@@ -132,7 +124,7 @@ static int run_paper(const struct bench_scene *scene, struct bench_run *run)
     const enum paper_motion motion = bench_methods[run->method].motion;
     struct paper_run work = {.problem = bench_scene_paper(scene),
                              .settings = bench_paper_settings(scene, motion, run->elements_asked, run->steps_asked)};
-    const struct bench_time time = bench_time_work(solve_by_paper, NULL, &work, long_work);
+    const struct bench_time time = bench_time_work(solve_by_paper, &work, long_work);
     if (work.end == PAPER_NO_MEMORY) return 1;
     run->seconds = time.seconds;
     run->repeats = time.repeats;

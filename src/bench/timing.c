@@ -28,9 +28,8 @@ double bench_processor_time(void)
     return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
-static double time_once(void (*work)(void *context), void (*between)(void *context), void *context)
+static double time_once(void (*work)(void *context), void *context)
 {
-    if (between) between(context);
     const double start = bench_processor_time();
     work(context);
     return bench_processor_time() - start;
@@ -49,15 +48,14 @@ double bench_median(double *values, size_t n)
     return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-struct bench_time bench_time_work(void (*work)(void *context), void (*between)(void *context), void *context,
-                                  double long_work)
+struct bench_time bench_time_work(void (*work)(void *context), void *context, double long_work)
 {
     double samples[most_repeats], sum = 0;
     int n = 0;
-    const double first = time_once(work, between, context);
+    const double first = time_once(work, context);
     if (first > long_work) return (struct bench_time){first, 1};
     while (n < least_repeats || (n < most_repeats && sum < full)) {
-        samples[n] = time_once(work, between, context);
+        samples[n] = time_once(work, context);
         sum += samples[n++];
     }
     return (struct bench_time){bench_median(samples, (size_t)n), n};

@@ -18,10 +18,8 @@ struct bench_time {
 };
 
 /* Processor time of `work`: once to warm up, then at least five times and until a millisecond is full. Work that takes
- * longer than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it.
- * `between`, if not NULL, is called before each and not timed. */
-struct bench_time bench_time_work(void (*work)(void *context), void (*between)(void *context), void *context,
-                                  double long_work);
+ * longer than `long_work` (s) is not repeated; what the first run needs beyond the later ones is nothing to it. */
+struct bench_time bench_time_work(void (*work)(void *context), void *context, double long_work);
 
 /* Median of n >= 1 values, which are sorted; NaN for none. */
 double bench_median(double *values, size_t n);

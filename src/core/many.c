@@ -9,6 +9,7 @@
 #include <omp.h>
 #endif
 
+#include "solver.h"
 #include "status.h"
 
 /* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
@@ -104,6 +105,7 @@ static int create_workers(const struct batch *batch, int threads, struct worker 
     for (int i = 0; i < threads; i++) {
         const int status = restitute_solver_create(batch->options, &workers[i].solver, error);
         if (status) return status;
+        rst_solver_keep_motion(workers[i].solver); /* for impacts on end that are on one solid */
     }
     return RESTITUTE_OK;
 }

@@ -8,6 +8,7 @@
 #include "material.h"
 #include "method.h"
 #include "output.h"
+#include "solver.h"
 #include "status.h"
 #include "sync.h"
 #include "validity.h"
@@ -166,6 +167,18 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
                               : rst_problem_from_impact(input->impact, problem, error);
     if (!status) problem->time_step = o->time_step / problem->time_unit;
     return status;
+}
+
+int rst_solver_check(restitute_solver *solver, const restitute_impact *impact, const restitute_scene *scene,
+                     restitute_error *error)
+{
+    struct rst_problem problem;
+    return make_problem(solver, &(struct input){.impact = impact, .scene = scene}, &problem, error);
+}
+
+void rst_solver_keep_motion(restitute_solver *solver)
+{
+    solver->workspace.keeps_motion = 1;
 }
 
 /* Solve with merged terms; a contact that outlasts the window for slow terms is solved again with them. */

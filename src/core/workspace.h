@@ -19,6 +19,7 @@ struct rst_workspace {
     double *elements; /* what the method lays out in it */
     size_t elements_size;
     struct rst_own_memory *own; /* of the solver's method; NULL: none */
+    int keeps_motion;           /* whether a normal motion stays for later impacts on the same solid */
 };
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */

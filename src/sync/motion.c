@@ -79,15 +79,14 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     const size_t bytes = (size_t)n * sizeof(double);
     const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi));
     const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
-    const int same = keep && n == motion->n_arms && motion->eta == s->eta && motion->stop_speed == stop_speed &&
-                     memcmp(held, asked, bytes) == 0 &&
+    const int same = keep && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
+    motion->stop_speed = stop_speed;
     if (same) return 0;
     memcpy(held, asked, bytes);
     memcpy(held + motion->most_arms, asked + motion->most_arms, bytes);
     motion->n_arms = n;
     motion->eta = s->eta;
-    motion->stop_speed = stop_speed;
     motion->radius = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
     for (int i = 0; i <= rst_most_halvings; i++)
         motion->run[i].found = RST_NOT_SOLVED;
@@ -131,24 +130,43 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     return 0;
 }
 
+/* A sphere that comes back would come back with any lower stop speed, and with a higher one as long as it is faster than
+ * that in its rebound and up to its last panel before the turning point (docs/sync.md, section 9). */
+static double same_up_to(const struct rst_run *run, double stop_speed)
+{
+    const struct sync_normal *n = &run->normal;
+    const double last = n->panel[n->n_compression - 1].velocity[0], rebound = -n->panel[n->n_panels - 1].velocity[rst_stages];
+    return fmax(stop_speed, fmin(last, rebound));
+}
+
+static int is_solved(const struct rst_run *run, double stop_speed)
+{
+    if (run->found == RST_NOT_SOLVED || run->found == RST_LACKS_ROOM) return 0;
+    return run->found == RST_REBOUNDS ? stop_speed <= run->stop_speed : stop_speed == run->stop_speed;
+}
+
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most)
 {
     struct rst_run *run = &motion->run[halvings];
-    if (run->found != RST_NOT_SOLVED && run->found != RST_LACKS_ROOM) return run;
+    if (is_solved(run, motion->stop_speed)) return run;
     for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
         const int64_t allowed = capacity < most ? capacity : most;
         const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
                                                     .capacity = allowed};
+        run->found = RST_NOT_SOLVED;
         if (lay_out(motion, run, capacity, control.roughness)) return NULL;
         rst_follow_normal(&control, &run->normal,
                           run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
-        if (run->found != RST_LACKS_ROOM || allowed == most) return run;
+        if (run->found != RST_LACKS_ROOM || allowed == most) break;
         if (allowed < rst_most_panels) continue;
         run->found = RST_DOES_NOT_CONVERGE;
-        return run;
+        break;
     }
+    run->stop_speed = motion->stop_speed;
+    if (run->found == RST_REBOUNDS) run->stop_speed = same_up_to(run, motion->stop_speed);
+    return run;
 }
 
 /* Pieces of a motion of few panels: events take some each. */

@@ -18,6 +18,7 @@ enum { RST_NOT_SOLVED = -1 }; /* else as rst_follow_normal found */
 struct rst_run {
     struct sync_normal normal;
     int64_t found, capacity;
+    double stop_speed; /* up to which all of this is the same */
     double *room;
     size_t room_size;
 };
@@ -36,7 +37,7 @@ struct rst_motion {
 /* The motion that a workspace keeps; NULL: out of memory. */
 struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
 
-/* Take the solid of the problem. keep: what was solved stays if it was for the same solid. Nonzero: out of memory. */
+/* Take the solid of the problem. keep: runs stay if they were for the same solid, bit by bit. Nonzero: out of memory. */
 int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep);
 
 /* Room for runs with `from` to `to` halvings on solids of up to that many arms. Nonzero: out of memory. */

@@ -288,7 +288,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
 {
     struct rst_motion *motion = rst_motion_of(workspace);
     struct attempt fine = {0};
-    if (!motion || rst_motion_begin(motion, problem, 0))
+    if (!motion || rst_motion_begin(motion, problem, workspace->keeps_motion))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the motion");
     *outcome = (struct rst_outcome){0};
     int status = refine(motion, problem, &fine, outcome, error);

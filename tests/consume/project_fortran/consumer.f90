@@ -10,6 +10,7 @@ program consumer
   good = materials_are_right() .and. good
   good = batches_are_right() .and. good
   good = other_method_is_right() .and. good
+  good = plans_are_right() .and. good
   if (.not. good) error stop 1
 
 contains
@@ -158,4 +159,52 @@ contains
     good = good .and. status == RESTITUTE_ERROR_DOMAIN .and. index(restitute_message(error), "statuses: ") == 1
     call restitute_material_destroy(rubber)
   end function batches_are_right
+
+  !> A plan gives the bits of single calls, of an impact and of a scene.
+  function plans_are_right() result(good)
+    logical :: good
+    type(restitute_material) :: rubber
+    type(restitute_options) :: options
+    type(restitute_solver) :: solver
+    type(restitute_plan) :: plan
+    type(restitute_impact) :: impact
+    type(restitute_scene) :: scene
+    type(restitute_result) :: result, single
+    type(restitute_error) :: error
+    integer :: k
+    options = restitute_options()
+    options%method = restitute_method_sync()
+    impact = restitute_impact()
+    result = restitute_result()
+    single = restitute_result()
+    good = restitute_solver_create(solver, options) == RESTITUTE_OK
+    good = good .and. restitute_plan_create(impact, plan, options) == RESTITUTE_OK
+    do k = 0, 4
+      impact%psi = 0.7_rk*k
+      good = good .and. restitute_solve(solver, impact, single) == RESTITUTE_OK
+      good = good .and. restitute_plan_solve(plan, impact%psi, result) == RESTITUTE_OK
+      good = good .and. .not. abs(result%ex - single%ex) > 0
+    end do
+    good = good .and. restitute_plan_solve(plan, -1.0_rk, result, error=error) == RESTITUTE_ERROR_DOMAIN
+    good = good .and. index(restitute_message(error), "psi = -1") == 1
+    call restitute_plan_destroy(plan)
+
+    good = good .and. restitute_material_kelvin_voigt(1e6_rk, 50.0_rk, 0.5_rk, rubber) == RESTITUTE_OK
+    scene = restitute_scene()
+    scene%material = rubber
+    scene%radius1 = 0.01_rk
+    scene%mass1 = 4e-3_rk
+    scene%friction = 0.3_rk
+    good = good .and. restitute_plan_create_scene(scene, plan, options) == RESTITUTE_ERROR_DOMAIN
+    scene%normal_speed = 1
+    good = good .and. restitute_plan_create_scene(scene, plan, options) == RESTITUTE_OK
+    good = good .and. restitute_plan_solve(plan, 0.5_rk, result) == RESTITUTE_OK
+    scene%tangential_speed = 0.5_rk
+    good = good .and. restitute_solve_scene(solver, scene, single) == RESTITUTE_OK
+    good = good .and. .not. abs(result%ex - single%ex) > 0
+    call restitute_plan_destroy(plan)
+    call restitute_plan_destroy(plan)
+    call restitute_solver_destroy(solver)
+    call restitute_material_destroy(rubber)
+  end function plans_are_right
 end program consumer
