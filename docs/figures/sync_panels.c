@@ -2,7 +2,7 @@
  *
  *     sync_panels curves   s, A, c a line; empty lines between pieces
  *     sync_panels points   s, A of the points of the panels and, third, 1 at an end of a panel
- *     sync_panels levels   s, A where a panel of the compression ends, and where the edge is back there; empty lines between
+ *     sync_panels angles   s, A where a panel of the compression ends, and where the edge is back there; empty lines between
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
@@ -53,7 +53,7 @@ static void print_points(const struct sync_normal *normal)
             printf("%.6g %.6g %d\n", panel[p].time[i], panel[p].radius[i], i == rst_stages);
 }
 
-static void print_levels(const struct sync_normal *normal)
+static void print_angles(const struct sync_normal *normal)
 {
     for (int64_t p = 0; p < normal->n_compression; p++)
         for (int64_t q = normal->n_compression; q < normal->n_panels; q++)
@@ -101,8 +101,8 @@ int main(int argc, char **argv)
         print_curves(&store);
     else if (argc == 2 && strcmp(argv[1], "points") == 0)
         print_points(&normal);
-    else if (argc == 2 && strcmp(argv[1], "levels") == 0)
-        print_levels(&normal);
+    else if (argc == 2 && strcmp(argv[1], "angles") == 0)
+        print_angles(&normal);
     else
         return 2;
     return 0;
