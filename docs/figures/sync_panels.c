@@ -2,7 +2,7 @@
  *
  *     sync_panels curves   s, A, c a line; empty lines between pieces
  *     sync_panels points   s, A of the points of the panels and, third, 1 at an end of a panel
- *     sync_panels levels   s, A where a panel of the compression ends, and where the edge is back there; empty lines between
+ *     sync_panels angles   s, A where a panel of the compression ends, and where the edge is back there; empty lines between
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
@@ -19,8 +19,8 @@ static const double chi = 7.0 / 6, psi = 0.6, delta1 = 0.8, gamma_ = 1.5;
 static struct sync_panel panel[room];
 static struct sync_record record[room];
 static struct sync_piece piece[room];
-static double memory[rst_points * arms * room], loading[rst_points * arms * room], mz[rst_points * arms * room],
-    lz[rst_points * arms * room], mx[rst_points * arms * room], lx[rst_points * arms * room];
+static double memory[rst_points * arms * room], loading[rst_points * arms * room],
+    held[rst_values * rst_points * arms * room];
 static double entry[2 * rst_stages * arms], kernel[rst_stages * rst_stages * arms], decay[rst_stages * arms],
     now_z[rst_points * arms], now_x[rst_points * arms], now_l[rst_points * arms];
 
@@ -53,7 +53,7 @@ static void print_points(const struct sync_normal *normal)
             printf("%.6g %.6g %d\n", panel[p].time[i], panel[p].radius[i], i == rst_stages);
 }
 
-static void print_levels(const struct sync_normal *normal)
+static void print_angles(const struct sync_normal *normal)
 {
     for (int64_t p = 0; p < normal->n_compression; p++)
         for (int64_t q = normal->n_compression; q < normal->n_panels; q++)
@@ -84,10 +84,7 @@ int main(int argc, char **argv)
     struct sync_store store = {.capacity = room,
                                .record = record,
                                .piece = piece,
-                               .mz = mz,
-                               .lz = lz,
-                               .mx = mx,
-                               .lx = lx,
+                               .held = held,
                                .kernel = kernel,
                                .decay = decay,
                                .now_z = now_z,
@@ -101,8 +98,8 @@ int main(int argc, char **argv)
         print_curves(&store);
     else if (argc == 2 && strcmp(argv[1], "points") == 0)
         print_points(&normal);
-    else if (argc == 2 && strcmp(argv[1], "levels") == 0)
-        print_levels(&normal);
+    else if (argc == 2 && strcmp(argv[1], "angles") == 0)
+        print_angles(&normal);
     else
         return 2;
     return 0;

@@ -14,7 +14,7 @@ set label 4 "stick ends" at 2.2,0.04 right textcolor rgb "#c4451c"
 set label 5 "slip begins" at 1.02,0.955 right textcolor rgb "#c4451c"
 set label 3 "no contact" at 0.1,0.75 left textcolor rgb "#888888"
 plot curves."/sync_curves.dat" using 1:3:2 with filledcurves lc rgb "#f6dfd6" notitle, \
-     curves."/sync_levels.dat" using 1:2 with lines lc rgb "#999999" lw 1 dt 2 title "same edge angle", \
+     curves."/sync_angles.dat" using 1:2 with lines lc rgb "#999999" lw 1 dt 2 title "same edge angle", \
      curves."/sync_curves.dat" using 1:2 with lines lc rgb "#333333" lw 2 title "edge A(s)", \
      curves."/sync_curves.dat" using 1:3 with lines lc rgb "#c4451c" lw 2.5 title "stick radius c(s)", \
      curves."/sync_points.dat" using 1:2 with points pt 7 ps 0.5 lc rgb "#1f6f8b" title "points of collocation", \

@@ -251,8 +251,9 @@ typedef struct restitute_method restitute_method;
 /** `euler`, the default: the paper's foundation and explicit Euler, first order. */
 RESTITUTE_API const restitute_method *restitute_method_euler(void);
 
-/** `sync`: the normal motion without elements and elements that enter and leave exactly at a time step (order 3 to 3.5): the fast and
- *  precise one, for tables, batches and tolerances below 1e-3. It chooses its steps itself: `time_step` must be 0. */
+/** `sync`: collocation over the angle of the contact's edge, with slip as a second contact (docs/sync.md). Elements are
+ *  stepped only where what slips sticks again, and for a ledger. The fast and precise one, for tables, batches and
+ *  tolerances below 1e-3. It chooses its steps itself: `time_step` must be 0. */
 RESTITUTE_API const restitute_method *restitute_method_sync(void);
 
 /** Name of a method, e.g. "euler"; "" for NULL. */
@@ -263,13 +264,15 @@ typedef struct restitute_options {
     size_t struct_size;             /**< set by @ref restitute_options_init */
     const restitute_method *method; /**< default @ref restitute_method_euler */
     double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default 1e-3 */
-    int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0 (default): chosen. `sync` takes
-                                       up to 32768, rounded up to a multiple of 4, and not less than 8; `cvode` up to 16384 */
+    int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0 (default): chosen. For `sync`
+                                       points of collocation, lowered to 6 times a power of two, from 24 to 1536, and
+                                       more where panels are halved; `cvode` takes up to 16384 */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene), in [1e-100, 1e100];
                                        0 (default): chosen. A step that cannot be stable is refused with the largest that is */
     int64_t max_updates;            /**< most element updates (elements x steps x (1 + terms)) that a call may spend,
-                                       > 0; default 1e10, some ten seconds. A call that reaches it before the
-                                       tolerance returns its best with TOLERANCE_NOT_REACHED */
+                                       > 0; default 1e10, some ten seconds. Without elements `sync` counts points
+                                       x (1 + terms). A call that reaches it before the tolerance returns its best
+                                       with TOLERANCE_NOT_REACHED */
     double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >= 0, default 0.3 */
@@ -317,7 +320,8 @@ typedef struct restitute_result {
     double max_normal_force;   /**< m v_z0^2/d0 or N */
     double merging_bound;      /**< bound on the change of ez and ex by merged relaxation times, docs/theory.md */
     int64_t terms_merged;      /**< relaxation times that the scene cannot feel and that were merged */
-    int64_t elements, steps;   /**< of the run that gave the pair: elements over the largest radius, time steps */
+    int64_t elements, steps;   /**< of the run that gave the pair: elements over the largest radius, time steps; of
+                                  `sync` without elements its points of collocation, there and in the whole contact */
     double element_spacing;    /**< dx: a_el or m */
     double time_step;          /**< T or s */
     int64_t updates;           /**< element updates spent, all runs together */

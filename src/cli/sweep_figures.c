@@ -159,8 +159,8 @@ static void draw_sample(const struct sweep *sweep, size_t curve, size_t point, u
         return;
     }
     sample->numbers = sweep_numbers_at(f, curve, x, psi);
-    /* None close to the limit of rebound, 0.312: up to about 0.32 the library reports none, since e_z is so small, and
-     * up to 0.36 sync is off in e_x by more than its tolerance. */
+    /* None close to the limit of rebound, 0.312: up to about 0.32 the library may report none, since e_z is so small, and
+     * further up contacts last for very long. */
     if (sample->numbers.relaxation > 0.3 && sample->numbers.relaxation < 0.4) sample->numbers.relaxation *= 4.0 / 3;
     sweep_draw(state, &sample->numbers, &sample->values);
 }
