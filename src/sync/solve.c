@@ -250,8 +250,8 @@ static int return_best(struct rst_motion *motion, const struct rst_problem *prob
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
 }
 
-/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again because panels
- * are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
+/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again
+ * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
  * there is a result. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
@@ -315,8 +315,8 @@ static int leave_out_slip(const struct rst_problem *problem, struct rst_workspac
     return status;
 }
 
-/* Friction may be so strong that slip at the edge, which changes e_x by about 0.4 psi, counts less than the tolerance, or than the error
- * of following it. */
+/* Friction may be so strong that slip at the edge, which changes e_x by about 0.4 psi, counts less than the tolerance,
+ * or than the error of following it. */
 static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                  struct rst_outcome *outcome, restitute_error *error)
 {

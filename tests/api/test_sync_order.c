@@ -1,4 +1,4 @@
-/* A solver keeps the normal problem of the solid that it solved last, and levels made from it. Results do not show it:
+/* A solver keeps the room, and what is in it, of the impact that it solved last. Results do not show it:
  * they have the bits of new solvers in whatever order the impacts come, and so have refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
@@ -74,7 +74,7 @@ static void check_orders(const restitute_options *options, const restitute_impac
                   "tolerance %g, order %d, impact %d: status %d, not %d; ez %.17g, not %.17g; ex %.17g, not %.17g",
                   options->tolerance, order, k, now.status, alone[k].status, now.result.ez, alone[k].result.ez,
                   now.result.ex, alone[k].result.ex);
-            if (i % 15 == 7) restitute_solve(solver, &impacts[k], NULL, &ledger, NULL, NULL); /* overwrites levels */
+            if (i % 15 == 7) restitute_solve(solver, &impacts[k], NULL, &ledger, NULL, NULL); /* other room */
         }
     restitute_solver_destroy(solver);
 }
@@ -95,7 +95,7 @@ static void no_order_is_seen_in_the_results(void **state)
     restitute_material_destroy(prony);
 }
 
-/* With so few updates some are refused, and some end short of the tolerance: with levels told too. */
+/* With so few updates some are refused, and some end short of the tolerance: with elements given too. */
 static void neither_is_it_in_refusals(void **state)
 {
     (void)state;
@@ -104,10 +104,10 @@ static void neither_is_it_in_refusals(void **state)
     restitute_material *prony = solid_of(0.5, 0.1, 3, times, moduli);
     make_impacts(prony, impacts);
     int refused[2] = {0};
-    for (int64_t levels = 0; levels <= 64; levels += 64) {
-        restitute_options options = sync_to(1e-4);
-        options.elements = levels;
-        options.max_updates = 1500;
+    for (int64_t elements = 0; elements <= 24; elements += 24) {
+        restitute_options options = sync_to(1e-6);
+        options.elements = elements;
+        options.max_updates = 700;
         check_orders(&options, impacts, refused);
     }
     CHECK(refused[0] > 20 && refused[1] > 20 && refused[0] + refused[1] < 2 * ALL,

@@ -13,7 +13,8 @@ struct count {
     int missed, far, low, far_too_low;
 };
 
-/* One impact, against the same at 1e-8, whose estimate is taken as its error. That is 2 psi where slip had to be left out. */
+/* One impact, against the same at 1e-8, whose estimate is taken as its error. That is 2 psi
+ * where slip had to be left out. */
 static void judge(restitute_impact impact, double tolerance, struct count *count)
 {
     const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
