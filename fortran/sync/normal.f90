@@ -3,6 +3,7 @@
 !> Panels are equal parts of the edge angle, halved while their polynomials miss too much or Newton's steps do not converge, and twice as
 !> wide again where halves are not needed. Their ends are at multiples of (pi/2)/2^deepest.
 module rst_normal_motion
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, last_coefficient
   use rst_arms, only: solid_type
@@ -28,6 +29,10 @@ module rst_normal_motion
     real(dp) :: stop_speed  !! a sphere that cannot come back faster has stopped
     integer(ip) :: halvings !! panels are at most (pi/2)/2^halvings wide
     integer(ip) :: capacity !! panels there is room for
+    !> The next coarser run, if there is one: its panels in each phase are twice as wide at least, so that no two runs agree because
+    !> their panels are the same.
+    integer(ip) :: n_coarse, n_coarse_compression
+    type(c_ptr) :: coarse
   end type normal_control_type
 
 contains
@@ -42,6 +47,9 @@ contains
     real(dp), intent(inout), dimension(0:stages, solid%n_arms, control%capacity) :: memory, loading  !! M_k and P_k
     real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room
     integer(ip), intent(out) :: found
+    type(panel_type), pointer, contiguous :: coarse(:)
+    nullify (coarse)
+    if (control%n_coarse > 0) call c_f_pointer(control%coarse, coarse, [control%n_coarse])
     mesh%n_panels = 0
     call go_through(.false., found)
     if (found /= rebounds) return
@@ -52,9 +60,10 @@ contains
     subroutine go_through(back, found)
       logical, intent(in) :: back
       integer(ip), intent(out) :: found
-      integer(ip) :: place, width, widest, n
+      integer(ip) :: place, width, widest, n, beside
       logical :: fails
       place = 0
+      beside = merge(control%n_coarse_compression, 0_ip, back) + 1
       widest = whole/2_ip**control%halvings
       width = widest
       do while (place < whole)
@@ -62,6 +71,12 @@ contains
         found = lacks_room
         if (n > control%capacity) return
         if (back) width = min(width, width_at(whole - place, mesh%n_compression, panel))
+        do while (beside <= control%n_coarse)
+          if (passed(coarse(beside)%to, back) > place) exit
+          beside = beside + 1
+        end do
+        if (beside <= control%n_coarse) &
+          width = min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2)
         call begin(panel(max(1_ip, n - 1)), n, panel(n))
         memory(0, :, n) = 0
         loading(0, :, n) = 0
@@ -114,6 +129,15 @@ contains
       mesh%n_panels = last
     end subroutine give_up
   end subroutine follow_normal
+
+  !> How far a phase has come at an angle.
+  pure function passed(angle, back) result(place)
+    real(dp), intent(in) :: angle
+    logical, intent(in) :: back
+    integer(ip) :: place
+    place = nint(angle/unit, ip)
+    if (back) place = whole - place
+  end function passed
 
   !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is not smooth.
   pure function width_at(place, n, panel) result(width)

@@ -145,16 +145,28 @@ static int is_solved(const struct rst_run *run, double stop_speed)
     return run->found == RST_REBOUNDS ? stop_speed <= run->stop_speed : stop_speed == run->stop_speed;
 }
 
+/* The run that this one will be compared with. */
+static const struct sync_normal *coarser_than(const struct rst_motion *motion, int halvings)
+{
+    if (halvings == 0) return NULL;
+    const struct rst_run *run = &motion->run[halvings - 1];
+    return run->found == RST_REBOUNDS || run->found == RST_STOPS ? &run->normal : NULL;
+}
+
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most)
 {
     struct rst_run *run = &motion->run[halvings];
     if (is_solved(run, motion->stop_speed)) return run;
+    const struct sync_normal *coarser = coarser_than(motion, halvings);
     for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
         const int64_t allowed = capacity < most ? capacity : most;
         const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
-                                                    .capacity = allowed};
+                                                    .capacity = allowed,
+                                                    .n_coarse = coarser ? coarser->n_panels : 0,
+                                                    .n_coarse_compression = coarser ? coarser->n_compression : 0,
+                                                    .coarse = coarser ? coarser->panel : NULL};
         run->found = RST_NOT_SOLVED;
         if (lay_out(motion, run, capacity, control.roughness)) return NULL;
         rst_follow_normal(&control, &run->normal,

@@ -111,7 +111,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
     const double left = stops ? 2 * n->left : 0; /* its velocity changes by no more */
-    const double least = rst_least_estimate * problem->tolerance + rst_rounding;
+    const double least = rst_rounding + (problem->elements > 0 ? 0 : rst_least_estimate * problem->tolerance);
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;
     outcome->error_ez = rst_share_of_change * fabs(fine->velocity - coarse->velocity) + least + left;

@@ -21,7 +21,8 @@ struct sync_panel {
 /* Twin of normal_control_type. */
 struct sync_normal_control {
     double roughness, stop_speed;
-    int64_t halvings, capacity;
+    int64_t halvings, capacity, n_coarse, n_coarse_compression;
+    const struct sync_panel *coarse;
 };
 
 /* Twin of normal_arrays_type. */

@@ -17,7 +17,7 @@ static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
 
 /* The same for the pieces of U', as a part of the tolerance; what an estimate gets of it, since two runs may agree by chance; and
  * the part of the roughness below which slack is none. */
-static const double rst_piece_part = 3, rst_share_of_pieces = 0.03, rst_noise = 0.01;
+static const double rst_piece_part = 0.3, rst_share_of_pieces = 0.3, rst_noise = 0.01;
 
 /* Panels of the first run are at most (pi/2)/2^halvings wide: halvings = 1 for tolerances from that on, one more for each
  * factor of 64 below. */

@@ -2,7 +2,7 @@
 !> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
 !> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
 module sync_probe
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, slope_of, root_between
   use rst_arms, only: solid_type, respond
@@ -71,11 +71,13 @@ contains
     real(c_double), intent(in) :: g(n), rate(n)
     integer(c_int64_t), intent(out) :: counts(2)
     integer(c_int64_t) :: found
+    type(normal_control_type) :: control
     call hold(eta, n, g, rate)
     mesh%radius = sqrt(0.4_dp*depth)
     mesh%closeness = 1.0e-12_dp
-    call follow_normal(solid, g_room(:n), rate_room(:n), normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, &
-                       halvings=halvings, capacity=room), mesh, panel_room, memory_room, loading_room, entry_room, found)
+    control = normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, halvings=halvings, capacity=room, &
+                                  n_coarse=0_ip, n_coarse_compression=0_ip, coarse=c_null_ptr)
+    call follow_normal(solid, g_room(:n), rate_room(:n), control, mesh, panel_room, memory_room, loading_room, entry_room, found)
     normal%n_compression = mesh%n_compression
     normal%n_panels = mesh%n_panels
     counts = [mesh%n_compression, mesh%n_panels]
