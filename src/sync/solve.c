@@ -201,9 +201,11 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
 {
     const struct attempt ground = ground_of_walk(motion, fine);
     struct rst_walk coarse, now;
-    const double error_ez = outcome->error_ez;
+    const double rest = outcome->error_ez +
+                        (outcome->sunk ? 4 * problem->chi * ground.run->normal.left / problem->psi : 0); /* see compare */
     double change, least = 1;
-    int64_t parts = 1 + rst_first_elements / ground.run->normal.n_compression;
+    const double first = rst_first_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
+    int64_t parts = 1 + (int64_t)first / ground.run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * ground.run->normal.n_compression);
     outcome->halvings = ground.halvings;
     int status = walk_once(motion, problem, &ground, parts, outcome, &coarse, error);
@@ -212,13 +214,14 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
         status = walk_once(motion, problem, &ground, parts, outcome, &now, error);
         if (status) break;
         const double extrapolated = now.velocity + (now.velocity - coarse.velocity) / 3;
+        const int twice = least < 1; /* extrapolated before */
         change = least * fabs(now.velocity - coarse.velocity);
-        if (least < 1) change = fmax(change, fabs(extrapolated - outcome->shear_velocity));
+        if (twice) change = fmax(change, fabs(extrapolated - outcome->shear_velocity));
         least = rst_share_by_chance;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
-            (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + error_ez;
-        if (problem->elements > 0 || meets(problem, outcome) || 2 * now.n > rst_most_elements) break;
+            (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + rest;
+        if (problem->elements > 0 || (twice && meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
         coarse = now;
     }
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
