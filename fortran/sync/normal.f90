@@ -76,7 +76,7 @@ contains
           beside = beside + 1
         end do
         if (beside <= control%n_coarse) &
-          width = min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2)
+          width = max(1_ip, min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2))
         call begin(panel(max(1_ip, n - 1)), n, panel(n))
         memory(0, :, n) = 0
         loading(0, :, n) = 0
