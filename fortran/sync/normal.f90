@@ -120,7 +120,7 @@ contains
         beside = beside + 1
       end do
       if (beside <= control%n_coarse) &
-        width = min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2)
+        width = max(1_ip, min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2))
     end subroutine halve_coarser
 
     !> Rounding ends the panels. What is left after the compression may be too slow to matter.
