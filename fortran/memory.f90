@@ -3,7 +3,7 @@
 !> phi_1(z) = (1-exp(-z))/z, phi_2 = (1-phi_1)/z with z = x/tau: finite for tau -> 0 (the dashpot limit) and
 !> tau -> infinity (the elastic one), so that no relaxation time limits a step.
 module rst_memory
-  use rst_precision, only: dp, ip
+  use rst_precision, only: dp
   implicit none (type, external)
   private
   public :: memory_type, memory_of

@@ -72,7 +72,8 @@ int main(int argc, char **argv)
                                                 .stop_speed = 1e-9,
                                                 .halvings = 2,
                                                 .capacity = room};
-    const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8, .closeness = 1e-12, .stress = 1};
+    const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8,
+                                         .closeness = 1e-12, .stress = 1};
     struct sync_normal normal = {.n_arms = arms,
                                  .radius = sqrt(0.4 * 0.84), /* about r of the largest indentation */
                                  .closeness = 1e-12,

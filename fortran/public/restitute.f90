@@ -116,7 +116,8 @@ module restitute
     real(c_double) :: friction = 0, normal_speed = 0, tangential_speed = 0, spin1 = 0, spin2 = 0, density = 0
   end type restitute_scene
 
-  !> Dimensionless numbers and scales of a scene: restitute_numbers of the C header, prepared by restitute_numbers() or restitute_numbers_init.
+  !> Dimensionless numbers and scales of a scene: restitute_numbers of the C header, prepared by restitute_numbers() or
+  !> restitute_numbers_init.
   type, bind(c) :: restitute_numbers
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: chi = 0, psi = 0, delta1 = 0, gamma = 0, delta2 = 0, radius = 0, mass = 0, modulus = 0, &
@@ -154,7 +155,8 @@ module restitute
       viscous_x = 0, left_x = 0, residual_x = 0
   end type restitute_ledger
 
-  !> Time history, into arrays named by restitute_history_arrays: restitute_history of the C header, prepared by restitute_history() or restitute_history_init.
+  !> Time history, into arrays named by restitute_history_arrays: restitute_history of the C header, prepared by
+  !> restitute_history() or restitute_history_init.
   type, bind(c) :: restitute_history
     integer(c_size_t) :: struct_size = 0
     integer(c_size_t) :: capacity = 0, count = 0

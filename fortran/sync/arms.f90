@@ -17,8 +17,8 @@ module rst_arms
 
 contains
 
-  !> The stress at the points of a panel is decay*y_0 + matmul(kernel, g*span*v). span: time per x at the points, so that time passes
-  !> as int span dx. The arm is taken implicitly, at any rate.
+  !> The stress at the points of a panel is decay*y_0 + matmul(kernel, g*span*v). span: time per x at the points, so that time
+  !> passes as int span dx. The arm is taken implicitly, at any rate.
   pure subroutine respond(rate, span, kernel, decay, fails)
     real(dp), intent(in) :: rate, span(stages)
     real(dp), intent(out) :: kernel(stages, stages), decay(stages)
@@ -39,8 +39,8 @@ contains
     kernel = b(:, 1:stages)
     decay = b(:, stages + 1)
   end subroutine respond
-  !> That of all arms, and answer: how the stress of an element answers to its velocity. (Arrays of any stride: compilers would copy
-  !> components of derived types to make them contiguous.)
+  !> That of all arms, and answer: how the stress of an element answers to its velocity. (Arrays of any stride: compilers would
+  !> copy components of derived types to make them contiguous.)
   pure subroutine respond_all(eta, g, rate, span, kernel, decay, answer, fails)
     real(dp), intent(in) :: eta, g(:), rate(:), span(stages)
     real(dp), intent(out) :: kernel(:, :, :), decay(:, :), answer(stages, stages)

@@ -139,7 +139,8 @@ contains
     end do
   end function root_between
 
-  !> Whether Newton's steps end: the next change, foretold from the last two, is below closeness, or rounding keeps it from falling.
+  !> Whether Newton's steps end: the next change, foretold from the last two, is below closeness, or
+  !> rounding keeps it from falling.
   pure function has_converged(change, previous, closeness) result(yes)
     real(dp), intent(in) :: change, previous, closeness
     logical :: yes

@@ -1,5 +1,5 @@
-!> The compression on one panel (docs/sync.md): in the plane of A/r and D' the sphere is at the distance rho from the origin, at the
-!> edge angle theta,  A = r rho sin(theta), D' = rho cos(theta),  and with kappa = (15/4) r^2 F
+!> The compression on one panel (docs/sync.md): in the plane of A/r and D' the sphere is at the distance rho from the origin, at
+!> the edge angle theta,  A = r rho sin(theta), D' = rho cos(theta),  and with kappa = (15/4) r^2 F
 !>
 !>   drho/dtheta = rho sin cos (1 - kappa)/(cos^2 + kappa sin^2),  ds/dtheta = 2 r^2 rho sin/(cos^2 + kappa sin^2),
 !>   F = eta A D' + sum_k P_k,  P_k' = g_k A D' - P_k/tau_k.

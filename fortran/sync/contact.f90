@@ -16,7 +16,8 @@ module rst_tangential_motion
 
 contains
 
-  !> U' at the end of the impact. found: solved; sticks_again, where slipping elements do, which a front cannot describe; lacks_pieces.
+  !> U' at the end of the impact. found: solved; sticks_again, where slipping elements do, which a front cannot
+  !> describe; lacks_pieces.
   subroutine follow_contact(normal, contact, store, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -139,7 +140,7 @@ contains
     end do
   end subroutine record_slip
 
-  !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end is the start of the next one.
+  !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end starts the next one.
   subroutine keep(normal, side, ground, s, store)
     type(normal_type), intent(in) :: normal
     real(dp), intent(in) :: side
@@ -149,8 +150,8 @@ contains
     real(dp) :: weight(0:stages)
     integer(ip) :: n, i, k
     store%n_pieces = store%n_pieces + 1
-    store%piece(store%n_pieces) = piece_type(ground%panel, merge(1_ip, 0_ip, ground%rooted), ground%from, ground%to, s%w, s%force, &
-                                             s%stick)
+    store%piece(store%n_pieces) = piece_type(ground%panel, merge(1_ip, 0_ip, ground%rooted), ground%from, ground%to, s%w, &
+                                             s%force, s%stick)
     if (.not. abs(side) > 0 .and. .not. ground%returning) then
       n = store%n_records + 1
       store%n_records = n
@@ -172,8 +173,8 @@ contains
     end do
   end subroutine keep
 
-  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its slack y stays
-  !> 0, which asks for the velocity v, and it slips with v - r.
+  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its slack y
+  !> stays 0, which asks for the velocity v, and it slips with v - r.
   subroutine slide(normal, contact, store, panel, x, side, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

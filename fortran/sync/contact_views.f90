@@ -28,16 +28,16 @@ module rst_contact_views
     integer(ip) :: no_slip  !! /= 0: friction without limit
   end type contact_type
 
-  !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it, here and in
-  !> `held` of store_type. The edge angle goes from `from` to `to`; the last point is at `end`, which may be beyond. edge: X, t_X, and D'
-  !> and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
+  !> A stretch of the compression in which all sticks, or all slips: what an element was given when the edge reached it, here and
+  !> in `held` of store_type. The edge angle goes from `from` to `to`; the last point is at `end`, which may be beyond. edge: X,
+  !> t_X, and D' and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
   type, bind(c) :: record_type
     real(dp) :: from, to, end
     real(dp) :: edge(of_edge, 0:stages)
   end type record_type
 
-  !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is left of it. U', S and the stick
-  !> radius at its points. Twin of `struct sync_piece` in C.
+  !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is left of it. U', S and the
+  !> stick radius at its points. Twin of `struct sync_piece` in C.
   type, bind(c) :: piece_type
     integer(ip) :: panel, rooted
     real(dp) :: from, to

@@ -1,7 +1,7 @@
 !> The front of slip (docs/sync.md): the stick radius c as the edge of the corrective contact.
 !>
-!> With the side d = 1 or -1 of the slip, the slack y = f - d q of an element that has stuck since the edge reached it at the time t_X is
-!> that of a contact with the velocity r = D' - d U' in place of D':
+!> With the side d = 1 or -1 of the slip, the slack y = f - d q of an element that has stuck since the edge reached it at the time
+!> t_X is that of a contact with the velocity r = D' - d U' in place of D':
 !>
 !>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta r,  m_k = M_k - d M_k^x,  E_k = exp(-(s - t_X)/tau_k)
 !>
@@ -14,8 +14,8 @@ module rst_front
   private
   public :: element_type, slack_type, look_at, find_front, held_by
 
-  !> An element that has stuck since the edge was at an angle theta: its radius X, the slack that it had taken on when it was touched,
-  !> sum_k E_k m_k(t_X), sum_k E_k p_k(t_X), the slope of y over theta, and dX/dtheta.
+  !> An element that has stuck since the edge was at an angle theta: its radius X, the slack that it had taken on when it was
+  !> touched, sum_k E_k m_k(t_X), sum_k E_k p_k(t_X), the slope of y over theta, and dX/dtheta.
   type :: element_type
     real(dp) :: radius, taken, force, slope, stretch
   end type element_type
@@ -27,14 +27,16 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is linear in X: H is then off by about e^3, and the
-  !> front by e^2. Within Newton's steps the next search begins where this one ended.
+  !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is
+  !> linear in X: H is then off by about e^3, and the front by e^2. Within Newton's steps the next search begins
+  !> where this one ended.
   real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
 
 contains
 
   !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
-  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation, as if all stuck.
+  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
+  !> as if all stuck.
   pure subroutine find_front(normal, store, time, side, edge_angle, edge, precise, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store

@@ -1,7 +1,7 @@
 !> The normal motion of an impact, panel after panel (docs/sync.md).
 !>
-!> Panels are equal parts of the edge angle, halved while their polynomials miss too much or Newton's steps do not converge, and twice as
-!> wide again where halves are not needed. Their ends are at multiples of (pi/2)/2^deepest.
+!> Panels are equal parts of the edge angle, halved while their polynomials miss too much or Newton's steps do not converge, and
+!> twice as wide again where halves are not needed. Their ends are at multiples of (pi/2)/2^deepest.
 module rst_normal_motion
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use rst_precision, only: dp, ip
@@ -14,8 +14,8 @@ module rst_normal_motion
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
-  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that will
-  !> not be faster than mesh%left; that the panels given are too few; nothing.
+  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that
+  !> will not be faster than mesh%left; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
   real(dp), parameter :: worth_telling = 1.0e-2_dp !! a rebound that is slower, though nothing else is known of it
@@ -29,8 +29,8 @@ module rst_normal_motion
     real(dp) :: stop_speed  !! a sphere that cannot come back faster has stopped
     integer(ip) :: halvings !! panels are at most (pi/2)/2^halvings wide
     integer(ip) :: capacity !! panels there is room for
-    !> The next coarser run, if there is one: its panels in each phase are twice as wide at least, so that no two runs agree because
-    !> their panels are the same.
+    !> The next coarser run, if there is one: its panels in each phase are twice as wide at least, so that no two runs agree
+    !> because their panels are the same.
     integer(ip) :: n_coarse, n_coarse_compression
     type(c_ptr) :: coarse
   end type normal_control_type
@@ -71,12 +71,7 @@ contains
         found = lacks_room
         if (n > control%capacity) return
         if (back) width = min(width, width_at(whole - place, mesh%n_compression, panel))
-        do while (beside <= control%n_coarse)
-          if (passed(coarse(beside)%to, back) > place) exit
-          beside = beside + 1
-        end do
-        if (beside <= control%n_coarse) &
-          width = max(1_ip, min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2))
+        call halve_coarser(back, place, beside, width)
         call begin(panel(max(1_ip, n - 1)), n, panel(n))
         memory(0, :, n) = 0
         loading(0, :, n) = 0
@@ -115,6 +110,19 @@ contains
       found = rebounds
     end subroutine go_through
 
+    !> No panel is wider than half the one that the coarser run has at a place. beside: the first of those that may be there.
+    subroutine halve_coarser(back, place, beside, width)
+      logical, intent(in) :: back
+      integer(ip), intent(in) :: place
+      integer(ip), intent(inout) :: beside, width
+      do while (beside <= control%n_coarse)
+        if (passed(coarse(beside)%to, back) > place) exit
+        beside = beside + 1
+      end do
+      if (beside <= control%n_coarse) &
+        width = max(1_ip, min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2))
+    end subroutine halve_coarser
+
     !> Rounding ends the panels. What is left after the compression may be too slow to matter.
     subroutine give_up(found)
       integer(ip), intent(out) :: found
@@ -139,7 +147,8 @@ contains
     if (back) place = whole - place
   end function passed
 
-  !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is not smooth.
+  !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is
+  !> not smooth.
   pure function width_at(place, n, panel) result(width)
     integer(ip), intent(in) :: place, n
     type(panel_type), intent(in) :: panel(n)
@@ -185,8 +194,8 @@ contains
     if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
   end function missed
 
-  !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses up to
-  !> twice their mean, or because the dashpot keeps them from letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
+  !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses
+  !> up to twice their mean, or because the dashpot keeps them from letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
   pure function has_stopped(solid, g, stop_speed, panel, memory, loading) result(yes)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), stop_speed
@@ -214,7 +223,8 @@ contains
     speed = sqrt(panel%velocity(stages)**2 + stored(g, panel, loading))
   end function fastest_later
 
-  !> Whether the sphere has come back by some panels, and never as fast as stop_speed: where rounding ends them, it may as well stay.
+  !> Whether the sphere has come back by some panels, and never as fast as stop_speed: where rounding ends them, it may as
+  !> well stay.
   pure function creeps_out(stop_speed, n_compression, n_panels, panel) result(yes)
     real(dp), intent(in) :: stop_speed
     integer(ip), intent(in) :: n_compression, n_panels

@@ -1,23 +1,22 @@
 !> A panel of the normal motion and what is known of it between its points.
 module rst_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, weights_at
+  use rst_collocation, only: stages, weights_at
   implicit none (type, external)
   private
   public :: panel_type, mesh_type, place_on, find_angle, mass_factor
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
 
-  !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression and
-  !> downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.
+  !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression
+  !> and downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.
   type, bind(c) :: panel_type
     real(dp) :: from, to
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> How the motion is divided: the scale r of the radius in theta, when iterations end, the speed that a sphere that has stopped will
-  !> not exceed, panels of the compression and of all.
-  !> Twin of `struct sync_mesh` in C.
+  !> How the motion is divided: the scale r of the radius in theta, when iterations end, the speed that a sphere that has stopped
+  !> will not exceed, panels of the compression and of all. Twin of `struct sync_mesh` in C.
   type, bind(c) :: mesh_type
     real(dp) :: radius, closeness, left
     integer(ip) :: n_compression, n_panels

@@ -3,14 +3,14 @@ module rst_piece
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, solve_linear
   use rst_arms, only: respond_all, advance
-  use rst_panel, only: panel_type, mass_factor
+  use rst_panel, only: mass_factor
   use rst_contact_views, only: normal_type, contact_type, store_type
   implicit none (type, external)
   private
   public :: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
 
-  !> The normal motion at the start of a piece and at its points; span: time per x of the piece; answer: of the stress of an element
-  !> in stick to U'.
+  !> The normal motion at the start of a piece and at its points; span: time per x of the piece; answer: of the stress of an
+  !> element in stick to U'.
   type :: ground_type
     integer(ip) :: panel
     real(dp) :: from, to
@@ -28,7 +28,8 @@ contains
     push = 2*mass_factor*contact%chi
   end function push_factor
 
-  !> The ground of the piece from x = from to x = to of a panel. In a rooted piece x is to - (to - from) (1 - y)^2 with y from 0 to 1.
+  !> The ground of the piece from x = from to x = to of a panel. In a rooted piece x is
+  !> to - (to - from) (1 - y)^2 with y from 0 to 1.
   subroutine lay_ground(normal, panel, from, to, rooted, store, ground, fails)
     type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: panel

@@ -1,13 +1,13 @@
-!> The restitution on one panel (docs/sync.md): the edge goes back over the angles of the compression. When it is again at the radius
-!> that it had at the time t_A of the compression it is free,
+!> The restitution on one panel (docs/sync.md): the edge goes back over the angles of the compression. When it is again at the
+!> radius that it had at the time t_A of the compression it is free,
 !>
 !>   sum_k [M_k - E_k M_k(t_A)] + eta D' = 0,  E_k = exp(-(s - t_A)/tau_k),
 !>
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, solve_linear, &
-                             has_converged
+  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, &
+                             solve_linear, has_converged
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
   implicit none (type, external)
@@ -112,8 +112,8 @@ contains
   end subroutine guess
 
   !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
-  !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0, E_k = exp(-(x + before)/tau_k).
-  !> It rises with x; x = before solves the elastic one.
+  !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0,
+  !> E_k = exp(-(x + before)/tau_k). It rises with x; x = before solves the elastic one.
   pure function first_return(solid, g, rate, before) result(x)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), before

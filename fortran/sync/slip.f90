@@ -21,8 +21,8 @@ module rst_slip
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
 
-  !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in stick,
-  !> else the slack at the centre and at the edge. returns: elements that slipped would stick again.
+  !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in
+  !> stick, else the slack at the centre and at the edge. returns: elements that slipped would stick again.
   type :: solution_type
     real(dp), dimension(0:stages) :: w, force, stick, front, centre, edge
     logical :: returns

@@ -122,8 +122,8 @@ RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, d
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
  *
  *  see @ref restitute_material_dundurs. The Poisson ratio of the pair is the one that has its ratio of
- *  tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. Where that ratio and beta change
- *  with time (unlike nu of which one relaxes), the instantaneous moduli are taken.
+ *  tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i.
+ *  Where that ratio and beta change with time (unlike nu of which one relaxes), the instantaneous moduli are taken.
  *
  *  The work grows as the square of the number of terms: 1000 with 1000 take half a second.
  *
@@ -281,8 +281,8 @@ typedef struct restitute_options {
 
 RESTITUTE_API void restitute_options_init(restitute_options *options);
 
-/** Options and workspace. With `sync` the room for usual impacts is made at creation; otherwise a solver does not allocate any more
- *  after its first calls of a kind. One thread at a time. */
+/** Options and workspace. With `sync` the room for usual impacts is made at creation; otherwise a solver does not allocate
+ *  any more after its first calls of a kind. One thread at a time. */
 typedef struct restitute_solver restitute_solver;
 
 /** @param options NULL for the defaults, else copied */
@@ -506,7 +506,8 @@ RESTITUTE_API void restitute_contact_init(restitute_contact *contact);
  *
  *  The impact is in the plane of the normal and of the sliding direction; what twists about the normal is untouched. Linear
  *  and angular momentum are conserved to rounding (a plane and a body held fast take what they get); angular momentum for
- *  bodies that touch: with a gap or an overlap it misses gap times the tangential impulse, since each body is struck at its radius.
+ *  bodies that touch: with a gap or an overlap it misses gap times the tangential impulse, since each body is struck
+ *  at its radius.
  *
  *  @param first,second  in: before, out: after the impact. One may be a plane
  *  @param result        optional: the pair, its errors, ratios and flags, in SI units

@@ -40,9 +40,9 @@ struct rst_outcome {
     int64_t elements, steps, updates;
     struct euler_ledger ledger;
     int sunk;
-    int halvings;   /* sync: those of the run that gave the pair */
+    int halvings;     /* sync: those of the run that gave the pair */
     int without_slip; /* sync: slip was left out */
-    int64_t walked; /* sync: elements in a panel, if elements gave it, else 0 */
+    int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
 /* Receives samples of the history in the units of the problem; see restitute_history. */

@@ -1,4 +1,4 @@
-/* The energy ledger of the method `sync` (docs/theory.md, "Energy"): a walk over elements keeps it.
+/* The energy ledger of the method `sync` (docs/theory.md, section 8): a walk over elements keeps it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -38,7 +38,7 @@ static enum rst_walk_kind sliding(const struct rst_problem *problem, double rebo
 }
 
 int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
-                    struct rst_outcome *outcome, restitute_error *error)
+                      struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_walk walk;
     if (outcome->sunk) {

@@ -93,15 +93,15 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
-/* Not below rounding, which narrower panels do not lessen. */
-static double rst_roughness_of(int level)
+/* After so many refinements. Not below rounding, which narrower panels do not lessen. */
+static double roughness_of(int refined)
 {
-    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, level));
+    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, refined));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
 {
-    const double roughness = rst_roughness_of(halvings - 1);
+    const double roughness = roughness_of(halvings - 1);
     return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
 }
 
@@ -135,7 +135,8 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
 static double same_up_to(const struct rst_run *run, double stop_speed)
 {
     const struct sync_normal *n = &run->normal;
-    const double last = n->panel[n->n_compression - 1].velocity[0], rebound = -n->panel[n->n_panels - 1].velocity[rst_stages];
+    const double last = n->panel[n->n_compression - 1].velocity[0];
+    const double rebound = -n->panel[n->n_panels - 1].velocity[rst_stages];
     return fmax(stop_speed, fmin(last, rebound));
 }
 
@@ -160,7 +161,7 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
     const struct sync_normal *coarser = coarser_than(motion, halvings);
     for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
         const int64_t allowed = capacity < most ? capacity : most;
-        const struct sync_normal_control control = {.roughness = rst_roughness_of(halvings - 1),
+        const struct sync_normal_control control = {.roughness = roughness_of(halvings - 1),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
                                                     .capacity = allowed,
@@ -230,12 +231,13 @@ static double usual_stress(const struct sync_normal *normal)
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
+    const double scale = fmin(1, problem->psi), roughness = rst_piece_roughness(problem, halvings);
+    const double closeness = fmax(10 * rst_rounding, rst_piece_closeness * roughness);
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
-                                         .roughness = rst_piece_roughness(problem, halvings) * fmin(1, problem->psi),
-                                         .noise = rst_noise * rst_roughness_of(halvings - 1),
-                                         .closeness = fmax(10 * rst_rounding, rst_piece_closeness * rst_piece_roughness(problem, halvings)) *
-                                                      fmin(1, problem->psi),
+                                         .roughness = roughness * scale,
+                                         .noise = rst_noise * roughness_of(halvings - 1),
+                                         .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
                                          .no_slip = problem->mode == RST_NO_SLIP};
     for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {

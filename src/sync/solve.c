@@ -254,8 +254,8 @@ static int return_best(struct rst_motion *motion, const struct rst_problem *prob
 }
 
 /* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again
- * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if max_updates are spent and
- * there is a result. */
+ * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if
+ * max_updates are spent and there is a result. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {

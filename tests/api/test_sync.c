@@ -80,7 +80,7 @@ static void same_bits_whatever_was_solved_before(void **state)
 }
 
 /* A remark with the best result, or an error with none; the message names the limit. From no work at all on, twice as much is
- * allowed from call to call until it is enough. A sphere that is easily turned needs more levels than the method
+ * allowed from call to call until it is enough. A sphere that is easily turned needs more panels than the method
  * expects, so that there are runs to be left out. */
 static void work_that_is_not_allowed_is_not_done(void **state)
 {
@@ -152,7 +152,7 @@ static int solve_with_history(double tolerance, const restitute_material *solid,
 
 /* Moduli times s and times times s^(-2/5) are the same impact in other units: the same to rounding, but where the coarsest
  * iterations are lost, which rounding lets end one way or the other (1 solid in 500), to a hundredth of the tolerance. An
- * elastic solid a fifth as stiff as the unit once had levels at no finite time, others with weak damping too. */
+ * elastic solid a fifth as stiff as the unit once had points at no finite time, others with weak damping too. */
 static void scale_of_moduli_does_not_matter(void **state)
 {
     enum { solids = 300, samples = 8 };
@@ -195,7 +195,7 @@ static void scale_of_moduli_does_not_matter(void **state)
     CHECK(other <= 5 * solids / 100, "%d of %d differ by more than rounding", other, 5 * solids);
 }
 
-/* Too few levels for a solid may fail, but that is no lack of updates. */
+/* Too few elements for a solid may fail, but that is no lack of updates. */
 static void message_tells_the_reason(void **state)
 {
     (void)state;

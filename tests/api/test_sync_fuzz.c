@@ -82,7 +82,7 @@ static void check_history(long i, const restitute_history *h, const restitute_re
         CHECK(k == 0 || h->time[k] > h->time[k - 1], "impact %ld: time %g after %g", i, h->time[k], h->time[k - 1]);
         CHECK(f >= 0 && a >= 0, "impact %ld, sample %zu: force %g, radius %g", i, k, f, a);
         CHECK(h->indentation[k] <= 1.01 * r->max_indentation, "impact %ld: %g in, at most %g", i, h->indentation[k],
-              r->max_indentation); /* between its levels the motion is known to the tolerance */
+              r->max_indentation); /* between its points the motion is known to the tolerance */
         CHECK(h->stick_radius[k] >= 0 && h->stick_radius[k] <= a, "impact %ld: stick %g of %g", i, h->stick_radius[k],
               a);
     }

@@ -1,4 +1,4 @@
-/* The methods `cvode` and `sync` where slip is hard to follow (corners.h): the former has no levels, no front and no
+/* The methods `cvode` and `sync` where slip is hard to follow (corners.h): the former has no panels, no front and no
  * rings of slip but element by element.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/corners.h"

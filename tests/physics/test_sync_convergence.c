@@ -1,8 +1,8 @@
 /* How fast the errors of `sync` fall when panels are half as wide (docs/sync.md, "Order of each part").
  *
- * Panels that are not smooth are halved until they miss 1/32 of what they missed in the run before. So the errors of a run are below what
- * its polynomials may miss, those of e_z, which rests on smooth functions alone, far below. Twelve impacts a material: the error
- * of a single one may pass through zero, so that the root mean square is looked at.
+ * Panels that are not smooth are halved until they miss 1/32 of what they missed in the run before. So the errors of a run
+ * are below what its polynomials may miss, those of e_z, which rests on smooth functions alone, far below. Twelve impacts a
+ * material: the error of a single one may pass through zero, so that the root mean square is looked at.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/random.h"
 #include "../support/sync.h"
@@ -45,8 +45,8 @@ static struct errors errors_of(const restitute_impact impact[impacts])
 static const double first_roughness = 1e-2 / 32;
 
 /* e_x: a third of it, three times the worst that was measured (1.4e-5, 9e-7, 1.4e-8, 4e-10). e_z: 1/300, as much above
- * 3e-8, 7e-9 and then rounding of some 1e-13. The order of e_x from the first to the last run was 2.9 to 6.6: below 1e-7 what is left comes from
- * the panels in which events are. */
+ * 3e-8, 7e-9 and then rounding of some 1e-13. The order of e_x from the first to the last run was 2.9 to 6.6: below 1e-7 what is
+ * left comes from the panels in which events are. */
 static void check_errors(const restitute_impact impact[impacts], const char *what)
 {
     const struct errors e = errors_of(impact);

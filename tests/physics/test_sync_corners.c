@@ -25,7 +25,8 @@ static void judge(restitute_impact impact, double tolerance, struct count *count
     const double low = fmax(z / s.result.error_ez, x / s.result.error_ex);
     CHECK(estimate_keeps_tolerance(&s, tolerance) && isfinite(s.result.ez) && isfinite(s.result.ex), "status %d",
           s.status);
-    CHECK(fine.error_ez < 1e-7 && fine.error_ex < fmax(3e-7, 2.1 * impact.psi), "reference: %g, %g", fine.error_ez, fine.error_ex);
+    CHECK(fine.error_ez < 1e-7 && fine.error_ex < fmax(3e-7, 2.1 * impact.psi), "reference: %g, %g", fine.error_ez,
+          fine.error_ex);
     count->missed += error > tolerance;
     count->far += error > 3 * tolerance;
     count->low += low > 1;

@@ -25,14 +25,14 @@ static int destroy(void **state)
     return 0;
 }
 
-static struct restitute_ledger ledger_at(int64_t levels, int solid, double psi)
+static struct restitute_ledger ledger_at(int64_t elements, int solid, double psi)
 {
-    return solve_impact(sync_at(levels), impact_with(&all[solid], chi, psi)).ledger;
+    return solve_impact(sync_at(elements), impact_with(&all[solid], chi, psi)).ledger;
 }
 
-/* The walk that keeps the ledger has 256 elements at least, whatever the pair took, and closes to second order (unit/test_sync_walk.c).
- * Twice the worst that was measured over these scenes: 3.6e-5 in z, 5.8e-5 in x, 1.5e-4 where the contact slips in a ring that is
- * narrower than five elements. */
+/* The walk that keeps the ledger has 256 elements at least, whatever the pair took, and closes to second order
+ * (unit/test_sync_walk.c). Twice the worst that was measured over these scenes: 3.6e-5 in z, 5.8e-5 in x, 1.5e-4 where
+ * the contact slips in a ring that is narrower than five elements. */
 static const double closure_z = 7e-5;
 
 static double closure_x(double psi)
@@ -135,7 +135,8 @@ static void without_friction_the_tangential_energy_stays(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* A sphere that sinks in is not followed; euler follows it until a hundredth of its tolerance is left, for psi = 0.02 at length. */
+/* A sphere that sinks in is not followed; euler follows it until a hundredth of its tolerance is left, for psi = 0.02
+ * at length. */
 static void a_sphere_that_sinks_in_loses_all(void **state)
 {
     (void)state;

@@ -94,7 +94,7 @@ static void elastic_impact_without_slip_has_the_ex_of_its_linear_problem(void **
         for (double tolerance = 1e-3; tolerance > 5e-9; tolerance /= 10) {
             const struct solution s = solve_impact(sync_to(tolerance), impact_of(chis[i], 0, 0, INFINITY));
             /* the contact time that the reference starts from has eleven digits */
-            CHECK_NEAR(s.result.ex, ex, allowed(&s.result, tolerance) + 1e-10, "chi %g, tolerance %g, %d levels",
+            CHECK_NEAR(s.result.ex, ex, allowed(&s.result, tolerance) + 1e-10, "chi %g, tolerance %g, %d elements",
                        chis[i], tolerance, (int)s.result.elements);
         }
     }
@@ -117,7 +117,7 @@ static void strong_friction_reaches_no_slip(void **state)
                 const struct solution s = solve_impact(options, impact_of(chis[i], psi, solids[j][0], solids[j][1]));
                 if (s.status == RESTITUTE_OK && fabs(s.result.ex - limit.result.ex) <= psi + 2e-5) continue;
                 print_error(
-                    "chi %g, delta1 %g, gamma %g, psi %g: %g from the limit, status %d, estimate %g, %d levels\n",
+                    "chi %g, delta1 %g, gamma %g, psi %g: %g from the limit, status %d, estimate %g, %d elements\n",
                     chis[i], solids[j][0], solids[j][1], psi, s.result.ex - limit.result.ex, s.status,
                     s.result.error_ex, (int)s.result.elements);
                 wrong++;
@@ -192,7 +192,7 @@ static void elastic_impact_has_its_contact_time_depth_and_force(void **state)
         CHECK_NEAR(r.ez, 1, allowed(&r, tolerance), "tolerance %g", tolerance);
         CHECK_NEAR(r.max_indentation, 1, tolerance, "tolerance %g", tolerance);
         CHECK_NEAR(r.max_normal_force, 1.25, tolerance, "tolerance %g", tolerance);
-        CHECK_NEAR(r.contact_time, elastic_contact_time, tolerance * elastic_contact_time, "tolerance %g, %d levels",
+        CHECK_NEAR(r.contact_time, elastic_contact_time, tolerance * elastic_contact_time, "tolerance %g, %d elements",
                    tolerance, (int)r.elements);
     }
 }
@@ -218,8 +218,8 @@ static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
 }
 
 /* e_z -> (4/(5 theta))^(2/3)/theta; at delta1 = 10 it is 10 % away (the closed ODE of test_kelvin_voigt.c), at ten times the
- * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. A rebound that is a small
- * part of the tolerance is none, which is no error: there is a spring, so the sphere does not sink for good. */
+ * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. A rebound that is
+ * a small part of the tolerance is none, which is no error: there is a spring, so the sphere does not sink for good. */
 static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
 {
     const double tolerances[] = {1e-3, 1e-5, 1e-7};
@@ -294,8 +294,8 @@ static void limits_of_single_terms_hold(void **state)
         restitute_material_destroy(all[i]);
 }
 
-/* Levels given, so that both have the same ones and only the solids differ: by 1e-9, the relative distance of the times, and
- * the iterations of a hundred levels, each to 1e-11. */
+/* Elements given, so that both have the same panels and only the solids differ: by 1e-9, the relative distance of the times,
+ * and by what iterations leave. */
 static void a_term_may_be_split(void **state)
 {
     const double tau[] = {0.1, 1, 4}, g[] = {1, 0.5, 2}, split_tau[] = {0.1, 1, 1.000000001, 4},
@@ -359,7 +359,8 @@ static void what_sinks_does_not_stop_what_friction_cannot(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Gross slip that ends at the turning point, on a level of time or beside it by rounding: a step of no length has no slopes. */
+/* Gross slip that ends at the turning point, at the end of a panel or beside it by rounding: a piece of no length has
+ * no slopes. */
 static void slip_may_end_as_the_sphere_turns(void **state)
 {
     (void)state;
@@ -373,8 +374,9 @@ static void slip_may_end_as_the_sphere_turns(void **state)
     }
 }
 
-/* Slip that nearly ends before contact does: the element that slipped last sticks again if its slip velocity, which began within a
- * step, is right to a tenth. References: to 1e-8, within 1e-7 of those to 1e-6; the method cvode has -0.017934 +- 5.2e-7 for the first. */
+/* Slip that nearly ends before contact does: the element that slipped last sticks again if its slip velocity, which began within
+ * a step, is right to a tenth. References: to 1e-8, within 1e-7 of those to 1e-6; the method cvode has -0.017934 +- 5.2e-7
+ * for the first. */
 static void what_sticks_again_late_is_not_missed(void **state)
 {
     static const struct {
@@ -408,8 +410,8 @@ static void large_chi_keeps_its_estimate(void **state)
     }
 }
 
-/* A stiff dashpot answers a velocity with a force that takes it back many times over within a step: what integrates the force must damp.
- * The ledger is of 512 levels at most, some thousandths for impacts that take more; 0.03 is twice the worst of these. */
+/* A stiff dashpot answers a velocity with a force that takes it back many times over within a step: what integrates the force
+ * must damp. The walk that keeps the ledger has some 256 elements, whatever the pair took. */
 static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
 {
     const double impacts[4][4] = {
@@ -449,8 +451,7 @@ static void extreme_chi_works(void **state)
 }
 
 /* Thirty terms over eighteen decades, at speeds for which other ones matter, against the default method. */
-/* Springs that have not settled when the sphere has turned: the restitution is known by time, and the times at which the edge is back on
- * the nodes are guessed from the compression, which lasted longer. */
+/* Springs that have not settled when the sphere has turned: the restitution is shorter than the compression. */
 static void restitution_shorter_than_memory_ends_in_time(void **state)
 {
     (void)state;

@@ -64,7 +64,7 @@ static double error_x(const struct sample *s, int k)
 static void print_sample(const struct sample *s, int k)
 {
     const restitute_result *r = &s->solution[k].result;
-    print_error("at %g: chi %.6g psi %.6g delta1 %.6g gamma %.6g: errors %g, %g; estimates %g, %g; %d levels\n",
+    print_error("at %g: chi %.6g psi %.6g delta1 %.6g gamma %.6g: errors %g, %g; estimates %g, %g; %d elements\n",
                 tolerance_of[k], s->impact.chi, s->impact.psi, s->impact.delta1, s->impact.gamma, error_z(s, k),
                 error_x(s, k), r->error_ez, r->error_ex, (int)r->elements);
 }

@@ -138,8 +138,8 @@ static void estimated_error_covers_the_true_one(void **state)
     CHECK(too_low == 0, "see above");
 }
 
-/* Not by being much too careful everywhere. From run to run errors fall by 25 to 2000, so that an estimate a hundred times too high
- * costs one run, twice the time. Rows whose error is not known to a factor of two have no say. */
+/* Not by being much too careful everywhere. From run to run errors fall by 25 to 2000, so that an estimate a hundred times too
+ * high costs one run, twice the time. Rows whose error is not known to a factor of two have no say. */
 static void estimated_error_is_not_far_above_the_true_one(void **state)
 {
     (void)state;

@@ -12,11 +12,11 @@ static inline restitute_options sync_to(double tolerance)
     return options;
 }
 
-/* A number of levels instead of a tolerance; small tolerance: nothing is merged, iterations are finished. */
-static inline restitute_options sync_with(int64_t levels)
+/* A number of elements instead of a tolerance; small tolerance: nothing is merged, iterations are finished. */
+static inline restitute_options sync_with(int64_t elements)
 {
     restitute_options options = sync_to(1e-8);
-    options.elements = levels;
+    options.elements = elements;
     options.max_updates = INT64_C(1000000000000);
     return options;
 }

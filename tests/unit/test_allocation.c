@@ -16,7 +16,7 @@ static void the_counter_counts(void **state)
     CHECK(allocator.count == before + 1, "%ld calls counted", allocator.count - before);
 }
 
-/* From the second call on; the first one at each tolerance makes room, for the largest number of levels too. With ledger and
+/* From the second call on; the first one at each tolerance makes room, for the largest number of panels too. With ledger and
  * history on a solid of some terms as well. */
 static void use_twice(double tolerance, const restitute_material *solid, restitute_ledger *ledger,
                       restitute_history *history)
