@@ -46,6 +46,6 @@ enum { rst_trials_of_front = 3 };
 enum { rst_most_panels = 4096 };
 
 /* Elements of the first walk, at least, of the last one, at most, and of the one that keeps the ledger. */
-enum { rst_first_elements = 32, rst_most_elements = 8192, rst_ledger_elements = 256 };
+enum { rst_first_elements = 32, rst_most_elements = 16384, rst_ledger_elements = 256 };
 
 #endif

@@ -411,7 +411,7 @@ static void large_chi_keeps_its_estimate(void **state)
 }
 
 /* A stiff dashpot answers a velocity with a force that takes it back many times over within a step: what integrates the force
- * must damp. The walk that keeps the ledger has some 256 elements, whatever the pair took. */
+ * must damp. The walk that keeps the ledger, of second order in elements for the swings of U', is the one that would swing. */
 static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
 {
     const double impacts[4][4] = {
