@@ -9,7 +9,7 @@ module rst_arms
   private
   public :: solid_type, respond, respond_all, advance
 
-  !> Twin of `struct sync_solid` in C; the moduli and rates of the arms are arrays beside it.
+  !> The first members of `struct sync_normal` in C; the moduli and rates of the arms are arrays beside it.
   type, bind(c) :: solid_type
     real(dp) :: eta
     integer(ip) :: n_arms

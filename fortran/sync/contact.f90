@@ -29,6 +29,8 @@ contains
     integer(ip) :: panel, event, idle
     real(dp) :: x, side
     call start(normal, contact, store, panel, x, velocity)
+    found = lacks_pieces
+    if (panel == 0) return
     side = 0
     idle = 0
     event = nothing
@@ -63,7 +65,8 @@ contains
     if (event == stick_ends) call slide(normal, contact, store, panel, x, side, velocity, found)
   end subroutine follow_contact
 
-  !> First touch, or the end of gross slip, at which D' = U': until then an element has the same stress in x as in z.
+  !> First touch, or the end of gross slip, at which D' = U': until then an element has the same stress in x as in z. panel is 0 if
+  !> there is no room for the records of it.
   subroutine start(normal, contact, store, panel, x, velocity)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -72,6 +75,10 @@ contains
     real(dp), intent(out) :: x, velocity
     real(dp) :: weight(0:stages)
     integer(ip) :: k
+    panel = 0
+    x = 0
+    velocity = contact%psi
+    if (size(store%record) < normal%n_compression) return
     store%n_records = 0
     store%n_pieces = 0
     store%now_x(0, :) = 0
@@ -111,6 +118,8 @@ contains
     end do
     above = normal%panel(panel)%velocity - velocity
     i = 1
+    x = 1
+    if (above(stages) > 0) return ! of a sphere that has stopped before
     do while (above(i) > 0 .and. i < stages)
       i = i + 1
     end do

@@ -102,10 +102,7 @@ contains
           mesh%left = control%stop_speed
           if (has_stopped(solid, g, control%stop_speed, panel(n), memory(:, :, n), loading(:, :, n))) return
         end if
-        do while (width < widest .and. modulo(place, 2*width) == 0)
-          width = 2*width
-          exit
-        end do
+        if (width < widest .and. modulo(place, 2*width) == 0) width = 2*width
       end do
       found = rebounds
     end subroutine go_through
@@ -131,7 +128,6 @@ contains
       if (mesh%n_panels == 0) return
       last = mesh%n_compression
       mesh%left = fastest_later(g, panel(last), loading(stages, :, last))
-      if (creeps_out(control%stop_speed, last, mesh%n_panels, panel)) mesh%left = control%stop_speed
       if (.not. mesh%left < worth_telling) return
       found = stops
       mesh%n_panels = last
@@ -222,18 +218,4 @@ contains
     real(dp) :: speed
     speed = sqrt(panel%velocity(stages)**2 + stored(g, panel, loading))
   end function fastest_later
-
-  !> Whether the sphere has come back by some panels, and never as fast as stop_speed: where rounding ends them, it may as
-  !> well stay.
-  pure function creeps_out(stop_speed, n_compression, n_panels, panel) result(yes)
-    real(dp), intent(in) :: stop_speed
-    integer(ip), intent(in) :: n_compression, n_panels
-    type(panel_type), intent(in) :: panel(n_panels)
-    logical :: yes
-    integer(ip) :: i
-    yes = n_panels > n_compression
-    do i = n_compression + 1, n_panels
-      yes = yes .and. all(abs(panel(i)%velocity) < stop_speed)
-    end do
-  end function creeps_out
 end module rst_normal_motion

@@ -16,7 +16,7 @@ module rst_panel
   end type panel_type
 
   !> How the motion is divided: the scale r of the radius in theta, when iterations end, the speed that a sphere that has stopped
-  !> will not exceed, panels of the compression and of all. Twin of `struct sync_mesh` in C.
+  !> will not exceed, panels of the compression and of all. Members of `struct sync_normal` in C.
   type, bind(c) :: mesh_type
     real(dp) :: radius, closeness, left
     integer(ip) :: n_compression, n_panels

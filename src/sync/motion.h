@@ -11,7 +11,7 @@
 #include "workspace.h"
 
 /* Resolutions: each has panels half as wide as the one before. */
-enum { rst_most_halvings = 10 };
+enum { rst_most_halvings = 8 };
 
 enum { RST_NOT_SOLVED = -1 }; /* else as rst_follow_normal found */
 

@@ -35,8 +35,12 @@ static const struct sync_panel *last_panel(const struct rst_run *run)
     return &run->normal.panel[run->normal.n_panels - 1];
 }
 
-static int too_hard(restitute_error *error)
+static int too_hard(const struct rst_problem *problem, restitute_error *error)
 {
+    if (problem->elements > 0)
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+                          "elements = %lld: sync did not converge for this solid; use the method euler or another number",
+                          (long long)problem->elements);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "sync did not converge for this solid; use the method euler");
 }
@@ -276,7 +280,7 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
         if (!walks && (problem->elements > 0 || meets(problem, outcome))) return RESTITUTE_OK;
         if (!walks && larger_error(outcome) < larger_error(&best)) best = *outcome;
     }
-    if (known < 2) return too_hard(error);
+    if (known < 2) return too_hard(problem, error);
     if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
         rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip at all */
         outcome->error_ex = INFINITY;

@@ -66,7 +66,8 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
         judge(thin_impact(&random, tolerance), tolerance, &count);
     }
     check_count(count);
-    CHECK(count.missed == 0, "%d of %d beyond the tolerance", count.missed, impacts);
+    /* a tolerance is to be met in 99.5 % */
+    CHECK(count.missed <= impacts / 200, "%d of %d beyond the tolerance", count.missed, impacts);
 }
 
 /* On both sides of the psi below which slip is left out: slip changes e_x by less than 2 psi. Slip at the edge that began in
@@ -74,8 +75,8 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
 static void leaving_slip_out_changes_little(void **state)
 {
     (void)state;
-    const double below = solve_impact(sync_to(1e-3), impact_of(1.106, 2.4e-5, 0.124, 0.2997)).result.ex;
-    const double above = solve_impact(sync_to(1e-3), impact_of(1.106, 2.6e-5, 0.124, 0.2997)).result.ex;
+    const double below = solve_impact(sync_to(1e-3), impact_of(1.106, 1.2e-4, 0.124, 0.2997)).result.ex;
+    const double above = solve_impact(sync_to(1e-3), impact_of(1.106, 1.3e-4, 0.124, 0.2997)).result.ex;
     CHECK_NEAR(below, 0.2312, 1e-3, "without slip");
     CHECK_NEAR(above, 0.2312, 1e-3, "with slip");
 }

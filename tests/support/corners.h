@@ -18,7 +18,7 @@ static inline restitute_impact blocked_impact(uint64_t *random)
 /* Friction so strong that e_x is that without slip, but for a few tolerances: rings of slip are thinner than a cell. */
 static inline restitute_impact thin_impact(uint64_t *random, double tolerance)
 {
-    const double chi = random_log(random, 0.34, 4), psi = random_log(random, tolerance / 40, tolerance);
+    const double chi = random_log(random, 0.34, 4), psi = random_log(random, tolerance / 8, tolerance);
     const double delta1 = random_log(random, 1e-3, 1e2);
     return impact_of(chi, psi, delta1, random_log(random, 1e-3, 1e2));
 }
