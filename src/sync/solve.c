@@ -260,13 +260,13 @@ static int return_best(struct rst_motion *motion, const struct rst_problem *prob
 /* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again
  * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if
  * max_updates are spent and there is a result. */
-static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
-                  struct rst_outcome *outcome, restitute_error *error)
+static int refine_from(struct rst_motion *motion, const struct rst_problem *problem, int first, struct attempt *fine,
+                       struct rst_outcome *outcome, restitute_error *error)
 {
     struct attempt now, coarse;
     struct rst_outcome best = {.error_ez = INFINITY};
     int known = 0, walks = 0, tried = 0;
-    for (int halvings = first_halvings(problem); halvings <= rst_most_halvings; halvings++) {
+    for (int halvings = first; halvings <= rst_most_halvings; halvings++) {
         const int status = attempt(motion, problem, halvings, &now, outcome, error);
         if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;
         if (status) return status;
@@ -288,6 +288,16 @@ static int refine(struct rst_motion *motion, const struct rst_problem *problem, 
     }
     if (walks) return walk_refining(motion, problem, fine, outcome, error);
     return return_best(motion, problem, &best, fine, outcome, error);
+}
+
+/* Where fine runs are lost in rounding coarser ones may not be, and their estimate says what they are worth. */
+static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
+                  struct rst_outcome *outcome, restitute_error *error)
+{
+    const int first = first_halvings(problem);
+    const int status = refine_from(motion, problem, first, fine, outcome, error);
+    if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || first == 1) return status;
+    return refine_from(motion, problem, 1, fine, outcome, error);
 }
 
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
