@@ -4,7 +4,7 @@
 #include "../support/corners.h"
 #include "../support/sync.h"
 
-enum { impacts = 240, tolerances = 4 };
+enum { impacts = 120, tolerances = 4 };
 
 static const double tolerance_of[tolerances] = {1e-3, 1e-4, 1e-5, 1e-6};
 
