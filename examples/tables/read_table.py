@@ -22,7 +22,7 @@ except ImportError as missing:
 # s(v) = k + p(m - 1) for v = 2^k m, 1 <= m < 2: log2(v) within 7e-7
 P = [0.014565551164493075, -0.07702542887920055, 0.19215686619879618, -0.3255206379958932, 0.4738685537384745]
 P += [-0.7207275153258296, 1.4426826110991595, 0]
-C = 0.02
+C = 2e-4
 
 
 def along_speed(v):
@@ -31,7 +31,7 @@ def along_speed(v):
 
 
 def along_psi(y):
-    return 0.5 + (math.sqrt(y + C**2) - math.sqrt(1 - y + C**2)) / (2 * (math.sqrt(1 + C**2) - C))
+    return 0.5 + ((y + C) ** 0.25 - (1 - y + C) ** 0.25) / (2 * ((1 + C) ** 0.25 - C**0.25))
 
 
 def hermite(u, width):

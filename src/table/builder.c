@@ -5,7 +5,10 @@
 
 #include <stdlib.h>
 
-enum { first_stick = 8, first_slip = 32, most_rounds = 6 };
+enum { most_rounds = 6 };
+
+/* Cells of psi to begin with, at 1e-5: cubics miss 3e-6 then unless e_x has a fold. */
+static const double first_stick = 12, first_slip = 44;
 
 void restitute_table_options_init(restitute_table_options *options)
 {
@@ -165,7 +168,10 @@ static int run(struct rst_builder *b, restitute_table **table, restitute_error *
 static int create(const restitute_scene *scene, const restitute_table_options *options, int threads,
                   struct rst_builder *b, restitute_error *error)
 {
-    *b = (struct rst_builder){.options = *options, .stick = first_stick, .slip = first_slip};
+    const double finer = pow(1e-5 / options->tolerance, 0.25);
+    *b = (struct rst_builder){.options = *options,
+                              .stick = (int64_t)fmax(8, ceil(first_stick * finer)),
+                              .slip = (int64_t)fmax(16, ceil(first_slip * finer))};
     int status = rst_contact_set(scene, &b->contact, error);
     const double chi = b->contact.numbers.chi;
     if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))

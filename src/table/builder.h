@@ -87,16 +87,19 @@ int64_t rst_cost(const struct rst_builder *b, int64_t n);
 /* Put solved columns in their places; on failure they are released. */
 int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
-/* Weights of up to five neighbouring columns for the slopes of column i, all on its side of seams (refine.c). */
+/* Weights of neighbours for a slope (refine.c). */
+enum { rst_most_points = 7 };
 struct rst_stencil {
     int64_t first;
     int n;
-    double w[5];
+    double w[rst_most_points];
 };
+
+/* Those of up to five columns for the slopes of column i, all on its side of seams. */
 void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stencil *s);
 
-/* Slope at i of cells + 1 even values, `stride` apart, by i. */
-double rst_even_slope(const double *f, int64_t stride, int64_t cells, int64_t i);
+/* Slope at i of cells + 1 even values, by i. */
+double rst_even_slope(const double *f, int64_t cells, int64_t i);
 
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);

@@ -83,7 +83,7 @@ static void slopes_by_psi(const double *g, int64_t cells, double *node)
 {
     for (int64_t j = 0; j <= cells; j++) {
         node[4 * j] = g[j];
-        node[4 * j + 2] = rst_even_slope(g, 1, cells, j);
+        node[4 * j + 2] = rst_even_slope(g, cells, j);
     }
 }
 

@@ -3,12 +3,13 @@
 #include "builder.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* Derivative at node i of the polynomial through the five of n nodes around it. */
-static void find_stencil(const double *at, int64_t n, int64_t i, struct rst_stencil *s)
+/* Derivative at node i of the polynomial through the `most` of n nodes around it. */
+static void find_stencil(const double *at, int64_t n, int most, int64_t i, struct rst_stencil *s)
 {
-    s->n = n < 5 ? (int)n : 5;
-    s->first = i < 2 ? 0 : i - 2;
+    s->n = n < most ? (int)n : most;
+    s->first = i < most / 2 ? 0 : i - most / 2;
     if (s->first + s->n > n) s->first = n - s->n;
     const double *x = at + s->first;
     const int here = (int)(i - s->first);
@@ -26,31 +27,44 @@ static void find_stencil(const double *at, int64_t n, int64_t i, struct rst_sten
 
 /* ---- psi */
 
-double rst_even_slope(const double *f, int64_t stride, int64_t cells, int64_t i)
+double rst_even_slope(const double *f, int64_t cells, int64_t i)
 {
-    static const double place[5] = {0, 1, 2, 3, 4};
-    const int64_t first = i < 2 || cells < 5 ? 0 : i + 2 > cells ? cells - 4 : i - 2;
+    static const double place[rst_most_points] = {0, 1, 2, 3, 4, 5, 6};
     struct rst_stencil s;
-    find_stencil(place, cells < 4 ? cells + 1 : 5, i - first, &s);
+    const int64_t n = cells + 1 < rst_most_points ? cells + 1 : rst_most_points, half = n / 2;
+    const int64_t first = i < half ? 0 : i - half > cells + 1 - n ? cells + 1 - n : i - half;
+    find_stencil(place, n, rst_most_points, i - first, &s);
     double sum = 0;
     for (int j = 0; j < s.n; j++)
-        sum += s.w[j] * f[stride * (first + s.first + j)];
+        sum += s.w[j] * f[first + j];
     return sum;
 }
 
-/* Every other node leaves out how much? Half the grid misses that, and the grid itself a part of it. */
+/* The polynomial through f at 0 to n - 1, by Neville's scheme. */
+static double polynomial(const double *f, int n, double x)
+{
+    double p[8];
+    memcpy(p, f, (size_t)n * sizeof *p);
+    for (int k = 1; k < n; k++)
+        for (int j = 0; j + k < n; j++)
+            p[j] = ((x - j) * p[j + 1] - (x - j - k) * p[j]) / k;
+    return p[0];
+}
+
+/* By how much do the cubics miss polynomials of degree 7 in the middles of their cells? These are nearer to e_x by far, but for
+ * kinks, of which both miss alike. */
 double rst_panel_error(const struct rst_builder *b, const struct rst_column *c, int panel)
 {
     const double *f = c->g + (panel ? b->stick + 1 : 0);
-    const int64_t n = (panel ? b->slip : b->stick) / 2;
+    const int64_t n = panel ? b->slip : b->stick;
     double worst = 0;
-    if (n < 4) return 0;
+    if (n < 8) return 0;
     for (int64_t i = 0; i < n; i++) {
-        const double low = rst_even_slope(f, 2, n, i), high = rst_even_slope(f, 2, n, i + 1);
-        const double middle = 0.5 * (f[2 * i] + f[2 * i + 2]) + 0.125 * (low - high);
-        worst = fmax(worst, fabs(middle - f[2 * i + 1]));
+        const int64_t first = i < 3 ? 0 : i > n - 4 ? n - 7 : i - 3;
+        const double middle = 0.5 * (f[i] + f[i + 1]) + 0.125 * (rst_even_slope(f, n, i) - rst_even_slope(f, n, i + 1));
+        worst = fmax(worst, fabs(middle - polynomial(f + first, 8, (double)(i - first) + 0.5)));
     }
-    return rst_gain * worst;
+    return worst;
 }
 
 static int double_panel(struct rst_builder *b, int panel, restitute_error *error)
@@ -110,7 +124,7 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
         high++;
     for (int64_t k = low; k <= high; k++)
         at[k - low] = c[k].at;
-    find_stencil(at, high - low + 1, i - low, s);
+    find_stencil(at, high - low + 1, 5, i - low, s);
     s->first += low;
     if (c[i].normal.ez <= 0) s->n = 0; /* e_z and e_x begin with no slope, and wildly */
 }
