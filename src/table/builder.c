@@ -63,9 +63,7 @@ static int add_columns(struct rst_builder *b, int64_t n, struct rst_task *task, 
                           "max_impacts = %lld: the first columns of a table take %lld; raise it",
                           (long long)b->options.max_impacts, (long long)rst_cost(b, n));
     const int status = rst_solve_tasks(b, n, task, error);
-    if (status) return status;
-    b->impacts += rst_cost(b, n);
-    return rst_insert(b, n, task, error);
+    return status ? status : rst_insert(b, n, task, error);
 }
 
 /* One speed: two columns with the same values. */
@@ -77,7 +75,6 @@ static int start_alone(struct rst_builder *b, restitute_error *error)
         task[i] = (struct rst_task){.column = {.speed = low, .at = rst_axis_place(low, NULL), .checked = {-1, -1}}};
     const int status = rst_solve_tasks(b, 2, task, error);
     if (status) return status;
-    b->impacts += rst_cost(b, 2);
     task[1].column.speed = high;
     task[1].column.at = rst_axis_place(high, NULL);
     return rst_insert(b, 2, task, error);
@@ -122,17 +119,17 @@ static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
     }
     const double at = 0.5 * (low + high);
     struct rst_task task[2];
+    int failed = 0;
     for (int k = 0; k < 2; k++) {
         task[k] = (struct rst_task){
             .column = {.speed = rst_axis_speed(at), .at = at, .normal = normal, .by_speed = 1, .checked = {-1, -1}}};
         task[k].column.normal.ez = 0;
         task[k].column.normal.sunk = k == 0;
-        task[k].column.levels = INT64_MAX;
-        task[k].column.g = calloc((size_t)rst_builder_places(b), sizeof(double));
+        failed |= rst_column_create(b, &task[k].column);
     }
-    if (task[0].column.g && task[1].column.g) return rst_insert(b, 2, task, error);
-    free(task[0].column.g);
-    free(task[1].column.g);
+    if (!failed) return rst_insert(b, 2, task, error);
+    rst_column_destroy(&task[0].column);
+    rst_column_destroy(&task[1].column);
     return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a seam");
 }
 
@@ -170,16 +167,17 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
 {
     const double finer = pow(1e-5 / options->tolerance, 0.25);
     *b = (struct rst_builder){.options = *options,
-                              .stick = (int64_t)fmax(8, ceil(first_stick * finer)),
-                              .slip = (int64_t)fmax(16, ceil(first_slip * finer))};
+                              .first = {(int64_t)fmax(8, ceil(first_stick * finer)),
+                                        (int64_t)fmax(16, ceil(first_slip * finer))}};
     int status = rst_contact_set(scene, &b->contact, error);
     const double chi = b->contact.numbers.chi;
     if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: a table takes [%g, %g]", chi,
                             rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
-    if (b->contact.sliding != RST_SLIDES) b->stick = b->slip = 1;
-    if (2 * chi <= 1) b->slip = 1;
+    if (b->contact.sliding != RST_SLIDES) b->first[0] = b->first[1] = 1;
+    if (2 * chi <= 1) b->first[1] = 1;
+    memcpy(b->cells, b->first, sizeof b->cells);
     b->threads = rst_table_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");
@@ -191,7 +189,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
 static void destroy(struct rst_builder *b)
 {
     for (int64_t i = 0; i < b->columns; i++)
-        free(b->column[i].g);
+        rst_column_destroy(&b->column[i]);
     for (int i = 0; b->solver && i < b->threads; i++)
         rst_column_solver_destroy(&b->solver[i]);
     free(b->column);

@@ -52,7 +52,6 @@ int rst_column_solver_create(const struct rst_contact *contact, double tolerance
     s->options.tolerance = fmax(1e-8, tolerance);
     s->options.max_updates = most_updates;
     s->contact = contact;
-    s->levels = 0;
     s->plan = NULL;
     return rst_done(error);
 }
@@ -96,7 +95,6 @@ static int solve(struct rst_column_solver *s, double psi, restitute_result *resu
     const double sliding = c->sliding == RST_SLIDES ? psi * s->speed / c->numbers.psi : 0;
     const int status = restitute_plan_solve(s->plan, sliding, result, NULL, NULL, &why);
     if (status < 0) return name_place(s->speed, psi, &why, error);
-    if (result->elements > s->levels) s->levels = result->elements;
     return status;
 }
 
@@ -112,15 +110,12 @@ int rst_column_normal(struct rst_column_solver *s, struct rst_column_normal *nor
     return RESTITUTE_OK;
 }
 
-int rst_column_solve(struct rst_column_solver *s, int64_t n, const double *psi, double *ex, double *error_ex,
-                     restitute_error *error)
+int rst_column_solve(struct rst_column_solver *s, double psi, double *ex, double *error_ex, restitute_error *error)
 {
     restitute_result r;
-    for (int64_t i = 0; i < n; i++) {
-        const int status = solve(s, psi[i], &r, error);
-        if (status < 0) return status;
-        ex[i] = r.ex;
-        error_ex[i] = r.error_ex;
-    }
+    const int status = solve(s, psi, &r, error);
+    if (status < 0) return status;
+    *ex = r.ex;
+    *error_ex = r.error_ex;
     return RESTITUTE_OK;
 }

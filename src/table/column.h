@@ -26,7 +26,6 @@ struct rst_column_solver {
     restitute_options options;
     restitute_plan *plan; /* of the column; NULL: none yet */
     double speed;         /* of the column, m/s */
-    int64_t levels;       /* most that an impact took since this was last set to 0 */
 };
 
 int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
@@ -48,8 +47,7 @@ int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error 
 /* Solve psi = 0 of the column that was begun. */
 int rst_column_normal(struct rst_column_solver *s, struct rst_column_normal *normal, restitute_error *error);
 
-/* Solve n places of psi. ex and error_ex: e_x and its estimated error; n may be 0. */
-int rst_column_solve(struct rst_column_solver *s, int64_t n, const double *psi, double *ex, double *error_ex,
-                     restitute_error *error);
+/* Solve one place of psi: e_x and its estimated error. */
+int rst_column_solve(struct rst_column_solver *s, double psi, double *ex, double *error_ex, restitute_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* A table from columns: values, and slopes by five neighbours.
+/* A table from columns: values, and slopes by seven neighbours.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
 
@@ -51,8 +51,8 @@ static void describe(const struct rst_builder *b, struct rst_table_data *d)
                                  .displacement_limit = b->options.displacement_limit,
                                  .terms = (int64_t)restitute_material_terms(m),
                                  .speeds = b->columns,
-                                 .stick_cells = b->stick,
-                                 .slip_cells = b->slip};
+                                 .stick_cells = b->cells[0],
+                                 .slip_cells = b->cells[1]};
     d->psi_factor = c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
     restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL);
     snprintf(d->version, sizeof d->version, "%s", restitute_version());
@@ -96,8 +96,8 @@ static void fill(const struct rst_builder *b, struct rst_table_data *d)
         d->speed[i] = c->speed;
         d->ez[2 * i] = c->normal.ez;
         memcpy(d->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
-        slopes_by_psi(c->g, b->stick, d->ex + 4 * i * places);
-        slopes_by_psi(c->g + b->stick + 1, b->slip, d->ex + 4 * (i * places + b->stick + 1));
+        slopes_by_psi(c->g[0], b->cells[0], d->ex + 4 * i * places);
+        slopes_by_psi(c->g[1], b->cells[1], d->ex + 4 * (i * places + b->cells[0] + 1));
     }
     for (int64_t i = 0; i < b->columns; i++)
         slopes_by_speed(b, i, d);

@@ -1,112 +1,123 @@
-/* Columns of a build, by several threads.
+/* Columns of a build, by several threads. Each is solved at the first places of psi, then where its cubics miss.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
 #include "parallel.h"
 
 #include <stdlib.h>
 
-static double psi_at(const struct rst_builder *b, int64_t place, double ez)
-{
-    if (place <= b->stick) return (double)place / (double)b->stick;
-    const double y = rst_panel_y((double)(place - b->stick - 1) / (double)b->slip);
-    return 1 + y * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez);
-}
-
-/* Value of a place from older values of a coarser grid; NULL: it is to be solved. */
-static const double *known(const struct rst_builder *b, const struct rst_task *t, int64_t place)
-{
-    if (!t->old) return NULL;
-    const int slips = place > b->stick;
-    const int64_t i = slips ? place - b->stick - 1 : place;
-    const int64_t times = slips ? b->slip / t->old_slip : b->stick / t->old_stick;
-    if (i % times != 0) return NULL;
-    return t->old + (slips ? t->old_stick + 1 : 0) + i / times;
-}
-
-/* Places of g that an impact gives: all but the ends of the slip panel, which are e_x at psi = 1, and 0. */
-static int is_solved(const struct rst_builder *b, int64_t place)
-{
-    if (b->contact.sliding == RST_NO_FRICTION) return 0;
-    if (b->contact.sliding == RST_NEVER_SLIPS) return place == 0;
-    return place != b->stick + 1 && place != b->stick + 1 + b->slip;
-}
-
-/* g from e_x. */
-static void set_g(const struct rst_builder *b, struct rst_column *c, int64_t place, double psi, double ex)
-{
-    const double width = (2 * b->contact.numbers.chi - 1) * (1 + c->normal.ez);
-    c->g[place] = place <= b->stick ? ex : psi * ex - (psi - 1) / width * c->normal.ez;
-}
-
 struct work {
     struct rst_builder *b;
     struct rst_task *task;
 };
 
-static int solve_places(const struct rst_builder *b, struct rst_column_solver *s, struct rst_task *t, double *room)
+/* Places along a panel of one column. */
+struct place {
+    const struct rst_builder *b;
+    struct rst_column_solver *solver;
+    struct rst_task *task;
+    int panel;
+};
+
+double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
+{
+    return panel ? 1 + rst_panel_y(x) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez) : x;
+}
+
+/* g at x in [0, 1] of a panel. */
+static int solve_place(void *of, double x, double *g)
+{
+    struct place *p = of;
+    struct rst_column *c = &p->task->column;
+    const double psi = rst_psi_at(p->b, p->panel, x, c->normal.ez);
+    double ex, error;
+    const int status = rst_column_solve(p->solver, psi, &ex, &error, &p->task->why);
+    if (status < 0) return status;
+    c->impacts++;
+    c->solver = fmax(c->solver, error);
+    *g = p->panel ? psi * ex - rst_panel_y(x) * c->normal.ez : ex;
+    return RESTITUTE_OK;
+}
+
+/* The ends of the slip panel are e_x at psi = 1, and 0. */
+static int solve_panel(struct place *p)
+{
+    const struct rst_builder *b = p->b;
+    struct rst_column *c = &p->task->column;
+    int64_t *cells = &c->cells[p->panel];
+    double **g = &c->g[p->panel];
+    int status = RESTITUTE_OK;
+    if (p->panel) (*g)[0] = c->g[0][c->cells[0]];
+    for (int64_t i = p->panel; i <= *cells - p->panel && !status; i++)
+        status = solve_place(p, (double)i / (double)*cells, *g + i);
+    while (!status && 2 * *cells <= rst_finest * b->first[p->panel]) {
+        const double enough = fmax(rst_part_of_axis * b->options.tolerance, c->solver);
+        if (rst_panel_error(*g, *cells) <= enough) break;
+        status = rst_panel_double(g, cells, enough, solve_place, p);
+    }
+    return status;
+}
+
+static int solve_column(const struct rst_builder *b, struct rst_column_solver *s, struct rst_task *t)
 {
     struct rst_column *c = &t->column;
-    const int64_t places = rst_builder_places(b);
-    double *psi = room, *ex = room + places, *error_ex = room + 2 * places;
-    int64_t n = 0;
-    s->levels = 0;
+    struct place p = {b, s, t, 0};
     int status = rst_column_begin(s, c->speed, &t->why);
-    if (!status && !t->old) status = rst_column_normal(s, &c->normal, &t->why);
-    if (status < 0 || c->normal.sunk) return status;
-    for (int64_t i = 0; i < places; i++)
-        if (is_solved(b, i) && !known(b, t, i)) psi[n++] = psi_at(b, i, c->normal.ez);
-    status = rst_column_solve(s, n, psi, ex, error_ex, &t->why);
-    if (status < 0) return status;
-    c->levels = s->levels > c->levels ? s->levels : c->levels;
-    n = 0;
-    for (int64_t i = 0; i < places; i++) {
-        const double *old = known(b, t, i);
-        if (old)
-            c->g[i] = *old;
-        else if (is_solved(b, i)) {
-            c->solver = fmax(c->solver, error_ex[n]);
-            set_g(b, c, i, psi[n], ex[n]);
-            n++;
-        }
+    if (!status) status = rst_column_normal(s, &c->normal, &t->why);
+    c->impacts = 1;
+    if (status < 0 || c->normal.sunk || b->contact.sliding == RST_NO_FRICTION) return status;
+    if (b->contact.sliding == RST_NEVER_SLIPS) {
+        status = solve_place(&p, 0, c->g[0]);
+        c->g[0][1] = c->g[1][0] = c->g[0][0];
+        return status;
     }
-    if (b->contact.sliding == RST_NEVER_SLIPS) c->g[1] = c->g[0];
-    c->g[b->stick + 1] = c->g[b->stick];
-    return RESTITUTE_OK;
+    status = solve_panel(&p);
+    p.panel = 1;
+    return status ? status : solve_panel(&p);
+}
+
+/* Zeros at the first places. */
+int rst_column_create(const struct rst_builder *b, struct rst_column *c)
+{
+    for (int k = 0; k < 2; k++) {
+        c->cells[k] = b->first[k];
+        c->g[k] = calloc((size_t)c->cells[k] + 1, sizeof *c->g[k]);
+    }
+    return c->g[0] && c->g[1] ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY;
+}
+
+void rst_column_destroy(struct rst_column *c)
+{
+    free(c->g[0]);
+    free(c->g[1]);
+    c->g[0] = c->g[1] = NULL;
 }
 
 static void turn(void *of, int thread, int64_t i)
 {
     const struct work *w = of;
     struct rst_task *t = &w->task[i];
-    const size_t places = (size_t)rst_builder_places(w->b);
-    double *room = malloc(3 * places * sizeof *room);
-    t->column.g = calloc(places, sizeof *t->column.g);
-    if (room && t->column.g)
-        t->status = solve_places(w->b, &w->b->solver[thread], t, room);
-    else
-        t->status = rst_report(&t->why, RESTITUTE_ERROR_MEMORY, "out of memory for a column");
-    free(room);
+    t->status = rst_column_create(w->b, &t->column);
+    if (!t->status) t->status = solve_column(w->b, &w->b->solver[thread], t);
+    if (t->status == RESTITUTE_ERROR_MEMORY) rst_report(&t->why, t->status, "out of memory for a column");
 }
 
 int64_t rst_cost(const struct rst_builder *b, int64_t n)
 {
-    return n * (b->contact.sliding == RST_SLIDES ? rst_builder_places(b) - 1 : 2);
+    return n * (b->contact.sliding == RST_SLIDES ? b->first[0] + b->first[1] + 1 : 2);
 }
 
 int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
 {
     struct work w = {b, task};
-    for (int64_t i = 0; i < n; i++)
-        task[i].column.g = NULL;
     rst_table_loop(b->threads, n, turn, &w);
     int status = RESTITUTE_OK;
-    for (int64_t i = n - 1; i >= 0; i--)
+    for (int64_t i = n - 1; i >= 0; i--) {
+        b->impacts += task[i].column.impacts;
         if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail))
             status = rst_report(error, task[i].status, "%s", task[i].why.message);
-    for (int64_t i = 0; status && i < n; i++) {
-        free(task[i].column.g);
-        task[i].column.g = NULL;
     }
+    for (int64_t i = 0; status && i < n; i++)
+        rst_column_destroy(&task[i].column);
     return status;
 }
 
@@ -117,6 +128,20 @@ static int by_place(const void *a, const void *b)
     return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks: faster impacts rebound */
 }
 
+/* All columns have the cells of the finest. */
+static int fill_panels(struct rst_builder *b)
+{
+    int status = RESTITUTE_OK;
+    for (int k = 0; k < 2; k++) {
+        for (int64_t i = 0; i < b->columns; i++)
+            if (b->column[i].cells[k] > b->cells[k]) b->cells[k] = b->column[i].cells[k];
+        for (int64_t i = 0; i < b->columns; i++)
+            while (!status && b->column[i].cells[k] < b->cells[k])
+                status = rst_panel_double(&b->column[i].g[k], &b->column[i].cells[k], 0, NULL, NULL);
+    }
+    return status;
+}
+
 int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
 {
     if (b->columns + n > b->room) {
@@ -124,7 +149,7 @@ int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitut
         struct rst_column *more = realloc(b->column, (size_t)room * sizeof *more);
         if (!more) {
             for (int64_t i = 0; i < n; i++)
-                free(task[i].column.g);
+                rst_column_destroy(&task[i].column);
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld columns", (long long)room);
         }
         b->column = more;
@@ -133,5 +158,6 @@ int rst_insert(struct rst_builder *b, int64_t n, struct rst_task *task, restitut
     for (int64_t i = 0; i < n; i++)
         b->column[b->columns++] = task[i].column;
     qsort(b->column, (size_t)b->columns, sizeof *b->column, by_place);
+    if (fill_panels(b)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for places of psi");
     return RESTITUTE_OK;
 }

@@ -33,9 +33,7 @@ struct work {
 /* A third of the places is in the stick panel, which is smooth. */
 static double psi_of(const struct rst_builder *b, int64_t i, int64_t seed, double ez)
 {
-    const double place = part(0.5 + golden * (double)i + plastic * (double)seed);
-    if (i % 3 == 0) return place;
-    return 1 + rst_panel_y(place) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez);
+    return rst_psi_at(b, i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed), ez);
 }
 
 /* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
@@ -44,15 +42,15 @@ static void bound(const struct rst_builder *b, struct check *c)
 {
     const struct rst_column *above = &b->column[c->cell + 1];
     c->ez = above->normal.ez;
-    for (int64_t i = 0; i < rst_builder_places(b); i++)
-        c->ex = fmax(c->ex, fabs(above->g[i]));
+    for (int panel = 0; panel < 2; panel++)
+        for (int64_t i = 0; i <= b->cells[panel]; i++)
+            c->ex = fmax(c->ex, fabs(above->g[panel][i]));
 }
 
-static int compare(const struct work *w, struct check *c, struct rst_column_solver *s, double *room)
+static int compare(const struct work *w, struct check *c, struct rst_column_solver *s)
 {
     const struct rst_builder *b = w->b;
     const int64_t n = b->contact.sliding == RST_SLIDES ? w->places : b->contact.sliding == RST_NEVER_SLIPS;
-    double *psi = room, *ex = room + w->places, *error_ex = room + 2 * w->places;
     struct rst_column_normal normal;
     restitute_table_value pair;
     int status = rst_column_begin(s, c->speed, &c->why);
@@ -62,29 +60,23 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
         return RESTITUTE_OK;
     }
     if (status < 0) return status;
-    for (int64_t i = 0; i < n; i++)
-        psi[i] = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
-    if (!normal.sunk) status = rst_column_solve(s, n, psi, ex, error_ex, &c->why);
-    if (status < 0) return status;
     rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
     c->ez = fabs(pair.ez - normal.ez) + normal.error;
-    for (int64_t i = 0; i < n && !normal.sunk; i++) {
-        rst_table_evaluate(w->table, c->speed, psi[i], 1, &pair);
-        c->ex = fmax(c->ex, fabs(pair.ex - ex[i]) + error_ex[i]);
+    for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
+        const double psi = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
+        double ex, error_ex;
+        status = rst_column_solve(s, psi, &ex, &error_ex, &c->why);
+        if (status < 0) break;
+        rst_table_evaluate(w->table, c->speed, psi, 1, &pair);
+        c->ex = fmax(c->ex, fabs(pair.ex - ex) + error_ex);
     }
-    return RESTITUTE_OK;
+    return status;
 }
 
 static void turn(void *of, int thread, int64_t i)
 {
     const struct work *w = of;
-    struct check *c = &w->check[i];
-    double *room = malloc(3 * (size_t)w->places * sizeof *room);
-    if (room)
-        c->status = compare(w, c, &w->b->solver[thread], room);
-    else
-        c->status = rst_report(&c->why, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
-    free(room);
+    w->check[i].status = compare(w, &w->check[i], &w->b->solver[thread]);
 }
 
 /* Cells that were not compared yet; or, to look again, those that were found to miss more than `least`. */
@@ -102,25 +94,10 @@ static int64_t plan(const struct rst_builder *b, int round, double least, struct
     return n;
 }
 
-/* Cells that miss the tolerance are to be halved; where psi is to blame, a panel is to be doubled. */
-static void blame(struct rst_builder *b, int64_t i)
-{
-    struct rst_column *c = &b->column[i];
-    double panel[2], worst = fmax(c->checked[0], c->checked[1]);
-    for (int k = 0; k < 2; k++)
-        panel[k] = fmax(rst_panel_error(b, c, k), rst_panel_error(b, c + 1, k));
-    if (c->checked[1] > c->checked[0] && fmax(panel[0], panel[1]) > c->by_speed) {
-        const int k = panel[1] >= panel[0];
-        b->by_psi[k] = fmax(b->by_psi[k], worst);
-    } else
-        c->by_speed = fmax(c->by_speed, worst);
-    c->checked[0] = c->checked[1] = -1;
-}
-
 /* Compare planned cells. */
 static int look(struct rst_builder *b, const restitute_table *table, int round, double least, restitute_error *error)
 {
-    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->stick + b->slip) / 4, round};
+    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->first[0] + b->first[1]) / 4, round};
     if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
     const int64_t n = plan(b, round, least, w.check);
     int status = RESTITUTE_OK;
@@ -149,7 +126,7 @@ static double worst_of(const struct rst_builder *b)
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
 {
     int status = look(b, table, 3 * round, 0, error);
-    for (int again = 1; again < 3 && !status; again++)
+    for (int again = 1; again < 2 && !status; again++)
         status = look(b, table, 3 * round + again, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;
@@ -158,9 +135,9 @@ int rst_verify(struct rst_builder *b, const restitute_table *table, int round, i
         b->error_ez = fmax(b->error_ez, rst_margin * checked[0]);
         b->error_ex = fmax(b->error_ex, rst_margin * both); /* e_z is in (27) */
         if (rst_margin * both <= b->options.tolerance) continue;
-        if (rst_is_costly(b, &b->column[i]) && rst_is_costly(b, &b->column[i + 1])) continue; /* it stays so */
-        ++*missed;
-        blame(b, i);
+        ++*missed; /* to be halved */
+        b->column[i].by_speed = fmax(b->column[i].by_speed, both);
+        b->column[i].checked[0] = b->column[i].checked[1] = -1;
     }
     return status;
 }
