@@ -26,6 +26,8 @@ static const double rst_margin = 1.7;
 static const double rst_look_again = 0.7;
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
+/* So many middles of cells in turn that the cubics meet are enough. */
+enum { rst_probes = 3 };
 /* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
 enum { rst_finest = 4 };
 /* What refinement leaves of the impacts for the checks. */
@@ -98,13 +100,20 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
 /* Slope at i of cells + 1 even values, by i. */
 double rst_even_slope(const double *f, int64_t cells, int64_t i);
 
-/* By how much cubics may miss, between cells + 1 even values. */
-double rst_panel_error(const double *f, int64_t cells);
+/* What gives values at x in [0, 1] of a panel, how well cubics are to meet them, and the most cells. */
+struct rst_places {
+    int (*solve)(void *of, double x, double *g);
+    void *of;
+    double enough;
+    int64_t most;
+};
 
-/* Halve the cells: values in their middles are solved in and beside cells that miss more than `enough`; elsewhere, or all if
- * `solve` is NULL, polynomials give them. */
-typedef int rst_panel_solve(void *of, double x, double *g);
-int rst_panel_double(double **g, int64_t *cells, double enough, rst_panel_solve *solve, void *of);
+/* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled
+ * by polynomials of degree 7. */
+int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places);
+
+/* Halve the cells once, all by polynomials. */
+int rst_panel_fill(double **g, int64_t *cells);
 
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-/* Points of the polynomials that cubics are compared with, and that fill in. */
+/* Points of the polynomials that fill in. */
 enum { points = 8 };
 
 void rst_find_stencil(const double *at, int64_t n, int64_t i, struct rst_stencil *s)
@@ -54,45 +54,85 @@ static double middle_of(const double *f, int64_t cells, int64_t i)
     return p[0];
 }
 
-/* By how much the cubic of cell i misses that polynomial. It is nearer to e_x by far, but for kinks, of which both miss
- * alike. */
-static double miss_of(const double *f, int64_t cells, int64_t i)
+/* The cubic in the middle of cell i. */
+static double cubic_of(const double *f, int64_t cells, int64_t i)
 {
     const double rise = rst_even_slope(f, cells, i) - rst_even_slope(f, cells, i + 1);
-    return fabs(0.5 * (f[i] + f[i + 1]) + 0.125 * rise - middle_of(f, cells, i));
+    return 0.5 * (f[i] + f[i + 1]) + 0.125 * rise;
 }
 
-int rst_panel_double(double **g, int64_t *cells, double enough, rst_panel_solve *solve, void *of)
+/* A cell whose middle may be solved. Marks of cells beside one that misses are infinite, of those that were solved -1. */
+struct middle {
+    double value, mark;
+};
+
+/* The cell that is most in doubt. */
+static int64_t most_doubtful(const struct middle *m, int64_t n)
+{
+    int64_t most = 0;
+    for (int64_t i = 1; i < n; i++)
+        if (m[i].mark > m[most].mark) most = i;
+    return most;
+}
+
+/* Solve middles until those most in doubt are met by the cubics. Where cubic and polynomial differ the cell is in doubt; of a
+ * kink both miss much more, so that this alone tells too little. */
+static int probe(const double *f, int64_t n, struct middle *m, const struct rst_places *of, int *missed)
+{
+    int good = 0, status = RESTITUTE_OK;
+    *missed = 0;
+    for (int64_t i = 0; i < n; i++) {
+        m[i].value = middle_of(f, n, i);
+        m[i].mark = fabs(m[i].value - cubic_of(f, n, i));
+    }
+    for (int64_t tries = 0; tries < n && !status; tries++) {
+        const int64_t i = most_doubtful(m, n);
+        if (good >= rst_probes && !isinf(m[i].mark)) break;
+        status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
+        m[i].mark = -1;
+        if (fabs(m[i].value - cubic_of(f, n, i)) <= of->enough) {
+            good++;
+            continue;
+        }
+        good = 0;
+        *missed = 1;
+        if (i > 0 && m[i - 1].mark >= 0) m[i - 1].mark = INFINITY;
+        if (i + 1 < n && m[i + 1].mark >= 0) m[i + 1].mark = INFINITY;
+    }
+    return status;
+}
+
+/* Halve all cells. */
+static int join(double **g, int64_t *cells, const struct middle *m)
 {
     const int64_t n = *cells;
-    const double *f = *g;
-    int status = RESTITUTE_OK;
-    double *finer = malloc((size_t)(2 * n + 1) * sizeof *finer), *miss = calloc((size_t)n + 2, sizeof *miss);
-    if (!finer || !miss) status = RESTITUTE_ERROR_MEMORY;
-    for (int64_t i = 0; i < n && solve && !status; i++)
-        miss[i + 1] = miss_of(f, n, i);
-    for (int64_t i = 0; i < n && !status; i++) {
-        finer[2 * i] = f[i];
-        finer[2 * i + 1] = middle_of(f, n, i);
-        if (fmax(fmax(miss[i], miss[i + 1]), miss[i + 2]) > enough)
-            status = solve(of, ((double)i + 0.5) / (double)n, &finer[2 * i + 1]);
+    double *finer = malloc((size_t)(2 * n + 1) * sizeof *finer);
+    if (!finer) return RESTITUTE_ERROR_MEMORY;
+    for (int64_t i = 0; i < n; i++) {
+        finer[2 * i] = (*g)[i];
+        finer[2 * i + 1] = m ? m[i].value : middle_of(*g, n, i);
     }
-    free(miss);
-    if (status) {
-        free(finer);
-        return status;
-    }
-    finer[2 * n] = f[n];
+    finer[2 * n] = (*g)[n];
     free(*g);
     *g = finer;
     *cells = 2 * n;
     return RESTITUTE_OK;
 }
 
-double rst_panel_error(const double *f, int64_t cells)
+int rst_panel_fill(double **g, int64_t *cells)
 {
-    double worst = 0;
-    for (int64_t i = 0; i < cells; i++)
-        worst = fmax(worst, miss_of(f, cells, i));
-    return worst;
+    return join(g, cells, NULL);
+}
+
+int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places)
+{
+    int missed = 1, status = RESTITUTE_OK;
+    while (missed && !status && 2 * *cells <= places->most) {
+        struct middle *m = malloc((size_t)*cells * sizeof *m);
+        if (!m) return RESTITUTE_ERROR_MEMORY;
+        status = probe(*g, *cells, m, places, &missed);
+        if (missed && !status) status = join(g, cells, m);
+        free(m);
+    }
+    return status;
 }

@@ -49,11 +49,9 @@ static int solve_panel(struct place *p)
     if (p->panel) (*g)[0] = c->g[0][c->cells[0]];
     for (int64_t i = p->panel; i <= *cells - p->panel && !status; i++)
         status = solve_place(p, (double)i / (double)*cells, *g + i);
-    while (!status && 2 * *cells <= rst_finest * b->first[p->panel]) {
-        const double enough = fmax(rst_part_of_axis * b->options.tolerance, c->solver);
-        if (rst_panel_error(*g, *cells) <= enough) break;
-        status = rst_panel_double(g, cells, enough, solve_place, p);
-    }
+    const struct rst_places places = {solve_place, p, rst_part_of_axis * b->options.tolerance,
+                                      rst_finest * b->first[p->panel]};
+    if (!status) status = rst_panel_refine(g, cells, &places);
     return status;
 }
 
@@ -137,7 +135,7 @@ static int fill_panels(struct rst_builder *b)
             if (b->column[i].cells[k] > b->cells[k]) b->cells[k] = b->column[i].cells[k];
         for (int64_t i = 0; i < b->columns; i++)
             while (!status && b->column[i].cells[k] < b->cells[k])
-                status = rst_panel_double(&b->column[i].g[k], &b->column[i].cells[k], 0, NULL, NULL);
+                status = rst_panel_fill(&b->column[i].g[k], &b->column[i].cells[k]);
     }
     return status;
 }
