@@ -57,8 +57,8 @@ typedef struct restitute_table_options {
     int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
-    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 60000. Checks come on top: in all it is
-                             a tenth more at 60000, twice as many at some hundred. The build gives its best then, with
+    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 10000. Checks come on top: in all it is
+                             a tenth more at 10000, twice as many at some hundred. The build gives its best then, with
                              TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
@@ -91,7 +91,8 @@ typedef void (*restitute_table_progress)(void *data, size_t done, size_t count);
  *  @param scene      all but `material` and `deformable` is used
  *  @param progress   optional; `data` is given to it
  *  @param tables     count (count + 1)/2 tables; that of materials i <= j is tables[j (j + 1)/2 + i]
- *  @return OK; TOLERANCE_NOT_REACHED if any table misses it; if any fails, the first failure, and no table is made
+ *  @return OK; TOLERANCE_NOT_REACHED if any table misses it; if any fails, the first failure, and no table is made:
+ *          those after it are not begun any more
  *
  *      restitute_table *tables[3];                                            // 00, 01, 11
  *      restitute_table_build_many(2, materials, &scene, NULL, NULL, NULL, tables, &error); */
@@ -185,7 +186,7 @@ RESTITUTE_API int restitute_table_pairs(const restitute_table *table, const rest
  *  The bodies may have any size; their chi must be the table's. Positions and speeds are checked as there; positions stay.
  *  What deforms is what the table was built for: the default of a scene is one body, that of @ref restitute_contact both.
  *  A size is a factor on the speed, for solid spheres size^-5: half the size is 32 times the speed in the table. Where that leaves the
- *  table's range its end is taken, so build for speeds that cover the sizes.
+ *  table's range its end is taken, and the message of `error` has that remark. So build for speeds that cover the sizes.
  *
  *  @param contact       NULL: the table's own. Its size is not used, that of the bodies is
  *  @param first,second  in: before, out: after the impact. One may be a plane

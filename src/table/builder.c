@@ -19,7 +19,7 @@ void restitute_table_options_init(restitute_table_options *options)
                                          .speed = {1e-4, 100},
                                          .tolerance = 1e-5,
                                          .threads = 1,
-                                         .max_impacts = 60000,
+                                         .max_impacts = 10000,
                                          .speed_limit = core.speed_limit,
                                          .radius_limit = core.radius_limit,
                                          .displacement_limit = core.displacement_limit};
@@ -176,7 +176,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
                             rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
     if (b->contact.sliding != RST_SLIDES) b->first[0] = b->first[1] = 1;
-    if (2 * chi <= 1) b->first[1] = 1;
+    if (rst_share(chi) <= 0) b->first[1] = 1;
     memcpy(b->cells, b->first, sizeof b->cells);
     b->threads = rst_table_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);

@@ -22,8 +22,8 @@ static const double rst_gain = 0.0625, rst_least_gain = 0.03, rst_most_gain = 0.
 static const double rst_part_of_axis = 0.4;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.7;
-/* Cells that miss more than this part of the worst are compared again at other places, twice. */
-static const double rst_look_again = 0.7;
+/* Cells that miss more than this part of the worst are compared again at other places. */
+static const double rst_look_again = 0.85;
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* So many middles of cells in turn that the cubics meet are enough. */

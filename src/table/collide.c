@@ -4,8 +4,6 @@
 
 #include "../core/two_bodies.h"
 
-/* Sums of rounding; solid spheres of any size have one chi. */
-static const double same_chi = 1e-9;
 /* Times a speed it does not overflow. */
 static const double largest_factor = 1e200;
 
@@ -13,7 +11,7 @@ static int check_chi(const restitute_table *t, const restitute_table_contact *c,
                      const restitute_body *b, restitute_error *error)
 {
     const double nu = t->d.poisson_ratio, chi = (1 - nu) / (2 - nu) * mass * (mobility_of(a) + mobility_of(b));
-    if (isinf(c->psi_factor) || fabs(chi - t->d.chi) <= same_chi * t->d.chi) return RESTITUTE_OK;
+    if (isinf(c->psi_factor) || rst_same_chi(chi, t->d.chi)) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the bodies: must be the table's, %.17g", chi,
                       t->d.chi);
 }
@@ -38,7 +36,12 @@ static int collide(const restitute_table *t, const restitute_table_contact *c, r
     status = restitute_table_pair_of(t, &own, f.approach, f.sliding, pair, NULL);
     if (status) return rst_report(error, status, "contact: not one of restitute_table_contact_of");
     part_with(pair->ez, pair->ex, &f, a, b);
-    return rst_done(error);
+    const double speed = f.approach * own.speed_factor;
+    if (speed >= t->d.low && speed <= t->d.high) return rst_done(error);
+    return rst_report(error, RESTITUTE_OK,
+                      "normal speed in the table = %g m/s (speed_factor %g of the bodies): the table has %g to %g; its end "
+                      "is taken",
+                      speed, own.speed_factor, t->d.low, t->d.high);
 }
 
 int restitute_table_collide(const restitute_table *table, const restitute_table_contact *contact,

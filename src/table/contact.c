@@ -10,7 +10,7 @@ void restitute_table_contact_init(restitute_table_contact *contact)
     *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
 }
 
-/* Both are what the core computes from its material; chi of solid spheres comes by different sums. */
+/* Both are what the core computes from its material. */
 static int alike(double a, double b)
 {
     const double rounding = 1e-12;
@@ -57,7 +57,7 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "scene.material: must be the one the table is for; its times may be longer by one factor and "
                           "its moduli larger by one");
-    if (d->friction > 0 && c->friction > 0 && !alike(c->numbers.chi, d->chi))
+    if (d->friction > 0 && c->friction > 0 && !rst_same_chi(c->numbers.chi, d->chi))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: must be the table's, %.17g",
                           c->numbers.chi, d->chi);
     if ((d->friction <= 0 || isinf(d->friction)) && c->friction != d->friction && c->friction > 0)

@@ -111,7 +111,7 @@ static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
     t->d.modulus = (double *)(void *)place(&next, d->modulus, terms * size);
     t->bin = (uint16_t *)(void *)place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
     t->bytes = (size_t)(next - (char *)t);
-    t->share = fmax(0, 2 * d->chi - 1);
+    t->share = rst_share(d->chi);
     t->of_stick = (double)d->stick_cells;
     t->of_slip = (double)d->slip_cells;
     set_nodes(t);

@@ -24,7 +24,7 @@ static const double rst_least = 0x1p-1000;
 struct restitute_table {
     struct rst_table_data d;
     struct restitute_table_contact own;
-    double share;           /* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z */
+    double share;           /* rst_share(chi) */
     double of_stick, of_slip; /* cells of psi */
     double end;             /* just below s of the last node */
     double bins_per_s;      /* bins are even; a bin knows the cell of its lower end */
@@ -34,6 +34,20 @@ struct restitute_table {
 };
 
 enum { rst_most_bins = 8192, rst_most_speeds = 32768, rst_most_cells = 1024 };
+
+/* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z. A smaller one counts as 0: the slip panel would be narrower than what rounding
+ * leaves of psi - 1, and e_x changes in it by less than that. */
+static inline double rst_share(double chi)
+{
+    const double least = 1e-9;
+    return 2 * chi - 1 > least ? 2 * chi - 1 : 0;
+}
+
+/* Solid spheres of any size have one chi, but for rounding of sums. */
+static inline int rst_same_chi(double a, double b)
+{
+    return fabs(a - b) <= 1e-9 * fabs(b);
+}
 
 /* Highest value of chi that tables take, and lowest. */
 static const double rst_chi_range[2] = {0.3, 1000};

@@ -199,7 +199,7 @@ static void rates_of_ex(const restitute_table *t, const struct spot *at, const s
     } else {
         const double by_y = r->of_psi * rst_panel_slope(at->y) * (double)t->d.slip_cells + at->ez; /* of psi e_x */
         *by_s = (r->of_speed + at->y * r->ez * (1 - by_y / at->full)) * at->q;
-        *by_psi = (by_y / ((2 * t->d.chi - 1) * at->full) - at->raw) * at->q;
+        *by_psi = (by_y / (t->share * at->full) - at->raw) * at->q;
     }
 }
 

@@ -21,6 +21,14 @@ struct work {
     void *data;
     struct job *job;
     size_t done, count;
+    size_t failed; /* first table that failed, of those that are done; count: none */
+};
+
+/* A table to ask about, or one that is done. */
+struct news {
+    struct work *work;
+    size_t k;
+    int goes_on;
 };
 
 /* The materials of table k, i <= j. */
@@ -31,9 +39,18 @@ static void pair_of(size_t k, size_t *i, size_t *j)
     *i = k - *j * (*j + 1) / 2;
 }
 
+/* After a failure tables before it are still built, so that the first failure is the same for any number of threads. */
+static void ask(void *of)
+{
+    struct news *n = of;
+    n->goes_on = n->k < n->work->failed;
+}
+
 static void tell(void *of)
 {
-    struct work *w = of;
+    const struct news *n = of;
+    struct work *w = n->work;
+    if (w->job[n->k].status < 0 && n->k < w->failed) w->failed = n->k;
     w->done++;
     if (w->progress) w->progress(w->data, w->done, w->count);
 }
@@ -44,8 +61,11 @@ static void turn(void *of, int thread, int64_t k)
     struct job *job = &w->job[k];
     restitute_material *unlike = NULL;
     restitute_scene scene = *w->scene;
+    struct news news = {w, (size_t)k, 1};
     size_t i, j;
     (void)thread;
+    rst_table_one_at_a_time(ask, &news);
+    if (!news.goes_on) return;
     pair_of((size_t)k, &i, &j);
     scene.material = w->materials[i];
     scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
@@ -56,17 +76,15 @@ static void turn(void *of, int thread, int64_t k)
     }
     if (job->status >= 0) job->status = rst_build(&scene, w->options, 1, &job->table, &job->why);
     restitute_material_destroy(unlike);
-    rst_table_one_at_a_time(tell, w);
+    rst_table_one_at_a_time(tell, &news);
 }
 
 /* The first failure, else the first remark. */
 static int finish(const struct work *w, restitute_table **tables, restitute_error *error)
 {
-    size_t first = w->count, i, j;
-    for (size_t k = w->count; k-- > 0;)
+    size_t first = w->failed, i, j;
+    for (size_t k = w->count; w->failed == w->count && k-- > 0;)
         if (w->job[k].status > 0) first = k;
-    for (size_t k = w->count; k-- > 0;)
-        if (w->job[k].status < 0) first = k;
     const int status = first < w->count ? w->job[first].status : RESTITUTE_OK;
     for (size_t k = 0; k < w->count; k++)
         if (status < 0)
@@ -96,7 +114,8 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
         if (!materials[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "materials[%zu] is NULL", i);
     int status = rst_check_options(options, error);
     if (status) return status;
-    struct work w = {materials, scene, options, progress, data, NULL, 0, count * (count + 1) / 2};
+    struct work w = {materials, scene, options, progress, data, NULL, 0, count * (count + 1) / 2, 0};
+    w.failed = w.count;
     w.job = calloc(w.count, sizeof *w.job);
     if (!w.job) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu tables", w.count);
     rst_table_loop(options->threads, (int64_t)w.count, turn, &w);

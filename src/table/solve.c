@@ -20,7 +20,7 @@ struct place {
 
 double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
 {
-    return panel ? 1 + rst_panel_y(x) * fmax(0, 2 * b->contact.numbers.chi - 1) * (1 + ez) : x;
+    return panel ? 1 + rst_panel_y(x) * rst_share(b->contact.numbers.chi) * (1 + ez) : x;
 }
 
 /* g at x in [0, 1] of a panel. */
@@ -49,9 +49,8 @@ static int solve_panel(struct place *p)
     if (p->panel) (*g)[0] = c->g[0][c->cells[0]];
     for (int64_t i = p->panel; i <= *cells - p->panel && !status; i++)
         status = solve_place(p, (double)i / (double)*cells, *g + i);
-    const struct rst_places places = {solve_place, p, rst_part_of_axis * b->options.tolerance,
-                                      rst_finest * b->first[p->panel]};
-    if (!status) status = rst_panel_refine(g, cells, &places);
+    const struct rst_places places = {solve_place, p, rst_part_of_axis * b->options.tolerance, rst_finest * *cells};
+    if (!status && *cells > 1) status = rst_panel_refine(g, cells, &places);
     return status;
 }
 

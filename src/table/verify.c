@@ -125,9 +125,8 @@ static double worst_of(const struct rst_builder *b)
 
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
 {
-    int status = look(b, table, 3 * round, 0, error);
-    for (int again = 1; again < 2 && !status; again++)
-        status = look(b, table, 3 * round + again, rst_look_again * worst_of(b), error);
+    int status = look(b, table, 2 * round, 0, error);
+    if (!status) status = look(b, table, 2 * round + 1, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;
     for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
@@ -137,7 +136,6 @@ int rst_verify(struct rst_builder *b, const restitute_table *table, int round, i
         if (rst_margin * both <= b->options.tolerance) continue;
         ++*missed; /* to be halved */
         b->column[i].by_speed = fmax(b->column[i].by_speed, both);
-        b->column[i].checked[0] = b->column[i].checked[1] = -1;
     }
     return status;
 }
