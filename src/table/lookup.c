@@ -57,7 +57,7 @@ static inline void find_psi(const restitute_table *t, double sliding, double v_n
     at->slips = (double)slips;
     at->beyond = (double)(slips & (more >= width));
     at->q = smaller(sliding, v_n) / (larger(sliding, v_n) + rst_least);
-    at->y = larger(smaller(more, width), 0) / (width + rst_least);
+    at->y = at->slips * smaller(more, width) / (width + rst_least);
     const double along =
         at->slips * (rst_panel_place(at->y) * t->of_slip) + (1 - at->slips) * (at->q * t->of_stick);
     const int64_t last = sticks - 1 + slips * (cells - sticks), found = (int64_t)along;
