@@ -56,48 +56,30 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
 
 /* ---- start */
 
-static int add_columns(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
+/* Even columns. A solid without times needs those of the ends alone. */
+static int start(struct rst_builder *b, restitute_error *error)
 {
+    enum { fewest = 5, most = 14 }; /* up to 50 octaves */
+    const double widest = 4;        /* octaves of a first cell: the fewest columns over six decades */
+    const double *speed = b->options.speed, unknown = b->contact.timeless ? 0 : 1;
+    const double low = rst_axis_place(speed[0], NULL), narrowest = low + (fewest - 1) * rst_narrowest;
+    const double high = fmax(rst_axis_place(speed[1], NULL), narrowest); /* the last columns may lie above the range */
+    const int n = b->contact.timeless ? 2 : (int)fmax(fewest, fmin(most, 1 + ceil((high - low) / widest)));
+    struct rst_task task[most];
+    for (int i = 0; i < n; i++) {
+        const double at = low + (high - low) * i / (n - 1);
+        task[i] = (struct rst_task){
+            .column = {.speed = rst_axis_speed(at), .at = at, .by_speed = unknown, .checked = {-1, -1}}};
+    }
+    task[0].column.speed = speed[0];
+    task[n - 1].column.speed = high > narrowest ? speed[1] : fmax(speed[1], rst_axis_speed(high));
+    task[n - 1].column.at = high;
     if (rst_cost(b, n) > b->options.max_impacts)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "max_impacts = %lld: the first columns of a table take %lld; raise it",
                           (long long)b->options.max_impacts, (long long)rst_cost(b, n));
     const int status = rst_solve_tasks(b, n, task, error);
     return status ? status : rst_insert(b, n, task, error);
-}
-
-/* One speed: two columns with the same values. */
-static int start_alone(struct rst_builder *b, restitute_error *error)
-{
-    const double low = b->options.speed[0], high = fmax(2 * low, b->options.speed[1]);
-    struct rst_task task[2];
-    for (int i = 0; i < 2; i++)
-        task[i] = (struct rst_task){.column = {.speed = low, .at = rst_axis_place(low, NULL), .checked = {-1, -1}}};
-    const int status = rst_solve_tasks(b, 2, task, error);
-    if (status) return status;
-    task[1].column.speed = high;
-    task[1].column.at = rst_axis_place(high, NULL);
-    return rst_insert(b, 2, task, error);
-}
-
-static int start(struct rst_builder *b, restitute_error *error)
-{
-    enum { fewest = 5, most = 14 }; /* up to 50 octaves */
-    const double widest = 4;        /* octaves of a first cell: the fewest columns over six decades */
-    const double *speed = b->options.speed;
-    if (b->contact.timeless || speed[0] >= speed[1]) return start_alone(b, error);
-    const double low = rst_axis_place(speed[0], NULL), narrowest = low + (fewest - 1) * rst_narrowest;
-    const double high = fmax(rst_axis_place(speed[1], NULL), narrowest); /* the last columns may lie above the range */
-    const int n = (int)fmax(fewest, fmin(most, 1 + ceil((high - low) / widest)));
-    struct rst_task task[most];
-    for (int i = 0; i < n; i++) {
-        const double at = low + (high - low) * i / (n - 1);
-        task[i] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at, .by_speed = 1, .checked = {-1, -1}}};
-    }
-    task[0].column.speed = speed[0];
-    task[n - 1].column.speed = high > narrowest ? speed[1] : fmax(speed[1], rst_axis_speed(high));
-    task[n - 1].column.at = high;
-    return add_columns(b, n, task, error);
 }
 
 /* ---- seams */
