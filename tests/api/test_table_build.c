@@ -123,6 +123,36 @@ static void narrow_ranges(void **state)
     restitute_material_destroy(material);
 }
 
+/* psi_c is 1 within rounding: there is no panel of slip, and e_x stays continuous. */
+static void hardly_any_partial_slip(void **state)
+{
+    restitute_material *material;
+    restitute_solver *solver;
+    restitute_options precise = to_tolerance(1e-5);
+    const restitute_table_options options = options_of(1);
+    (void)state;
+    restitute_scene scene = ball_on(1, &material);
+    precise.method = restitute_method_sync();
+    assert_int_equal(restitute_solver_create(&precise, &solver, NULL), RESTITUTE_OK);
+    for (int i = 0; i < 3; i++) {
+        const double share = i == 0 ? 0 : i == 1 ? 1e-13 : 1e-8; /* 2 chi - 1 */
+        scene.inertia1 = scene.mass1 * scene.radius1 * scene.radius1 / (1.5 * (1 + share) - 1);
+        restitute_table *table = built(&scene, &options);
+        CHECK(describe(table).slip_cells == 1 || share > 1e-9, "%lld cells", (long long)describe(table).slip_cells);
+        for (int k = -3; k <= 3; k++) {
+            restitute_result r;
+            restitute_result_init(&r);
+            scene.normal_speed = 0.3, scene.tangential_speed = (1 + 1e-8 * k) * 0.3 / PSI_FACTOR;
+            assert_int_equal(restitute_solve_scene(solver, &scene, &r, NULL, NULL, NULL), RESTITUTE_OK);
+            CHECK_NEAR(look_up(table, 0.3, scene.tangential_speed).ex, r.ex, options.tolerance + r.error_ex,
+                       "2 chi - 1 = %g, %d", share, k);
+        }
+        restitute_table_destroy(table);
+    }
+    restitute_solver_destroy(solver);
+    restitute_material_destroy(material);
+}
+
 /* The numbers of a table make the same table; others are refused. */
 static void data_makes_the_same_table(void **state)
 {
@@ -260,10 +290,12 @@ static void many_tables_at_once(void **state)
         restitute_table_destroy(tables[i]);
     tables[0] = NULL;
     scene.radius1 = -1;
-    assert_int_equal(restitute_table_build_many(2, materials, &scene, &options, NULL, NULL, tables, &error),
+    calls = 0; /* the first fails; others are not begun */
+    assert_int_equal(restitute_table_build_many(2, materials, &scene, &alone, count_calls, &calls, tables, &error),
                      RESTITUTE_ERROR_DOMAIN);
     CHECK(strstr(error.message, "materials[0] and [0]: ") && strstr(error.message, "radius1"), "%s", error.message);
     assert_null(tables[0]);
+    assert_int_equal(calls, 1);
     assert_int_equal(restitute_table_build_many(0, materials, &scene, &options, NULL, NULL, tables, &error),
                      RESTITUTE_ERROR_DOMAIN);
     materials[1] = NULL;
@@ -342,7 +374,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(a_child_goes_on_with_one_thread),
         cmocka_unit_test(the_material_may_go),        cmocka_unit_test(narrow_ranges),
-        cmocka_unit_test(data_makes_the_same_table),
+        cmocka_unit_test(hardly_any_partial_slip),    cmocka_unit_test(data_makes_the_same_table),
         cmocka_unit_test(rebound_begins_at_a_seam),   cmocka_unit_test(limits_travel),
         cmocka_unit_test(many_tables_at_once),        cmocka_unit_test(few_impacts_give_an_honest_table),
         cmocka_unit_test(refusals)};

@@ -141,6 +141,23 @@ static void a_wall(void **state)
     CHECK_NEAR(other.ex, pair.ex, 1e-12, "the wall first");
 }
 
+/* A small sphere is a high speed in the table: where its end is taken, the call says so. */
+static void the_end_of_the_table_is_remarked(void **state)
+{
+    restitute_error error;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const double size = i ? 0.1 : 1; /* a tenth: 1e5 times the speed */
+        restitute_body ball, floor;
+        restitute_body_init(&ball);
+        restitute_body_init(&floor);
+        floor.radius = INFINITY, floor.normal[2] = 1;
+        ball.radius = 0.005 * size, ball.mass = 0.004 * pow(size, 3), ball.position[2] = ball.radius, ball.velocity[2] = -0.1;
+        assert_int_equal(restitute_table_collide(table, NULL, &ball, &floor, NULL, &error), RESTITUTE_OK);
+        CHECK((strstr(error.message, "its end is taken") != NULL) == (i == 1), "size %g: \"%s\"", size, error.message);
+    }
+}
+
 static void refuse(restitute_body a, restitute_body b, const restitute_table_contact *contact, const char *text)
 {
     restitute_error error;
@@ -188,6 +205,7 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_solver_does), cmocka_unit_test(momentum_is_conserved),
-                                       cmocka_unit_test(a_wall), cmocka_unit_test(refusals)};
+                                       cmocka_unit_test(a_wall), cmocka_unit_test(the_end_of_the_table_is_remarked),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
