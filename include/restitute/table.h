@@ -57,8 +57,8 @@ typedef struct restitute_table_options {
     int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
-    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 10000. Checks come on top: in all it is
-                             a tenth more at 10000, twice as many at some hundred. The build gives its best then, with
+    int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 12000. Checks come on top: in all it is
+                             a tenth more at 12000, twice as many at some hundred. The build gives its best then, with
                              TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
@@ -66,8 +66,8 @@ typedef struct restitute_table_options {
 /** Prepare with the defaults named above. */
 RESTITUTE_API void restitute_table_options_init(restitute_table_options *options);
 
-/** Build a table of one contact. Over six decades of speed at the default tolerance it takes some thousand to some ten
- *  thousand impacts: hundredths to tenths of a second on one core.
+/** Build a table of one contact. Over six decades of speed at the default tolerance it takes some hundred to ten
+ *  thousand impacts: hundredths of a second to seconds on one core.
  *
  *  @param scene    material, radii, masses, inertias and friction are used; speeds and spins are not
  *  @param options  NULL: the defaults

@@ -38,7 +38,7 @@ static const struct poptOption build_options[] = {
     TEXT(TABLE_SPEED, "FROM:TO", "normal speeds, m/s; default 1e-4:100"),
     TEXT(TABLE_TOLERANCE, "ERROR", "largest error of ez and ex, in [1e-7, 0.1]; default 1e-5"),
     TEXT(TABLE_THREADS, "N", "solve by so many threads, 1 to 1024; default all processors"),
-    TEXT(TABLE_MAX_IMPACTS, "N", "refine until so many impacts are solved; default 10000"),
+    TEXT(TABLE_MAX_IMPACTS, "N", "refine until so many impacts are solved; default 12000"),
     TEXT(TABLE_FIGURE, "FILE.svg|png|pdf", "draw ez and ex too, shaded where the model's limits are passed; needs gnuplot"),
     HELP};
 

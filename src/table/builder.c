@@ -19,7 +19,7 @@ void restitute_table_options_init(restitute_table_options *options)
                                          .speed = {1e-4, 100},
                                          .tolerance = 1e-5,
                                          .threads = 1,
-                                         .max_impacts = 10000,
+                                         .max_impacts = 12000,
                                          .speed_limit = core.speed_limit,
                                          .radius_limit = core.radius_limit,
                                          .displacement_limit = core.displacement_limit};

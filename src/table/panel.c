@@ -75,6 +75,9 @@ static int64_t most_doubtful(const struct middle *m, int64_t n)
     return most;
 }
 
+/* At the ends of a panel slopes and polynomials are one-sided, and tell less of what they miss. */
+static const double one_sided = 10;
+
 /* Solve middles until those most in doubt are met by the cubics. Where cubic and polynomial differ the cell is in doubt; of a
  * kink both miss much more, so that this alone tells too little. */
 static int probe(const double *f, int64_t n, struct middle *m, const struct rst_places *of, int *missed)
@@ -83,14 +86,14 @@ static int probe(const double *f, int64_t n, struct middle *m, const struct rst_
     *missed = 0;
     for (int64_t i = 0; i < n; i++) {
         m[i].value = middle_of(f, n, i);
-        m[i].mark = fabs(m[i].value - cubic_of(f, n, i));
+        m[i].mark = fabs(m[i].value - cubic_of(f, n, i)) * (i == 0 || i == n - 1 ? one_sided : 1);
     }
     for (int64_t tries = 0; tries < n && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
         if (good >= rst_probes && !isinf(m[i].mark)) break;
         status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
         m[i].mark = -1;
-        if (fabs(m[i].value - cubic_of(f, n, i)) <= of->enough) {
+        if (fmax(fabs(m[i].value - cubic_of(f, n, i)), fabs(m[i].value - middle_of(f, n, i))) <= of->enough) {
             good++;
             continue;
         }
