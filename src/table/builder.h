@@ -26,8 +26,8 @@ static const double rst_margin = 1.7;
 static const double rst_look_again = 0.85;
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
-/* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all folds were
- * missed. */
+/* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
+ * folds were missed. */
 enum { rst_probes = 5 };
 /* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
 enum { rst_finest = 4 };
