@@ -289,7 +289,7 @@ int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, d
     if (status) return status;
     restitute_result *results = calloc(f->data.n, sizeof *results);
     struct rst_fit_data data = f->data; /* a copy: only its count of impacts changes */
-    status = results ? rst_fit_solve(&data, &f->search.model, 1, f->result.value, 1, results, error)
+    status = results ? rst_fit_solve_points(&data, &f->search.model, f->result.value, results, error)
                      : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < f->data.n && status >= 0; i++) {
         if (ez) ez[i] = results[i].ez;

@@ -152,39 +152,37 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
     return status;
 }
 
-static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
-                        int tangential, restitute_material *const *solids, restitute_scene *scenes,
-                        restitute_result *results)
+static void make_scenes(const struct rst_fit_model *m, const double *constants, size_t n,
+                        const struct rst_fit_impact *impacts, restitute_material *const *solids,
+                        restitute_scene *scenes, restitute_result *results)
 {
-    for (size_t i = 0; i < d->n; i++) {
-        const restitute_fit_point *p = &d->points[i];
-        scenes[i] = p->scene;
-        scenes[i].material = solids[d->group[i]];
-        if (isnan(p->scene.friction)) scenes[i].friction = m->friction < m->count ? constants[m->friction] : 0;
-        if (isnan(p->ex) && !tangential) scenes[i].friction = 0; /* saves the tangential problem */
+    for (size_t i = 0; i < n; i++) {
+        scenes[i] = impacts[i].scene;
+        scenes[i].material = solids[impacts[i].group];
+        if (isnan(scenes[i].friction)) scenes[i].friction = m->friction < m->count ? constants[m->friction] : 0;
         restitute_result_init(&results[i]);
         results[i].ez = NAN;
     }
 }
 
-int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
-                  int tangential, restitute_result *results, restitute_error *error)
+/* n impacts for every set of constants; one that failed has ez = NaN. */
+static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants, size_t n,
+                 const struct rst_fit_impact *impacts, restitute_result *results, restitute_error *error)
 {
-    restitute_scene *scenes = calloc(sets * d->n, sizeof *scenes);
+    restitute_scene *scenes = calloc(sets * n, sizeof *scenes);
     restitute_material **solids = calloc(sets * d->groups, sizeof *solids);
-    int *statuses = malloc(sets * d->n * sizeof *statuses);
+    int *statuses = malloc(sets * n * sizeof *statuses);
     int status =
         scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     for (size_t s = 0; s < sets && status >= 0; s++) {
-        status = make_solids(d, m, constants + s * m->count, solids + s * d->groups, error);
-        if (status >= 0)
-            make_scenes(d, m, constants + s * m->count, tangential, solids + s * d->groups, scenes + s * d->n,
-                        results + s * d->n);
+        const double *c = constants + s * m->count;
+        status = make_solids(d, m, c, solids + s * d->groups, error);
+        if (status >= 0) make_scenes(m, c, n, impacts, solids + s * d->groups, scenes + s * n, results + s * n);
     }
     if (status >= 0) {
-        status = restitute_solve_scenes(&d->solver, sets * d->n, scenes, results, statuses, d->options.threads, error);
-        d->impacts += (int64_t)(sets * d->n);
-        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK; /* an impact that failed has ez = NaN */
+        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, error);
+        d->impacts += (int64_t)(sets * n);
+        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK;
     }
     for (size_t i = 0; solids && i < sets * d->groups; i++)
         restitute_material_destroy(solids[i]);
@@ -194,11 +192,33 @@ int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t 
     return status;
 }
 
-double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result)
+int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
+                  struct rst_fit_values *values, restitute_error *error)
 {
-    const double value = row->kind == RST_FIT_EZ   ? result->ez
-                         : row->kind == RST_FIT_EX ? result->ex
-                                                   : result->contact_time;
-    if (isnan(result->ez) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    restitute_result *results = malloc(sets * d->needed * sizeof *results);
+    const int status = results ? solve(d, m, sets, constants, d->needed, d->impact, results, error)
+                               : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    for (size_t s = 0; s < sets && status >= 0; s++)
+        rst_fit_values(d, results + s * d->needed, values + s * d->n);
+    free(results);
+    return status;
+}
+
+int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
+                         restitute_result *results, restitute_error *error)
+{
+    struct rst_fit_impact *impacts = calloc(d->n, sizeof *impacts);
+    for (size_t i = 0; impacts && i < d->n; i++)
+        impacts[i].scene = d->points[i].scene, impacts[i].group = d->group[i];
+    const int status = impacts ? solve(d, m, 1, constants, d->n, impacts, results, error)
+                               : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    free(impacts);
+    return status;
+}
+
+double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values)
+{
+    const double value = values->of[row->kind];
+    if (isnan(values->of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
     return (value - row->measured) / row->sigma;
 }

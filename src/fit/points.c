@@ -259,6 +259,7 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
         make_rows(data);
         status = make_groups(data, error);
     }
+    if (!status) status = rst_fit_plan(data, error);
     if (status) rst_fit_data_release(data);
     return status;
 }
@@ -269,5 +270,7 @@ void rst_fit_data_release(struct rst_fit_data *data)
     free(data->row);
     free(data->group);
     free(data->memory);
+    free(data->impact);
+    free(data->place);
     *data = (struct rst_fit_data){0};
 }

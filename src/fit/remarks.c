@@ -162,13 +162,15 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
     static const int bits[] = {RESTITUTE_FLAG_FAST, RESTITUTE_FLAG_LARGE_CONTACT};
     static const char *const ratios[] = {"v/c_s", "a/R"};
     if (!s->model.scaled) return RESTITUTE_OK; /* both ratios need the modulus */
+    restitute_result *results = calloc(s->data->n, sizeof *results);
+    if (!results) return RESTITUTE_ERROR_MEMORY;
     rst_fit_constants(&s->model, s->logs, s->sets);
-    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve_points(s->data, &s->model, s->sets, results, NULL);
     for (int b = 0; b < 2 && status >= 0; b++) {
         size_t count = 0;
         double worst = 0;
         for (size_t i = 0; i < s->data->n; i++) {
-            const restitute_result *r = &s->results[i];
+            const restitute_result *r = &results[i];
             if (!(r->flags & bits[b])) continue;
             count++;
             worst = fmax(worst, b ? r->radius_ratio : r->speed_ratio);
@@ -178,6 +180,7 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
                            "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s", count, s->data->n,
                            ratios[b], worst, restitute_flag_text(bits[b]));
     }
+    free(results);
     return status;
 }
 

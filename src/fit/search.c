@@ -27,8 +27,8 @@ int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model 
     *s = (struct rst_fit_search){.data = data, .model = *model, .weight = weight, .starts = starts, .sum = INFINITY};
     s->start = calloc(starts * model->free + 1, sizeof *s->start);
     s->sets = calloc(sets * model->count, sizeof *s->sets);
-    s->results = calloc(sets * data->n, sizeof *s->results);
-    if (s->start && s->sets && s->results) return RESTITUTE_OK;
+    s->values = calloc(sets * data->n, sizeof *s->values);
+    if (s->start && s->sets && s->values) return RESTITUTE_OK;
     rst_fit_search_release(s);
     return RESTITUTE_ERROR_MEMORY;
 }
@@ -37,21 +37,21 @@ void rst_fit_search_release(struct rst_fit_search *s)
 {
     free(s->start);
     free(s->sets);
-    free(s->results);
+    free(s->values);
     *s = (struct rst_fit_search){0};
 }
 
 static double weighted(const struct rst_fit_search *s, size_t row, size_t set)
 {
     const struct rst_fit_row *r = &s->data->row[row];
-    return sqrt(s->weight[row]) * rst_fit_residual(r, &s->results[set * s->data->n + r->point]);
+    return sqrt(s->weight[row]) * rst_fit_residual(r, &s->values[set * s->data->n + r->point]);
 }
 
 static int residuals(void *own, const double *x, double *r)
 {
     struct rst_fit_search *s = own;
     rst_fit_constants(&s->model, x, s->sets);
-    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, s->values, NULL);
     for (size_t i = 0; i < s->data->rows; i++)
         r[i] = weighted(s, i, 0);
     return status;
@@ -67,7 +67,7 @@ static int jacobian(void *own, const double *x, double *j)
         moved[k / 2] += k % 2 ? STEP : -STEP;
         rst_fit_constants(&s->model, moved, s->sets + k * s->model.count);
     }
-    const int status = rst_fit_solve(s->data, &s->model, 2 * p, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, 2 * p, s->sets, s->values, NULL);
     for (size_t i = 0; i < s->data->rows; i++)
         for (size_t k = 0; k < p; k++) {
             const double low = weighted(s, i, 2 * k), high = weighted(s, i, 2 * k + 1);
@@ -93,7 +93,7 @@ static int solve_scan(struct rst_fit_search *s, gsl_qrng *sequence, double *sums
         for (size_t k = 0; k < m->free; k++)
             x[k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
         rst_fit_constants(m, x, s->sets);
-        status = rst_fit_solve(s->data, m, 1, s->sets, 0, s->results, NULL);
+        status = rst_fit_solve(s->data, m, 1, s->sets, s->values, NULL);
         for (size_t r = 0; r < s->data->rows; r++)
             sums[i] += pow(weighted(s, r, 0), 2);
     }

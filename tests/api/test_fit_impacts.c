@@ -183,6 +183,43 @@ static void robust_losses_bear_outliers(void **state)
     restitute_material_destroy(solid);
 }
 
+/* Of many points most lie between impacts. With all constants known nothing is fitted, so rms is the difference from their
+ * own impacts: of three spheres, over five decades of speed. Maxwell's e falls to 0 there, which bends most. */
+static void many_points_are_interpolated(void **state)
+{
+    enum { MANY = 300 };
+    static const double known[][6] = {
+        {0},
+        {1e6},
+        {1e6, 300},
+        {1e6, 3e6, 300},
+        {1e6, 3000},
+        {1e6, 2e6, 1e6, 1e6, 5e5, 5e5},
+    };
+    static const double tau[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+    static restitute_fit_point points[MANY];
+    (void)state;
+    for (int model = RESTITUTE_FIT_KELVIN_VOIGT; model <= RESTITUTE_FIT_PRONY; model++) {
+        restitute_material *solid = NULL;
+        restitute_fit_options options = fit_options(model);
+        options.terms = 5, options.relaxation_time = tau, options.known = known[model];
+        const double *c = known[model];
+        if (model == RESTITUTE_FIT_KELVIN_VOIGT) solid = kelvin_voigt(c[0], c[1]);
+        if (model == RESTITUTE_FIT_STANDARD_SOLID) solid = standard_solid(c[0], c[1], c[2]);
+        if (model == RESTITUTE_FIT_MAXWELL) restitute_material_maxwell(c[0], c[1], 0.5, &solid, NULL);
+        if (model == RESTITUTE_FIT_PRONY) restitute_material_prony(c[0], 0, 5, tau, c + 1, 0.5, &solid, NULL);
+        drops(MANY, 1e-4, 10, points);
+        for (size_t i = 0; i < MANY; i++)
+            if (i % 3) points[i].scene.radius1 *= (double)(1 + i % 3), points[i].scene.mass1 *= 10;
+        measure(solid, MANY, points, 0, model != RESTITUTE_FIT_MAXWELL, 0, 1);
+        restitute_fit_result r = fitted(MANY, points, &options);
+        CHECK(r.rms < 1e-5, "model %d: rms %g", model, r.rms); /* a hundredth of what any drop test measures */
+        CHECK(r.impacts < 2 * MANY, "model %d: %d impacts", model, (int)r.impacts);
+        restitute_material_destroy(r.material);
+        restitute_material_destroy(solid);
+    }
+}
+
 /* Two radii, an elastic partner, angles, friction not given: 0.3 in measure(). */
 static void spheres_partners_and_friction(void **state)
 {
@@ -329,6 +366,7 @@ int main(void)
                                        cmocka_unit_test(ambiguous_data_are_recognised),
                                        cmocka_unit_test(a_wrong_model_is_called_wrong),
                                        cmocka_unit_test(robust_losses_bear_outliers),
+                                       cmocka_unit_test(many_points_are_interpolated),
                                        cmocka_unit_test(spheres_partners_and_friction),
                                        cmocka_unit_test(temperatures),
                                        cmocka_unit_test(refusals),
