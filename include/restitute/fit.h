@@ -186,7 +186,8 @@ typedef struct restitute_dma_result {
     double temperature[RESTITUTE_DMA_SHIFTS], shift[RESTITUTE_DMA_SHIFTS]; /**< a_T: times are multiplied by it */
     double wlf_c1, wlf_c2; /**< given, or fitted to the shifts; NaN: fewer than three temperatures, or no such law */
     double rms, worst;     /**< relative residuals of the moduli: root mean square and largest */
-    int flags; /**< MISFIT: worst residuals far above the noise; UNDETERMINED: temperatures do not overlap */
+    int flags; /**< MISFIT: rms far above the noise; UNDETERMINED: temperatures do not overlap, or
+                               all frequencies lie within a decade */
     char remarks[1000];
     restitute_material *material; /**< for restitute_material_destroy */
 } restitute_dma_result;

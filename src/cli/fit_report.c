@@ -127,26 +127,31 @@ static void text_result(FILE *stream, const struct fit_settings *s, const restit
             r->rms, r->noise, r->rank, wanted, (long long)r->impacts);
 }
 
-/* Report on standard output; material and record, both or none. Takes over the objects. */
+static void write_json(struct output *output, json_t *json)
+{
+    json_dumpf(json, output->stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    fputc('\n', output->stream);
+}
+
+/* Material and record, both or none; the report on standard output last, when all else has found room. Takes over the
+ * objects. */
 static bool write_files(const struct fit_settings *s, const char *report, json_t *file, json_t *result,
                         struct reason *why)
 {
-    struct output outputs[3] = {{0}};
+    struct output outputs[3] = {{0}}, *standard = &outputs[2];
     const struct settings line = {.argument_count = s->argument_count, .arguments = s->arguments};
     const char *path = s->text[FIT_OUTPUT];
-    bool good = output_open(NULL, &outputs[0], why);
-    if (good && s->json) {
-        json_dumpf(result, outputs[0].stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-        fputc('\n', outputs[0].stream);
-    } else if (good)
-        fputs(report, outputs[0].stream);
-    if (good && path && (good = output_open(path, &outputs[1], why))) {
-        json_dumpf(file, outputs[1].stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-        fputc('\n', outputs[1].stream);
+    bool good = output_open(NULL, standard, why);
+    if (good && s->json)
+        write_json(standard, result);
+    else if (good)
+        fputs(report, standard->stream);
+    if (good && path && (good = output_open(path, &outputs[0], why))) {
+        write_json(&outputs[0], file);
         json_t *settings = json_pack("{s:s, s:s}", "version", restitute_version(), "input", source_of(s));
         json_t *record = provenance_record(&line, settings, json_object());
         json_object_set(record, "fit", result);
-        good = provenance_open_beside(path, record, &outputs[2], why);
+        good = provenance_open_beside(path, record, &outputs[1], why);
     }
     json_decref(file);
     json_decref(result);

@@ -158,6 +158,22 @@ static void first_shifts(struct rst_dma *d, const restitute_dma_options *o, rest
     strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
 }
 
+/* A term's loss peak is 1.14 decades wide at half height: rows within one decade cannot place it. */
+static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
+{
+    double low = INFINITY, high = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        const double reduced = d->omega[i] * exp(d->shift[d->group[i]]);
+        low = fmin(low, reduced), high = fmax(high, reduced);
+    }
+    if (high >= 10 * low) return;
+    const size_t used = strlen(r->remarks);
+    r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    snprintf(r->remarks + used, sizeof r->remarks - used,
+             "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or more\n",
+             high / low);
+}
+
 /* c1, c2 of log10 a (c2 + dT) = -c1 dT by linear least squares over the temperatures but the reference. */
 static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
 {
@@ -191,6 +207,7 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
     r->rms = sqrt(r->rms);
     r->wlf_c1 = o->wlf_c1, r->wlf_c2 = o->wlf_c2;
     if (isnan(o->wlf_c1)) find_wlf(d, r);
+    remark_range(d, r);
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
         r->flags |= RESTITUTE_FIT_MISFIT;

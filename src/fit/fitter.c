@@ -67,6 +67,7 @@ static void add_rivals(restitute_fitter *f)
     const double *k = f->search.model.known, *c = f->start;
     const int kind = f->search.model.kind;
     rst_fit_constants(&f->search.model, f->search.logs, f->start);
+    if (f->search.model.free == 0) add_rival(f, kind, NULL, f->start, 1); /* are the known constants right? */
     if (kind == RESTITUTE_FIT_STANDARD_SOLID) {
         const double kv[] = {k[0], k[2]}, kv_start[] = {c[0], c[2]}, maxwell[] = {k[1], k[2]},
                      maxwell_start[] = {c[0] + c[1], c[2]};
@@ -78,9 +79,9 @@ static void add_rivals(restitute_fitter *f)
         if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_ELASTIC, k, c, 1);
         add_rival(f, RESTITUTE_FIT_STANDARD_SOLID, known, start, 10);
     } else if (kind == RESTITUTE_FIT_ELASTIC) {
-        struct rst_fit_model *m = &f->rival[0].model; /* for the scale of a viscosity */
-        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, m);
-        const double known[] = {k[0], NAN}, start[] = {c[0], exp(m->centre[1])};
+        struct rst_fit_model damped; /* for the scale of a viscosity */
+        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, &damped);
+        const double known[] = {k[0], NAN}, start[] = {c[0], exp(damped.centre[1])};
         add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, known, start, 0.1);
     } else
         add_shorter_series(f);

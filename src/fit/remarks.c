@@ -184,8 +184,9 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
     return status;
 }
 
-static const char *kind_text(const struct rst_fit_model *m)
+static const char *kind_text(const struct rst_fit_model *m, int ours)
 {
+    if (m->kind == ours && m->free == m->count) return "the same model with other constants";
     static const char *const texts[] = {"",
                                         "an elastic solid",
                                         "a Kelvin-Voigt solid",
@@ -213,9 +214,9 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_c
     if (simpler && chance > SIMPLER_FROM)
         rst_fit_remark(result, RESTITUTE_FIT_SIMPLER,
                        "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
-                       kind_text(&rival->model), sqrt(worse / rows), sqrt(better / rows));
+                       kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)
         rst_fit_remark(result, RESTITUTE_FIT_MISFIT,
                        "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
-                       kind_text(&rival->model), sqrt(better / rows), sqrt(worse / rows));
+                       kind_text(&rival->model, s->model.kind), sqrt(better / rows), sqrt(worse / rows));
 }

@@ -159,6 +159,15 @@ static void a_wrong_model_is_called_wrong(void **state)
     assert_non_null(strstr(r.remarks, "a standard solid fits better"));
     CHECK(r.flags & RESTITUTE_FIT_LIMITS, "a/R up to 0.8: %s", r.remarks);
     restitute_material_destroy(r.material);
+    for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, where nothing is left to fit */
+        const double known[] = {1e6, 3e6, wrong ? 350 : 300};
+        restitute_fit_options all = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+        all.known = known;
+        r = fitted(N, points, &all);
+        CHECK(!(r.flags & RESTITUTE_FIT_MISFIT) == !wrong, "%g: %s", known[2], r.remarks);
+        CHECK(!strstr(r.remarks, "the same model with other constants fits better") == !wrong, "%s", r.remarks);
+        restitute_material_destroy(r.material);
+    }
     restitute_material_destroy(solid);
 }
 
