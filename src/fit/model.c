@@ -136,15 +136,15 @@ int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, c
 
 /* The solids of a set, one a group; with the partner's where it has a material of its own. */
 static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
-                       restitute_material **solids, restitute_error *error)
+                       restitute_material **solids)
 {
     int status = RESTITUTE_OK;
     for (size_t g = 0; g < d->groups && status >= 0; g++) {
         const restitute_fit_point *p = &d->points[d->first[g]];
         restitute_material *own = NULL;
-        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, error);
+        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, NULL);
         if (status >= 0 && p->scene.material) {
-            status = restitute_material_pair(own, p->scene.material, &solids[g], error);
+            status = restitute_material_pair(own, p->scene.material, &solids[g], NULL);
             restitute_material_destroy(own);
         } else
             solids[g] = own;
@@ -167,20 +167,19 @@ static void make_scenes(const struct rst_fit_model *m, const double *constants, 
 
 /* n impacts for every set of constants; one that failed has ez = NaN. */
 static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants, size_t n,
-                 const struct rst_fit_impact *impacts, restitute_result *results, restitute_error *error)
+                 const struct rst_fit_impact *impacts, restitute_result *results)
 {
     restitute_scene *scenes = calloc(sets * n, sizeof *scenes);
     restitute_material **solids = calloc(sets * d->groups, sizeof *solids);
     int *statuses = malloc(sets * n * sizeof *statuses);
-    int status =
-        scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    int status = scenes && solids && statuses ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY;
     for (size_t s = 0; s < sets && status >= 0; s++) {
         const double *c = constants + s * m->count;
-        status = make_solids(d, m, c, solids + s * d->groups, error);
+        status = make_solids(d, m, c, solids + s * d->groups);
         if (status >= 0) make_scenes(m, c, n, impacts, solids + s * d->groups, scenes + s * n, results + s * n);
     }
     if (status >= 0) {
-        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, error);
+        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, NULL);
         d->impacts += (int64_t)(sets * n);
         if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK;
     }
@@ -193,11 +192,11 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
 }
 
 int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
-                  struct rst_fit_values *values, restitute_error *error)
+                  struct rst_fit_values *values)
 {
     restitute_result *results = malloc(sets * d->needed * sizeof *results);
-    const int status = results ? solve(d, m, sets, constants, d->needed, d->impact, results, error)
-                               : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    const int status =
+        results ? solve(d, m, sets, constants, d->needed, d->impact, results) : RESTITUTE_ERROR_MEMORY;
     for (size_t s = 0; s < sets && status >= 0; s++)
         rst_fit_values(d, results + s * d->needed, values + s * d->n);
     free(results);
@@ -205,13 +204,12 @@ int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t 
 }
 
 int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
-                         restitute_result *results, restitute_error *error)
+                         restitute_result *results)
 {
     struct rst_fit_impact *impacts = calloc(d->n, sizeof *impacts);
     for (size_t i = 0; impacts && i < d->n; i++)
         impacts[i].scene = d->points[i].scene, impacts[i].group = d->group[i];
-    const int status = impacts ? solve(d, m, 1, constants, d->n, impacts, results, error)
-                               : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    const int status = impacts ? solve(d, m, 1, constants, d->n, impacts, results) : RESTITUTE_ERROR_MEMORY;
     free(impacts);
     return status;
 }

@@ -85,11 +85,11 @@ int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *m
 
 /* What `sets` sets of constants give at every point: values[set * n + point]. e_z is NaN where an impact failed. */
 int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, size_t sets, const double *constants,
-                  struct rst_fit_values *values, restitute_error *error);
+                  struct rst_fit_values *values);
 
 /* Every point by an impact of its own, with friction, whatever was measured. */
 int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
-                         restitute_result *results, restitute_error *error);
+                         restitute_result *results);
 
 /* Weighted residual of a row. */
 double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values);

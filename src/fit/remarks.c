@@ -165,7 +165,7 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
     restitute_result *results = calloc(s->data->n, sizeof *results);
     if (!results) return RESTITUTE_ERROR_MEMORY;
     rst_fit_constants(&s->model, s->logs, s->sets);
-    const int status = rst_fit_solve_points(s->data, &s->model, s->sets, results, NULL);
+    const int status = rst_fit_solve_points(s->data, &s->model, s->sets, results);
     for (int b = 0; b < 2 && status >= 0; b++) {
         size_t count = 0;
         double worst = 0;

@@ -51,7 +51,7 @@ static int residuals(void *own, const double *x, double *r)
 {
     struct rst_fit_search *s = own;
     rst_fit_constants(&s->model, x, s->sets);
-    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, s->values, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
         r[i] = weighted(s, i, 0);
     return status;
@@ -67,7 +67,7 @@ static int jacobian(void *own, const double *x, double *j)
         moved[k / 2] += k % 2 ? STEP : -STEP;
         rst_fit_constants(&s->model, moved, s->sets + k * s->model.count);
     }
-    const int status = rst_fit_solve(s->data, &s->model, 2 * p, s->sets, s->values, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, 2 * p, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
         for (size_t k = 0; k < p; k++) {
             const double low = weighted(s, i, 2 * k), high = weighted(s, i, 2 * k + 1);
@@ -93,7 +93,7 @@ static int solve_scan(struct rst_fit_search *s, gsl_qrng *sequence, double *sums
         for (size_t k = 0; k < m->free; k++)
             x[k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
         rst_fit_constants(m, x, s->sets);
-        status = rst_fit_solve(s->data, m, 1, s->sets, s->values, NULL);
+        status = rst_fit_solve(s->data, m, 1, s->sets, s->values);
         for (size_t r = 0; r < s->data->rows; r++)
             sums[i] += pow(weighted(s, r, 0), 2);
     }

@@ -196,7 +196,7 @@ static void robust_losses_bear_outliers(void **state)
  * own impacts: of three spheres, over five decades of speed. Maxwell's e falls to 0 there, which bends most. */
 static void many_points_are_interpolated(void **state)
 {
-    enum { MANY = 300 };
+    enum { MANY = 120 };
     static const double known[][6] = {
         {0},
         {1e6},
@@ -223,7 +223,7 @@ static void many_points_are_interpolated(void **state)
         measure(solid, MANY, points, 0, model != RESTITUTE_FIT_MAXWELL, 0, 1);
         restitute_fit_result r = fitted(MANY, points, &options);
         CHECK(r.rms < 1e-5, "model %d: rms %g", model, r.rms); /* a hundredth of what any drop test measures */
-        CHECK(r.impacts < 2 * MANY, "model %d: %d impacts", model, (int)r.impacts);
+        CHECK(r.impacts < 3 * MANY, "model %d: %d impacts", model, (int)r.impacts); /* six sets by themselves */
         restitute_material_destroy(r.material);
         restitute_material_destroy(solid);
     }
