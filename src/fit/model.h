@@ -65,6 +65,9 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
                         struct rst_fit_data *data, restitute_error *error);
 void rst_fit_data_release(struct rst_fit_data *data);
 
+/* A value out of its range is refused by its name; NaN is. */
+int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error);
+
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
 

@@ -13,17 +13,20 @@
  * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
 static const double STEP = 0.1;
 
-/* T of every point, apart from a factor of its group: with the same modulus for all. */
+/* T of every point, apart from a factor of its group: with the same modulus for all. The core checks the scene. */
 static int find_times(struct rst_fit_data *d, restitute_error *error)
 {
     restitute_material *any = NULL;
     restitute_numbers numbers;
+    restitute_error inner;
     int status = restitute_material_elastic(1, 0.5, &any, error);
     restitute_numbers_init(&numbers);
     for (size_t i = 0; i < d->n && status >= 0; i++) {
         restitute_scene scene = d->points[i].scene;
-        scene.material = any, scene.friction = 0;
-        status = restitute_scene_numbers(&scene, &numbers, error);
+        scene.material = any;
+        if (isnan(scene.friction)) scene.friction = 0.5;
+        status = restitute_scene_numbers(&scene, &numbers, &inner);
+        if (status < 0) rst_report(error, status, "points[%zu]: %s", i, inner.message);
         d->place[i].time = numbers.time;
     }
     restitute_material_destroy(any);
