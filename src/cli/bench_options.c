@@ -136,7 +136,7 @@ static bool take_campaign(char **text, struct bench_settings *settings, struct r
         !option_number("seed", text[TEXT_SEED], 0, 4294967295.0, true, &seed, why) ||
         !option_shard(text[TEXT_SHARD], &campaign->shard, &campaign->shards, why))
         return false;
-    if (campaign->shard > sets)
+    if ((double)campaign->shard > sets)
         return refuse(why, "--shard = \"%.64s\": is empty, the impacts are %g", text[TEXT_SHARD], sets);
     if ((int)grid % 2) return refuse(why, "--grid = %g: must be even", grid);
     campaign->sets = (long)sets;

@@ -1,5 +1,5 @@
 /* Which impacts are solved for a set of constants, and how the values of all points follow from them.
- * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md). So where
+ * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md, 2). So where
  * many points measure no e_x, a few impacts evenly spaced in log T are solved, and the points lie between these.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
