@@ -13,37 +13,26 @@ static const double widest = 18.4; /* ln 1e8 */
 /* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
 static const double elastic_time = 2.9432751843;
 
-/* The modulus that gives a point its contact time if it were elastic, by (24): a_el = sqrt(T R v). */
-static double modulus_of_time(const restitute_scene *s, double nu, double contact_time)
-{
-    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
-    return 15 * m * v * v * r * r * (1 - nu) / (32 * pow(contact_time / elastic_time * r * v, 2.5));
-}
-
-static double time_of_modulus(const restitute_scene *s, double nu, double modulus)
-{
-    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
-    return pow(15 * m * v * v * r * r * (1 - nu) / (32 * modulus), 0.4) / (r * v);
-}
-
-/* Scale of the moduli and of time: from contact times, else from a known modulus, else 1 MPa. */
+/* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. The plan has T for
+ * 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, double *modulus, double *time)
 {
+    const double softness = 2 * (1 - d->options.poisson_ratio);
     double logs = 0, times = 0;
     size_t n = 0;
     const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
-    for (size_t i = 0; i < d->n; i++)
-        if (!isnan(d->points[i].contact_time))
-            logs += log(modulus_of_time(&d->points[i].scene, d->options.poisson_ratio, d->points[i].contact_time)), n++;
+    for (size_t i = 0; i < d->n; i++) {
+        const double t = d->place[i].time, contact_time = d->points[i].contact_time;
+        times += log(t) / (double)d->n;
+        if (!isnan(contact_time)) logs += log(softness * pow(elastic_time * t / contact_time, 2.5)), n++;
+    }
     for (size_t i = 0; n == 0 && i < moduli; i++)
         if (m->known[i] > 0) logs = log(m->known[i]), n = 1;
     m->scaled = n > 0;
     for (size_t i = 0; i < m->solid; i++)
         m->scaled |= m->known[i] > 0;
     *modulus = n ? exp(logs / (double)n) : 1e6;
-    for (size_t i = 0; i < d->n; i++)
-        times += log(time_of_modulus(&d->points[i].scene, d->options.poisson_ratio, *modulus)) / (double)d->n;
-    *time = exp(times);
+    *time = exp(times) * pow(softness / *modulus, 0.4);
 }
 
 /* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
