@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The component fit of restitute for Fortran: all that fit.h declares, under the same names. fit.h is the manual.
+!> The component fit of restitute for Fortran: all that fit.h declares but restitute_fitter_values, under the same
+!> names. fit.h is the manual.
 !> Arrays know their size, optional arguments are optional; names and remarks come as Fortran texts.
 !>
 !>     use restitute

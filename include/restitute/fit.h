@@ -18,7 +18,8 @@
  *  e_x; the constants are reported as not determined, and the remarks say which of them may change together.
  *
  *  How. Nonlinear least squares in the logarithms of the constants (GSL's trust region), from several starts that are
- *  chosen by a quasi-random scan. The forward model is the method `sync` (@ref restitute_solve_scenes). Intervals are
+ *  chosen by a quasi-random scan. The forward model is the method `sync` (@ref restitute_solve_scenes); many points
+ *  without e_x are interpolated between impacts evenly spaced in log T, within 1e-5. Intervals are
  *  those of the linearised problem with Student's t. Without standard deviations all values of e count alike, contact
  *  times by their relative error, and the noise is estimated from the residuals. Equal input gives equal bits.
  *
@@ -186,7 +187,8 @@ typedef struct restitute_dma_result {
     double temperature[RESTITUTE_DMA_SHIFTS], shift[RESTITUTE_DMA_SHIFTS]; /**< a_T: times are multiplied by it */
     double wlf_c1, wlf_c2; /**< given, or fitted to the shifts; NaN: fewer than three temperatures, or no such law */
     double rms, worst;     /**< relative residuals of the moduli: root mean square and largest */
-    int flags; /**< MISFIT: worst residuals far above the noise; UNDETERMINED: temperatures do not overlap */
+    int flags; /**< MISFIT: rms far above the noise; UNDETERMINED: temperatures do not overlap, or
+                               all frequencies lie within a decade */
     char remarks[1000];
     restitute_material *material; /**< for restitute_material_destroy */
 } restitute_dma_result;

@@ -280,12 +280,12 @@ int bench_main(int count, char **arguments)
     struct bench_settings settings;
     struct reason why;
     int status = EXIT_DONE;
-    const enum bench_reading reading = bench_options_read(count, arguments, &settings);
-    if (reading == BENCH_FAILED) {
+    const enum reading reading = bench_options_read(count, arguments, &settings);
+    if (reading == READING_FAILED) {
         status = EXIT_USAGE;
-    } else if (reading == BENCH_GO_ON && !check_places(&settings, &why)) {
+    } else if (reading == READING_GO_ON && !check_places(&settings, &why)) {
         status = complain("%s", why.text);
-    } else if (reading == BENCH_GO_ON) {
+    } else if (reading == READING_GO_ON) {
         catch_signals();
         status = settings.mode == MODE_OMISSIONS   ? omissions_run(&settings)
                  : settings.mode == MODE_STABILITY ? bench_map_run(&settings)

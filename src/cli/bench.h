@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "arguments.h"
 #include "message.h"
 #include "precision.h"
 
@@ -15,7 +16,8 @@ enum bench_mode { MODE_PRECISION, MODE_OMISSIONS, MODE_STABILITY, MODE_BEM };
 struct bench_campaign {
     long sets;
     unsigned seed;
-    int grid, shard, shards;
+    int grid;
+    size_t shard, shards;
     char *join; /* files of finished shards, by commas; NULL: none */
 };
 
@@ -31,10 +33,8 @@ struct bench_settings {
     const char *const *arguments;
 };
 
-enum bench_reading { BENCH_GO_ON, BENCH_STOP, BENCH_FAILED };
-
 /* Read the options; STOP: help was printed, FAILED: a complaint. To be released in any case. */
-enum bench_reading bench_options_read(int count, char **arguments, struct bench_settings *settings);
+enum reading bench_options_read(int count, char **arguments, struct bench_settings *settings);
 void bench_options_release(struct bench_settings *settings);
 
 /* The stability map: cells go into PREFIX-stability.csv.partial as they are done. Returns the exit status. */

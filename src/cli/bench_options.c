@@ -1,16 +1,14 @@
-/* The options of `restitute bench`, read with popt.
+/* The options of `restitute bench`.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bench.h"
 
-#include <math.h>
-#include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
+#include "arguments.h"
 
-enum { OPTION_QUICK = 1, OPTION_OMISSIONS, OPTION_STABILITY, OPTION_RESUME, OPTION_HELP, OPTION_TEXT };
+enum { CODE_QUICK = CODE_HELP + 1, CODE_OMISSIONS, CODE_STABILITY, CODE_RESUME };
 
 /* Largest campaign: its rows are kept in memory. */
 static const double most_sets = 100000;
@@ -33,18 +31,11 @@ enum {
 static const char *const names[TEXTS] = {"methods", "sets",  "tolerances", "budget", "bem-campaign", "grid",
                                          "seed",    "shard", "join",       "output", "figure"};
 
-#define ENTRY(name, text, argument, help)                                                                              \
-    {                                                                                                                  \
-        name, '\0', POPT_ARG_STRING, NULL, OPTION_TEXT + (text), help, argument                                        \
-    }
-#define FLAG(name, code, help)                                                                                         \
-    {                                                                                                                  \
-        name, '\0', POPT_ARG_NONE, NULL, code, help, NULL                                                              \
-    }
+#define ENTRY(name, text, argument, help) OPTION(name, CODE_TEXT + (text), argument, help)
 
 static const struct poptOption table[] = {
-    FLAG("omissions", OPTION_OMISSIONS, "instead: the time saved by what is left out"),
-    FLAG("stability", OPTION_STABILITY, "instead: the map of stability over delta1 and gamma, a quarter of an hour"),
+    OPTION_FLAG("omissions", CODE_OMISSIONS, "instead: the time saved by what is left out"),
+    OPTION_FLAG("stability", CODE_STABILITY, "instead: the map of stability over delta1 and gamma, a quarter of an hour"),
     ENTRY("methods", TEXT_METHODS, "A,B,...", "some of the methods named below; default all"),
     ENTRY("sets", TEXT_SETS, "A,B,...", "some of truth, stiff, prony; default all"),
     ENTRY("tolerances", TEXT_TOLERANCES, "T,T,...", "from large to small, in [1e-8, 0.1]; default 1e-2,1e-3,...,1e-8"),
@@ -56,13 +47,13 @@ static const struct poptOption table[] = {
     ENTRY("seed", TEXT_SEED, "S", "with --bem-campaign: another draw, 0 to 4294967295; default 2017"),
     ENTRY("shard", TEXT_SHARD, "I/K", "with --bem-campaign: every K-th impact alone, from the I-th on"),
     ENTRY("join", TEXT_JOIN, "FILE,...", "with --bem-campaign: rows of finished shards, which are not solved again"),
-    FLAG("quick", OPTION_QUICK, "few scenes, coarse: seconds instead of minutes"),
+    OPTION_FLAG("quick", CODE_QUICK, "few scenes, coarse: seconds instead of minutes"),
     ENTRY("output", TEXT_OUTPUT, "PREFIX",
           "write PREFIX-runs.csv, PREFIX-summary.csv, PREFIX-speed.csv, or PREFIX-omissions.csv, or "
           "PREFIX-stability.csv, or PREFIX-bem.csv"),
     ENTRY("figure", TEXT_FIGURE, "FILE", "a figure, .svg or .png; needs gnuplot"),
-    FLAG("resume", OPTION_RESUME, "with --stability or --bem-campaign, and --output: go on from the .csv.partial"),
-    FLAG("help", OPTION_HELP, "show this and stop"),
+    OPTION_FLAG("resume", CODE_RESUME, "with --stability or --bem-campaign, and --output: go on from the .csv.partial"),
+    OPTION_HELP,
     POPT_TABLEEND};
 
 static const char footer[] =
@@ -113,13 +104,6 @@ static bool read_names(const char *option, const char *list, int (*find)(const c
     return true;
 }
 
-static bool read_number(const char *option, const char *text, double low, double high, double *value,
-                        struct reason *why)
-{
-    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high) return true;
-    return refuse(why, "--%s = \"%.64s\": must be a number in [%g, %g]", option, text, low, high);
-}
-
 static bool read_tolerances(const char *list, struct bench_plan *plan, struct reason *why)
 {
     plan->n_tolerances = 0;
@@ -131,39 +115,12 @@ static bool read_tolerances(const char *list, struct bench_plan *plan, struct re
         if (plan->n_tolerances == BENCH_SETTINGS)
             return refuse(why, "--tolerances: at most %d are possible", BENCH_SETTINGS);
         double *value = &plan->tolerances[plan->n_tolerances];
-        if (!read_number("tolerances", text, 1e-8, 0.1, value, why)) return false;
+        if (!option_number("tolerances", text, 1e-8, 0.1, false, value, why)) return false;
         if (plan->n_tolerances > 0 && !(value[0] < value[-1]))
             return refuse(why, "--tolerances: %s after %g: must go from large to small", text, value[-1]);
         plan->n_tolerances++;
         word = after;
     }
-    return true;
-}
-
-static bool read_whole(const char *option, const char *text, double low, double high, double *value, struct reason *why)
-{
-    if (!text) return true;
-    if (restitute_number_read(text, value) == RESTITUTE_OK && *value >= low && *value <= high &&
-        *value == floor(*value))
-        return true;
-    return refuse(why, "--%s = \"%.64s\": must be a whole number in [%g, %g]", option, text, low, high);
-}
-
-/* "I/K" */
-static bool read_shard(const char *text, struct bench_campaign *campaign, struct reason *why)
-{
-    char first[24] = "";
-    const char *slash = text ? strchr(text, '/') : NULL;
-    double shard = 1, shards = 1;
-    campaign->shard = campaign->shards = 1;
-    if (!text) return true;
-    if (slash && slash - text < (int)sizeof first) memcpy(first, text, (size_t)(slash - text));
-    if (restitute_number_read(first, &shard) != RESTITUTE_OK ||
-        restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
-        !(shard >= 1 && shard <= shards && shards <= 10000) || shard != floor(shard) || shards != floor(shards))
-        return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
-    campaign->shard = (int)shard;
-    campaign->shards = (int)shards;
     return true;
 }
 
@@ -174,12 +131,12 @@ static bool take_campaign(char **text, struct bench_settings *settings, struct r
 #ifndef RESTITUTE_WITH_BEM
     return refuse(why, "--bem-campaign: the component bem is not in this build (it needs FFTW)");
 #endif
-    if (!read_whole("bem-campaign", text[TEXT_CAMPAIGN], 1, most_sets, &sets, why) ||
-        !read_whole("grid", text[TEXT_GRID], 16, 1024, &grid, why) ||
-        !read_whole("seed", text[TEXT_SEED], 0, 4294967295.0, &seed, why) ||
-        !read_shard(text[TEXT_SHARD], campaign, why))
+    if (!option_number("bem-campaign", text[TEXT_CAMPAIGN], 1, most_sets, true, &sets, why) ||
+        !option_number("grid", text[TEXT_GRID], 16, 1024, true, &grid, why) ||
+        !option_number("seed", text[TEXT_SEED], 0, 4294967295.0, true, &seed, why) ||
+        !option_shard(text[TEXT_SHARD], &campaign->shard, &campaign->shards, why))
         return false;
-    if (campaign->shard > sets)
+    if ((double)campaign->shard > sets)
         return refuse(why, "--shard = \"%.64s\": is empty, the impacts are %g", text[TEXT_SHARD], sets);
     if ((int)grid % 2) return refuse(why, "--grid = %g: must be even", grid);
     campaign->sets = (long)sets;
@@ -204,7 +161,7 @@ static bool take_words(char *const *text, struct bench_settings *settings, struc
             read_names("methods", text[TEXT_METHODS], bench_method_index, methods, &plan->methods, why)) &&
            (!text[TEXT_SETS] || read_names("sets", text[TEXT_SETS], set_index, sets, &settings->sets, why)) &&
            (!text[TEXT_TOLERANCES] || read_tolerances(text[TEXT_TOLERANCES], plan, why)) &&
-           (!text[TEXT_BUDGET] || read_number("budget", text[TEXT_BUDGET], 1e-3, 3600, &plan->budget, why));
+           option_number("budget", text[TEXT_BUDGET], 1e-3, 3600, false, &plan->budget, why);
 }
 
 /* What is not given. A quick run stops where a full one begins to be interesting. */
@@ -249,51 +206,39 @@ static bool read_arguments(poptContext context, struct bench_settings *settings,
     int code;
     bool omissions = false, stability = false;
     while ((code = poptGetNextOpt(context)) > 0) {
-        if (code == OPTION_QUICK) settings->quick = true;
-        if (code == OPTION_RESUME) settings->resume = true;
-        if (code == OPTION_OMISSIONS) omissions = true;
-        if (code == OPTION_STABILITY) stability = true;
-        if (code == OPTION_HELP) return *help = true;
-        if (code < OPTION_TEXT) continue;
-        if (text[code - OPTION_TEXT]) return refuse(why, "--%s is given twice", names[code - OPTION_TEXT]);
-        text[code - OPTION_TEXT] = poptGetOptArg(context);
+        if (code == CODE_QUICK) settings->quick = true;
+        if (code == CODE_RESUME) settings->resume = true;
+        if (code == CODE_OMISSIONS) omissions = true;
+        if (code == CODE_STABILITY) stability = true;
+        if (code == CODE_HELP) return *help = true;
+        if (code < CODE_HELP &&
+            !option_keep(names[code - CODE_TEXT], &text[code - CODE_TEXT], poptGetOptArg(context), why))
+            return false;
     }
-    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
-    const char *extra = poptGetArg(context);
-    if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
+    if (!arguments_end(context, code, NULL, why)) return false;
     settings->mode = omissions ? MODE_OMISSIONS : stability ? MODE_STABILITY : MODE_PRECISION;
     set_defaults(settings->quick, settings);
     if (!check_mode(settings, text, omissions, stability, why)) return false;
     return text[TEXT_CAMPAIGN] ? take_campaign(text, settings, why) : take_words(text, settings, why);
 }
 
-enum bench_reading bench_options_read(int count, char **arguments, struct bench_settings *settings)
+enum reading bench_options_read(int count, char **arguments, struct bench_settings *settings)
 {
     char *text[TEXTS] = {NULL};
     struct reason why;
     bool help = false;
     *settings = (struct bench_settings){.argument_count = count, .arguments = (const char *const *)arguments};
-    /* popt shows its first word as the name of the program. */
-    const char **words = allocate((size_t)count, sizeof *words);
-    words[0] = "restitute bench";
-    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
-    poptContext context = poptGetContext("restitute", count - 1, words, table, 0);
-    const bool good = read_arguments(context, settings, text, &help, &why);
-    if (help) {
-        poptPrintHelp(context, stdout, 0);
-        fputs("\nMethods:", stdout);
-        for (int i = 0; i < BENCH_METHODS; i++)
-            printf(" %s", bench_methods[i].name);
-        fputs(footer, stdout);
-    }
-    if (!good) complain("%s", why.text);
-    poptFreeContext(context);
-    free(words);
+    struct arguments read = arguments_begin("restitute bench", 2, count, arguments, table);
+    const bool good = read_arguments(read.context, settings, text, &help, &why);
+    const enum reading reading = arguments_close(&read, good, help, "\nMethods:", &why);
+    for (int i = 0; help && i < BENCH_METHODS; i++)
+        printf(" %s", bench_methods[i].name);
+    if (help) fputs(footer, stdout);
     settings->output = text[TEXT_OUTPUT];
     settings->figure = text[TEXT_FIGURE];
     for (int i = 0; i < TEXT_OUTPUT; i++)
         free(text[i]);
-    return help ? BENCH_STOP : good ? BENCH_GO_ON : BENCH_FAILED;
+    return reading;
 }
 
 void bench_options_release(struct bench_settings *settings)

@@ -149,28 +149,11 @@ bool cases_check(const struct cases *cases, const struct settings *settings, str
     return true;
 }
 
-/* One cell into the values; an empty one counts as not given where that makes sense. */
-static bool take_cell(const char *name, const char *cell, struct values *values, struct reason *why)
-{
-    const enum field field = field_of_column(name);
-    if (field < FIELD_COUNT) {
-        if (!*cell && field_rules[field].may_be_empty) return true;
-        if (!*cell) return refuse(why, "%s is empty: %s", name, field_rules[field].range);
-        values->given[field] = true;
-        return field_read(field, cell, name, &values->number[field], why);
-    }
-    if (!*cell) return refuse(why, "%s is empty", name);
-    if (strcmp(name, "partner") == 0) return partner_read(cell, name, values, why);
-    if (strcmp(name, "rotation_blocked") == 0) return switch_read(cell, name, &values->rotation_blocked, why);
-    values->material = cell;
-    return true;
-}
-
 bool cases_values(const struct cases *cases, const struct settings *settings, size_t row, struct values *values,
                   struct reason *why)
 {
     *values = settings->values;
     for (size_t i = cases->notes; i < cases->columns; i++)
-        if (!take_cell(cases_name(cases, i), cases_cell(cases, row, i), values, why)) return false;
+        if (!values_take(cases_name(cases, i), cases_cell(cases, row, i), values, why)) return false;
     return true;
 }

@@ -119,9 +119,9 @@ int fit_main(int count, char **arguments)
     struct fit_settings settings;
     struct fit_input input;
     struct reason why;
-    const enum fit_reading reading = fit_options_read(count, arguments, &settings);
-    int status = reading == FIT_STOP ? EXIT_DONE : EXIT_USAGE;
-    if (reading == FIT_GO_ON) {
+    const enum reading reading = fit_options_read(count, arguments, &settings);
+    int status = reading == READING_STOP ? EXIT_DONE : EXIT_USAGE;
+    if (reading == READING_GO_ON) {
         const bool good = fit_input_read(&settings, &input, &why) && check_outputs(&settings, &input, &why);
         status = !good                      ? complain("%s", why.text)
                  : settings.text[FIT_INPUT] ? fit_points(&settings, &input)

@@ -63,13 +63,18 @@ static bool at_line(const char *source, const restitute_csv *csv, size_t row, st
     return refuse(why, "%.120s line %zu (row %zu): %s", source, restitute_csv_line(csv, row), row + 1, inner.text);
 }
 
-static bool known_column(const char *name, const struct column_rule *rules, size_t count, bool scene)
+static bool of_rules(const char *name, const struct column_rule *rules, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (strcmp(rules[i].name, name) == 0) return true;
+    return false;
+}
+
+static bool of_scene(const char *name)
+{
     const enum field field = field_of_column(name);
-    return scene && ((field > FIELD_LAST_DIMENSIONLESS && field <= FIELD_FRICTION) || strcmp(name, "partner") == 0 ||
-                     strcmp(name, "rotation_blocked") == 0);
+    return (field > FIELD_LAST_DIMENSIONLESS && field <= FIELD_FRICTION) || strcmp(name, "partner") == 0 ||
+           strcmp(name, "rotation_blocked") == 0;
 }
 
 static bool check_columns(const restitute_csv *csv, const char *source, const struct column_rule *rules, size_t count,
@@ -78,12 +83,13 @@ static bool check_columns(const restitute_csv *csv, const char *source, const st
     char names[200] = "";
     for (size_t i = 0; i < count; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", rules[i].name);
-    for (size_t i = 0; i < restitute_csv_columns(csv); i++)
-        if (!known_column(restitute_csv_name(csv, i), rules, count, scene))
-            return refuse(why, "%.100s: unknown column \"%.40s\"; known are %s%s", source, restitute_csv_name(csv, i),
-                          names, scene ? " and those of a scene; see --help" : "");
-    if (restitute_csv_rows(csv) == 0) return refuse(why, "%.200s: has column names but no rows", source);
-    return true;
+    for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
+        const char *name = restitute_csv_name(csv, i);
+        if (!of_rules(name, rules, count) && !(scene && of_scene(name)))
+            return refuse(why, "%.100s: unknown column \"%.40s\"; known are %s%s", source, name, names,
+                          scene ? " and those of a scene; see --help" : "");
+    }
+    return restitute_csv_rows(csv) ? true : refuse(why, "%.200s: has column names but no rows", source);
 }
 
 /* Columns of the scene, over what the options gave for all rows. */
@@ -92,19 +98,12 @@ static bool scene_cells(const restitute_csv *csv, size_t row, const struct fit_s
 {
     *values = s->values;
     for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
-        const char *name = restitute_csv_name(csv, i), *text = restitute_csv_cell(csv, row, i);
+        const char *name = restitute_csv_name(csv, i);
         const enum field field = field_of_column(name);
-        bool good = true;
+        if (!of_scene(name)) continue;
         if (field < FIELD_COUNT && s->values.given[field])
             return refuse(why, "column %s and option --%s both give the value", name, field_rules[field].option);
-        if (field < FIELD_COUNT && (*text || !field_rules[field].may_be_empty)) {
-            good = field_read(field, text, name, &values->number[field], why);
-            values->given[field] = true;
-        } else if (strcmp(name, "partner") == 0)
-            good = partner_read(text, name, values, why);
-        else if (strcmp(name, "rotation_blocked") == 0)
-            good = switch_read(text, name, &values->rotation_blocked, why);
-        if (!good) return false;
+        if (!values_take(name, restitute_csv_cell(csv, row, i), values, why)) return false;
     }
     return true;
 }

@@ -1,27 +1,17 @@
-/* The options of `restitute fit`, read with popt.
+/* The options of `restitute fit`.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
-#include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
-
 #include "fit_settings.h"
 
-enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_TENSION };
+enum { CODE_TENSION = CODE_HELP + 1 };
 
-#define TEXT(which, name, argument, help)                                                                              \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_STRING, NULL, CODE_TEXT + (which), (help), (argument)                                   \
-    }
-#define FLAG(name, code, help)                                                                                         \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_NONE, NULL, (code), (help), NULL                                                        \
-    }
+#define TEXT(which, name, argument, help) OPTION((name), CODE_TEXT + (which), (argument), (help))
 
 static const struct poptOption own_options[] = {
     TEXT(FIT_INPUT, "input", "DROP.csv", "measured impacts, one a row, columns by name"),
@@ -38,7 +28,7 @@ static const struct poptOption own_options[] = {
     TEXT(FIT_REFERENCE, "reference-temperature", "T", "in C, of the constants; default that of the first row"),
     TEXT(FIT_WLF, "wlf", "C1:C2", "shifts of times by temperature; default: a free shift a temperature"),
     TEXT(FIT_NOISE, "noise", "RATIO", "with --dma: relative error of the moduli, in [1e-4, 0.5]; default 0.01"),
-    FLAG("tension", CODE_TENSION, "with --dma: the moduli are those of tension"),
+    OPTION_FLAG("tension", CODE_TENSION, "with --dma: the moduli are those of tension"),
     TEXT(FIT_STARTS, "starts", "N", "local fits, 1 to 100; default 4"),
     TEXT(FIT_SEED, "seed", "N", "of the scan for starts; default 1"),
     TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default 1, all processors from 200 rows on"),
@@ -46,7 +36,7 @@ static const struct poptOption own_options[] = {
     TEXT(FIT_FORMAT, "format", "text|json", "of the report on standard output; default text"),
     TEXT(FIT_OUTPUT, "output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json"),
     TEXT(FIT_FIGURE, "figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs gnuplot"),
-    FLAG("help", CODE_HELP, "show this and stop"),
+    OPTION_HELP,
     POPT_TABLEEND};
 
 static const char footer[] =
@@ -63,52 +53,6 @@ static bool of_scene(enum field field)
 {
     return field > FIELD_LAST_DIMENSIONLESS && (field <= FIELD_FRICTION || field == FIELD_POISSON) &&
            field != FIELD_SPEED;
-}
-
-static struct poptOption *option_table(void)
-{
-    struct poptOption *table = allocate(2 * FIELD_COUNT + FIT_TEXTS + 8, sizeof *table), *entry = table;
-    for (enum field field = 0; field < FIELD_COUNT; field++) {
-        const struct field_rule *rule = &field_rules[field];
-        for (int alias = 0; alias < 2 && of_scene(field); alias++)
-            if (alias ? rule->alias : rule->option)
-                *entry++ = (struct poptOption){alias ? rule->alias : rule->option,
-                                               '\0',
-                                               POPT_ARG_STRING | (alias ? POPT_ARGFLAG_DOC_HIDDEN : 0),
-                                               NULL,
-                                               CODE_FIELD + (int)field,
-                                               rule->help,
-                                               "NUMBER"};
-    }
-    memcpy(entry, own_options, sizeof own_options);
-    return table;
-}
-
-static bool keep(char **place, poptContext context, struct reason *why)
-{
-    char *text = poptGetOptArg(context);
-    if (!*place) {
-        *place = text;
-        return true;
-    }
-    free(text);
-    return refuse(why, "%.60s is given twice", poptBadOption(context, POPT_BADOPTION_NOALIAS));
-}
-
-static bool number(const char *option, const char *text, double low, double high, double *value, struct reason *why)
-{
-    double found;
-    if (!text) return true;
-    if (restitute_number_read(text, &found) != RESTITUTE_OK || !(found >= low && found <= high))
-        return refuse(why, "--%s = \"%.64s\": must be a number in [%g, %g]", option, text, low, high);
-    *value = found;
-    return true;
-}
-
-static bool whole(const char *option, const char *text, double low, double high, double *value, struct reason *why)
-{
-    if (!number(option, text, low, high, value, why)) return false;
-    return *value == floor(*value) ? true : refuse(why, "--%s = %.64s: must be a whole number", option, text);
 }
 
 /* The place of a word in a list, from `first` on. */
@@ -133,8 +77,9 @@ static bool read_terms(struct fit_settings *s, struct reason *why)
     char *list = s->text[FIT_TERMS] ? copy_of(s->text[FIT_TERMS]) : NULL, *rest = NULL;
     bool good = true;
     for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item && good; item = strtok_r(NULL, ",", &rest))
-        good = s->options.terms < 20 ? number("terms", item, 1e-30, 1e30, &s->terms[s->options.terms++], why)
-                                     : refuse(why, "--terms: more than 20 relaxation times");
+        good = s->options.terms < 20
+                   ? option_number("terms", item, 1e-30, 1e30, false, &s->terms[s->options.terms++], why)
+                   : refuse(why, "--terms: more than 20 relaxation times");
     free(list);
     if (good && (s->options.model == RESTITUTE_FIT_PRONY) != (s->options.terms > 0))
         return refuse(why, "--terms and --model prony belong together");
@@ -174,8 +119,8 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         else if (!isnan(s->known[place]))
             good = refuse(why, "--known: %s is given twice", item);
         else
-            good = number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30,
-                          &s->known[place], why);
+            good = option_number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30, false,
+                                 &s->known[place], why);
     }
     free(list);
     s->options.known = s->known;
@@ -188,10 +133,18 @@ static bool read_wlf(struct fit_settings *s, struct reason *why)
     char first[64];
     if (!text) return true;
     snprintf(first, sizeof first, "%.*s", colon ? (int)(colon - text) : 0, text);
-    if (!colon || !number("wlf", first, 0, 1e6, &s->options.wlf_c1, why) ||
-        !number("wlf", colon + 1, 1e-6, 1e6, &s->options.wlf_c2, why))
+    if (!colon || !option_number("wlf", first, 0, 1e6, false, &s->options.wlf_c1, why) ||
+        !option_number("wlf", colon + 1, 1e-6, 1e6, false, &s->options.wlf_c2, why))
         return refuse(why, "--wlf = \"%.64s\": must be C1:C2, two positive numbers", text);
     return true;
+}
+
+static const char *text_name(int code)
+{
+    const struct poptOption *o = own_options;
+    while (o->val != code)
+        o++;
+    return o->longName;
 }
 
 /* Options of the other kind of input would be passed over without a word. */
@@ -203,8 +156,8 @@ static bool check_kind(const struct fit_settings *s, struct reason *why)
         return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
     if (!s->text[FIT_DMA] && (s->tension || s->text[FIT_NOISE])) return refuse(why, "--tension, --noise: need --dma");
     for (size_t i = 0; s->text[FIT_DMA] && i < sizeof of_impacts / sizeof *of_impacts; i++)
-        for (const struct poptOption *o = own_options; s->text[of_impacts[i]] && o->longName; o++)
-            if (o->val == CODE_TEXT + (int)of_impacts[i]) return refuse(why, "--%s: not with --dma", o->longName);
+        if (s->text[of_impacts[i]])
+            return refuse(why, "--%s: not with --dma", text_name(CODE_TEXT + (int)of_impacts[i]));
     for (enum field field = 0; s->text[FIT_DMA] && field < FIELD_COUNT; field++)
         if (s->values.given[field] && field != FIELD_POISSON)
             return refuse(why, "--%s: not with --dma", field_rules[field].option);
@@ -223,12 +176,14 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
         word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
         word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
         word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) && read_known(s, why) &&
-        read_wlf(s, why) && number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, &o->confidence, why) &&
-        number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, &o->reference_temperature, why) &&
-        number("noise", s->text[FIT_NOISE], 1e-4, 0.5, &s->dma.noise, why) &&
-        whole("starts", s->text[FIT_STARTS], 1, 100, &starts, why) &&
-        whole("seed", s->text[FIT_SEED], 0, 4294967295.0, &seed, why) &&
-        whole("threads", s->text[FIT_THREADS], 1, 1024, &threads, why);
+        read_wlf(s, why) &&
+        option_number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, false, &o->confidence, why) &&
+        option_number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, false, &o->reference_temperature,
+                      why) &&
+        option_number("noise", s->text[FIT_NOISE], 1e-4, 0.5, false, &s->dma.noise, why) &&
+        option_number("starts", s->text[FIT_STARTS], 1, 100, true, &starts, why) &&
+        option_number("seed", s->text[FIT_SEED], 0, 4294967295.0, true, &seed, why) &&
+        option_number("threads", s->text[FIT_THREADS], 1, 1024, true, &threads, why);
     if (!good) return false;
     o->relaxation_time = s->terms, o->starts = (int)starts, o->seed = (uint64_t)seed, o->threads = (int)threads;
     if (s->values.given[FIELD_POISSON]) o->poisson_ratio = s->dma.poisson_ratio = s->values.number[FIELD_POISSON];
@@ -241,19 +196,22 @@ static bool read_arguments(poptContext context, struct fit_settings *s, bool *he
 {
     int code;
     while ((code = poptGetNextOpt(context)) > 0) {
+        bool good = true;
         if (code == CODE_HELP) return *help = true;
         if (code == CODE_TENSION)
             s->tension = true;
-        else if (!keep(code >= CODE_TEXT ? &s->text[code - CODE_TEXT] : &s->field[code - CODE_FIELD], context, why))
-            return false;
+        else if (code >= CODE_TEXT)
+            good = option_keep(text_name(code), &s->text[code - CODE_TEXT], poptGetOptArg(context), why);
+        else
+            good = option_keep(field_rules[code - CODE_FIELD].option, &s->field[code - CODE_FIELD],
+                               poptGetOptArg(context), why);
+        if (!good) return false;
     }
-    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
-    const char *more = poptGetArg(context);
-    if (more) return refuse(why, "unexpected argument \"%.100s\"; see --help", more);
-    return values_read(s->field, &s->values, why) && check_kind(s, why) && take_texts(s, why);
+    return arguments_end(context, code, NULL, why) && values_read(s->field, &s->values, why) && check_kind(s, why) &&
+           take_texts(s, why);
 }
 
-enum fit_reading fit_options_read(int count, char **arguments, struct fit_settings *settings)
+enum reading fit_options_read(int count, char **arguments, struct fit_settings *settings)
 {
     struct reason why;
     bool help = false;
@@ -261,21 +219,12 @@ enum fit_reading fit_options_read(int count, char **arguments, struct fit_settin
     settings->values = values_none();
     restitute_fit_options_init(&settings->options);
     restitute_dma_options_init(&settings->dma);
-    const char **words = allocate((size_t)count, sizeof *words); /* popt shows its first word as the program's name */
-    words[0] = "restitute fit";
-    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
-    struct poptOption *table = option_table();
-    poptContext context = poptGetContext("restitute", count - 1, words, table, 0);
-    const bool good = read_arguments(context, settings, &help, &why);
-    if (help) {
-        poptPrintHelp(context, stdout, 0);
-        fputs(footer, stdout);
-    }
-    if (!good) complain("%s", why.text);
-    poptFreeContext(context);
-    free(words);
+    struct poptOption *table = field_options(of_scene, own_options);
+    struct arguments read = arguments_begin("restitute fit", 2, count, arguments, table);
+    const bool good = read_arguments(read.context, settings, &help, &why);
+    const enum reading reading = arguments_close(&read, good, help, footer, &why);
     free(table);
-    return help ? FIT_STOP : good ? FIT_GO_ON : FIT_FAILED;
+    return reading;
 }
 
 void fit_options_release(struct fit_settings *settings)

@@ -1,7 +1,5 @@
 /* What `restitute fit` writes: a report, the material file with its record, a figure.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,26 +125,27 @@ static void text_result(FILE *stream, const struct fit_settings *s, const restit
             r->rms, r->noise, r->rank, wanted, (long long)r->impacts);
 }
 
-/* Report on standard output; material and record, both or none. Takes over the objects. */
-static bool write_files(const struct fit_settings *s, const char *report, json_t *file, json_t *result,
+static void write_json(struct output *output, json_t *json)
+{
+    json_dumpf(json, output->stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    fputc('\n', output->stream);
+}
+
+/* Material and record, both or none; the report, begun as the third, last, when all else has found room. Takes over the
+ * objects. */
+static bool write_files(const struct fit_settings *s, struct output outputs[3], json_t *file, json_t *result,
                         struct reason *why)
 {
-    struct output outputs[3] = {{0}};
     const struct settings line = {.argument_count = s->argument_count, .arguments = s->arguments};
     const char *path = s->text[FIT_OUTPUT];
-    bool good = output_open(NULL, &outputs[0], why);
-    if (good && s->json) {
-        json_dumpf(result, outputs[0].stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-        fputc('\n', outputs[0].stream);
-    } else if (good)
-        fputs(report, outputs[0].stream);
-    if (good && path && (good = output_open(path, &outputs[1], why))) {
-        json_dumpf(file, outputs[1].stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-        fputc('\n', outputs[1].stream);
+    bool good = true;
+    if (s->json) write_json(&outputs[2], result);
+    if (path && (good = output_open(path, &outputs[0], why))) {
+        write_json(&outputs[0], file);
         json_t *settings = json_pack("{s:s, s:s}", "version", restitute_version(), "input", source_of(s));
         json_t *record = provenance_record(&line, settings, json_object());
         json_object_set(record, "fit", result);
-        good = provenance_open_beside(path, record, &outputs[2], why);
+        good = provenance_open_beside(path, record, &outputs[1], why);
     }
     json_decref(file);
     json_decref(result);
@@ -233,18 +232,14 @@ static bool figure(const struct fit_settings *s, const struct fit_input *input, 
 bool fit_write(const struct fit_settings *s, const struct fit_input *input, const restitute_fitter *fitter,
                const restitute_fit_result *r, struct reason *why)
 {
-    char *report = NULL, source[512];
-    size_t size;
-    FILE *stream = open_memstream(&report, &size);
-    if (!stream) out_of_memory();
-    text_result(stream, s, r);
-    fclose(stream);
+    struct output outputs[3] = {{0}};
+    char source[512];
+    if (s->text[FIT_FIGURE] && !figure(s, input, fitter, r, why)) return false;
+    if (!output_open(NULL, &outputs[2], why)) return false;
+    if (!s->json) text_result(outputs[2].stream, s, r);
     snprintf(source, sizeof source, "restitute %s fit of %.200s: rms %.3g, %s", restitute_version(), source_of(s),
              r->rms, r->flags ? "with remarks, see the record beside this file" : "no remarks");
-    const bool good = (!s->text[FIT_FIGURE] || figure(s, input, fitter, r, why)) &&
-                      write_files(s, report, material_file(s, r, r->material, source), json_result(s, r), why);
-    free(report);
-    return good;
+    return write_files(s, outputs, material_file(s, r, r->material, source), json_result(s, r), why);
 }
 
 static json_t *json_dma(const restitute_dma_result *r)
@@ -310,16 +305,12 @@ static bool figure_dma(const struct fit_settings *s, const struct fit_input *inp
 bool fit_write_dma(const struct fit_settings *s, const struct fit_input *input, const restitute_dma_result *r,
                    struct reason *why)
 {
-    char *report = NULL, source[512];
-    size_t size;
-    FILE *stream = open_memstream(&report, &size);
-    if (!stream) out_of_memory();
-    text_dma(stream, s, r);
-    fclose(stream);
+    struct output outputs[3] = {{0}};
+    char source[512];
+    if (s->text[FIT_FIGURE] && !figure_dma(s, input, r, why)) return false;
+    if (!output_open(NULL, &outputs[2], why)) return false;
+    if (!s->json) text_dma(outputs[2].stream, s, r);
     snprintf(source, sizeof source, "restitute %s fit of %.200s: %zu terms, relative rms %.3g", restitute_version(),
              source_of(s), r->terms, r->rms);
-    const bool good = (!s->text[FIT_FIGURE] || figure_dma(s, input, r, why)) &&
-                      write_files(s, report, material_file(s, NULL, r->material, source), json_dma(r), why);
-    free(report);
-    return good;
+    return write_files(s, outputs, material_file(s, NULL, r->material, source), json_dma(r), why);
 }

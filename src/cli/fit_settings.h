@@ -5,6 +5,7 @@
 
 #include <restitute/fit.h>
 
+#include "arguments.h"
 #include "problem.h"
 
 enum fit_text {
@@ -41,10 +42,8 @@ struct fit_settings {
     const char *const *arguments;
 };
 
-enum fit_reading { FIT_GO_ON, FIT_STOP, FIT_FAILED };
-
 /* STOP: help was printed, FAILED: a complaint. To be released in any case. */
-enum fit_reading fit_options_read(int count, char **arguments, struct fit_settings *settings);
+enum reading fit_options_read(int count, char **arguments, struct fit_settings *settings);
 void fit_options_release(struct fit_settings *settings);
 
 /* The measurements of --input or --dma. */

@@ -1,9 +1,8 @@
-/* The command line, read with popt. All numbers are read by our own strict reader, so popt sees only text.
+/* The command line of pair, history and sweep.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "options.h"
 
 #include <math.h>
-#include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,22 +10,14 @@
 #ifdef RESTITUTE_WITH_CVODE
 #include <restitute/cvode.h>
 #endif
-#include <restitute/files.h>
 #ifdef RESTITUTE_WITH_BEM
 #include <restitute/bem.h>
 #endif
 
-/* What popt returns for an option: a field, a text, or one of these. */
-enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_RESUME, CODE_BLOCKED, CODE_CONTOURS };
+#include "arguments.h"
 
-#define ENTRY(name, code, argument, help)                                                                              \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_STRING, NULL, (code), (help), (argument)                                                \
-    }
-#define FLAG(name, code, help)                                                                                         \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_NONE, NULL, (code), (help), NULL                                                        \
-    }
+enum { CODE_RESUME = CODE_HELP + 1, CODE_BLOCKED, CODE_CONTOURS };
+
 #define GROUP(table, title)                                                                                            \
     {                                                                                                                  \
         NULL, '\0', POPT_ARG_INCLUDE_TABLE, (table), 0, (title), NULL                                                  \
@@ -59,72 +50,72 @@ static const char *const text_names[TEXT_COUNT] = {
 };
 
 static struct poptOption more_scene_options[] = {
-    ENTRY("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
+    OPTION("material", CODE_TEXT + TEXT_MATERIAL, "FILE",
           "what deforms: a material file, .json, or .csv with tau_s,G_Pa; this or --modulus1"),
-    ENTRY(
+    OPTION(
         "partner", CODE_TEXT + TEXT_PARTNER, "rigid|same|FILE",
         "rigid: one of the two bodies deforms (default); same: both do, and are of the material; FILE: the material of "
         "the partner, if it is another one"),
-    FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"), POPT_TABLEEND};
+    OPTION_FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"), POPT_TABLEEND};
 
 static struct poptOption solution_options[] = {
-    ENTRY("method", CODE_TEXT + TEXT_METHOD, "NAME",
+    OPTION("method", CODE_TEXT + TEXT_METHOD, "NAME",
           "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
           "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode); "
           "bem, bem-paper, bem-both: boundary elements, an independent check (component bem)"),
-    ENTRY("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
+    OPTION("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
-    ENTRY("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
+    OPTION("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
           "elements over the largest contact radius, 4 to 1000000; default chosen"),
-    ENTRY("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP",
+    OPTION("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP",
           "in T, or in s with a material; > 0; default chosen; not with sync"),
-    ENTRY("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
-    ENTRY("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
+    OPTION("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
+    OPTION("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
           "normal speed over wave speed that is told; default 0.1"),
-    ENTRY("radius-limit", CODE_TEXT + TEXT_RADIUS_LIMIT, "RATIO",
+    OPTION("radius-limit", CODE_TEXT + TEXT_RADIUS_LIMIT, "RATIO",
           "contact radius over radius that is told; default 0.1"),
-    ENTRY("displacement-limit", CODE_TEXT + TEXT_DISPLACEMENT_LIMIT, "RATIO",
+    OPTION("displacement-limit", CODE_TEXT + TEXT_DISPLACEMENT_LIMIT, "RATIO",
           "slide over contact radius that is told; default 0.3"),
-    ENTRY("dundurs-limit", CODE_TEXT + TEXT_DUNDURS_LIMIT, "BETA", "Dundurs' constant that is told; default 0.1"),
+    OPTION("dundurs-limit", CODE_TEXT + TEXT_DUNDURS_LIMIT, "BETA", "Dundurs' constant that is told; default 0.1"),
     POPT_TABLEEND};
 
 static struct poptOption pair_output_options[] = {
-    ENTRY("format", CODE_TEXT + TEXT_FORMAT, "text|csv|json", "default text for one impact, csv for many"),
-    ENTRY("input", CODE_TEXT + TEXT_INPUT, "CASES.csv", "one impact a row, columns by name; -: standard input"),
-    ENTRY("grid", CODE_TEXT + TEXT_GRID, "AXES",
+    OPTION("format", CODE_TEXT + TEXT_FORMAT, "text|csv|json", "default text for one impact, csv for many"),
+    OPTION("input", CODE_TEXT + TEXT_INPUT, "CASES.csv", "one impact a row, columns by name; -: standard input"),
+    OPTION("grid", CODE_TEXT + TEXT_GRID, "AXES",
           "one or two axes NAME=FROM:TO:N[:log], NAME of any number above, or material=FILE:FILE:...: all impacts of "
           "the grid, for example speed=0.1:10:9:log,angle=5:85:9"),
-    ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write here and not to standard output"),
-    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE",
+    OPTION("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write here and not to standard output"),
+    OPTION("figure", CODE_TEXT + TEXT_FIGURE, "FILE",
           "with --grid, or --input with one or two columns that vary: a figure of it, .svg, .png or .pdf; needs "
           "gnuplot"),
-    FLAG("contours", CODE_CONTOURS, "with --figure: contours over both axes, the last one to the right"),
-    ENTRY("threads", CODE_TEXT + TEXT_THREADS, "N",
+    OPTION_FLAG("contours", CODE_CONTOURS, "with --figure: contours over both axes, the last one to the right"),
+    OPTION("threads", CODE_TEXT + TEXT_THREADS, "N",
           "with --input and --grid: solve by so many threads, 1 to 1024; default all processors"),
-    FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
-    ENTRY("shard", CODE_TEXT + TEXT_SHARD, "I/K", "solve part I of K of the rows alone, without figure"),
-    ENTRY("join", CODE_TEXT + TEXT_JOIN, "FILE,...",
+    OPTION_FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
+    OPTION("shard", CODE_TEXT + TEXT_SHARD, "I/K", "solve part I of K of the rows alone, without figure"),
+    OPTION("join", CODE_TEXT + TEXT_JOIN, "FILE,...",
           "finished shards in their order; rows that are in them are not solved again"),
-    FLAG("help", CODE_HELP, "show this and stop"),
+    OPTION_HELP,
     POPT_TABLEEND};
 
 static struct poptOption sweep_options[] = {
-    ENTRY("seed", CODE_TEXT + TEXT_SEED, "N",
+    OPTION("seed", CODE_TEXT + TEXT_SEED, "N",
           "the impacts drawn for a figure with a name, 0 to 4294967295; default 2017"),
     POPT_TABLEEND};
 
 static struct poptOption history_output_options[] = {
-    ENTRY("samples", CODE_TEXT + TEXT_SAMPLES, "N",
+    OPTION("samples", CODE_TEXT + TEXT_SAMPLES, "N",
           "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
-    ENTRY("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
-    ENTRY("events", CODE_TEXT + TEXT_EVENTS, "FILE",
+    OPTION("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
+    OPTION("events", CODE_TEXT + TEXT_EVENTS, "FILE",
           "write the log of events here, as CSV (.csv, or - for standard output) or HDF5 (.h5, .hdf5); takes the "
           "method cvode"),
-    ENTRY("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
-    ENTRY("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
+    OPTION("figure", CODE_TEXT + TEXT_FIGURE, "FILE", "a figure of it, .svg or .png; needs gnuplot"),
+    OPTION("fields", CODE_TEXT + TEXT_FIELDS, "FILE",
           "with --method bem: pressure, traction and stick map at nine times to .h5 or .hdf5, or the middle one to "
           ".svg or .png"),
-    FLAG("help", CODE_HELP, "show this and stop"),
+    OPTION_HELP,
     POPT_TABLEEND};
 
 static const char pair_footer[] =
@@ -169,34 +160,14 @@ static const char history_footer[] =
     "the\n"
     "scales instead: _T, _d0, _a_el, _F0, _mu_F0, _v0 and _V0 (see the manual page). Exit status: 0 done, 2 failed.\n";
 
-/* The options of the fields from `first` to `last`, their aliases hidden, then those of `more`. */
-static struct poptOption *field_options(enum field first, enum field last, const struct poptOption *more)
+static bool is_dimensionless(enum field field)
 {
-    struct poptOption *table = allocate(2 * FIELD_COUNT + 8, sizeof *table), *entry = table;
-    for (enum field field = first; field <= last; field++) {
-        const struct field_rule *rule = &field_rules[field];
-        *entry = (struct poptOption)ENTRY(rule->option, CODE_FIELD + (int)field, "NUMBER", rule->help);
-        entry++;
-        if (rule->alias) {
-            *entry = (struct poptOption)ENTRY(rule->alias, CODE_FIELD + (int)field, "NUMBER", rule->help);
-            entry->argInfo |= POPT_ARGFLAG_DOC_HIDDEN;
-            entry++;
-        }
-    }
-    for (; more && more->longName; more++)
-        *entry++ = *more;
-    return table;
+    return field <= FIELD_LAST_DIMENSIONLESS;
 }
 
-/* Keep the text of an option; each may be given once. */
-static bool keep_text(const char *name, char **place, char *text, struct reason *why)
+static bool is_physical(enum field field)
 {
-    if (*place) {
-        free(text);
-        return refuse(why, "--%s is given twice", name);
-    }
-    *place = text;
-    return true;
+    return field > FIELD_LAST_DIMENSIONLESS;
 }
 
 static bool take_option(struct settings *settings, int code, poptContext context, struct reason *why)
@@ -208,9 +179,9 @@ static bool take_option(struct settings *settings, int code, poptContext context
     else if (code == CODE_BLOCKED)
         settings->values.rotation_blocked = 1;
     else if (code >= CODE_TEXT)
-        return keep_text(text_names[code - CODE_TEXT], &settings->text[code - CODE_TEXT], poptGetOptArg(context), why);
+        return option_keep(text_names[code - CODE_TEXT], &settings->text[code - CODE_TEXT], poptGetOptArg(context), why);
     else
-        return keep_text(field_rules[code - CODE_FIELD].option, &settings->field[code - CODE_FIELD],
+        return option_keep(field_rules[code - CODE_FIELD].option, &settings->field[code - CODE_FIELD],
                          poptGetOptArg(context), why);
     return true;
 }
@@ -219,15 +190,7 @@ static bool take_option(struct settings *settings, int code, poptContext context
 static bool read_bounded(const struct settings *settings, enum text_option option, double low, double high, bool whole,
                          double *value, struct reason *why)
 {
-    const char *text = settings->text[option];
-    double number;
-    if (!text) return true;
-    if (restitute_number_read(text, &number) != RESTITUTE_OK || !(number >= low && number <= high) ||
-        (whole && number != floor(number)))
-        return refuse(why, "--%s = \"%.64s\": must be %s in [%g, %g]", text_names[option], text,
-                      whole ? "a whole number" : "a number", low, high);
-    *value = number;
-    return true;
+    return option_number(text_names[option], settings->text[option], low, high, whole, value, why);
 }
 
 static bool read_solver(struct settings *settings, struct reason *why)
@@ -258,21 +221,10 @@ static bool read_solver(struct settings *settings, struct reason *why)
 
 static bool read_shard(struct settings *settings, struct reason *why)
 {
-    const char *text = settings->text[TEXT_SHARD], *slash = text ? strchr(text, '/') : NULL;
-    char first[32];
-    double shard = 1, shards = 1, seed = 2017;
+    double seed = 2017;
     if (!read_bounded(settings, TEXT_SEED, 0, 4294967295.0, true, &seed, why)) return false;
-    if (text) {
-        snprintf(first, sizeof first, "%.*s", slash ? (int)(slash - text) : 0, text);
-        if (restitute_number_read(first, &shard) != RESTITUTE_OK ||
-            restitute_number_read(slash ? slash + 1 : "", &shards) != RESTITUTE_OK ||
-            !(shard >= 1 && shard <= shards && shards <= 10000) || shard != floor(shard) || shards != floor(shards))
-            return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
-    }
     settings->seed = (unsigned)seed;
-    settings->shard = (size_t)shard;
-    settings->shards = (size_t)shards;
-    return true;
+    return option_shard(settings->text[TEXT_SHARD], &settings->shard, &settings->shards, why);
 }
 
 /* The methods of this build, the default first. */
@@ -340,13 +292,7 @@ static bool read_arguments(poptContext context, struct settings *settings, bool 
         }
         if (!take_option(settings, code, context, why)) return false;
     }
-    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
-    const char *extra = poptGetArg(context);
-    if (extra && settings->command == COMMAND_SWEEP) {
-        settings->sweep = copy_of(extra);
-        extra = poptGetArg(context);
-    }
-    if (extra) return refuse(why, "unexpected argument \"%.100s\"; see --help", extra);
+    if (!arguments_end(context, code, settings->command == COMMAND_SWEEP ? &settings->sweep : NULL, why)) return false;
     return read_solver(settings, why) && values_read(settings->field, &settings->values, why) &&
            read_words(settings, why) && read_shard(settings, why);
 }
@@ -356,8 +302,8 @@ enum reading options_read(int count, char **arguments, struct settings *settings
     static const char *const names[] = {"restitute pair", "restitute history", "restitute sweep"};
     static const char *const footers[] = {pair_footer, history_footer, sweep_footer};
     const bool history = strcmp(arguments[1], "history") == 0, sweep = strcmp(arguments[1], "sweep") == 0;
-    struct poptOption *dimensionless = field_options(0, FIELD_LAST_DIMENSIONLESS, NULL);
-    struct poptOption *physical = field_options(FIELD_LAST_DIMENSIONLESS + 1, FIELD_COUNT - 1, more_scene_options);
+    struct poptOption *dimensionless = field_options(is_dimensionless, NULL);
+    struct poptOption *physical = field_options(is_physical, more_scene_options);
     struct poptOption all[] = {GROUP(dimensionless, "An impact in dimensionless numbers:"),
                                GROUP(physical, "or in SI units, a sphere against a wall or a second sphere:"),
                                GROUP(solution_options, "How it is solved:"),
@@ -370,27 +316,15 @@ enum reading options_read(int count, char **arguments, struct settings *settings
     settings->values = values_none();
     settings->argument_count = count;
     settings->arguments = (const char *const *)arguments;
-    /* popt shows its first word as the name of the program. */
-    const char **words = allocate((size_t)count, sizeof *words);
-    words[0] = names[settings->command];
-    memcpy(words + 1, arguments + 2, (size_t)(count - 2) * sizeof *words);
-    poptContext context = poptGetContext("restitute", count - 1, words, all, 0);
-    if (sweep) poptSetOtherOptionHelp(context, "[NAME] [OPTION...]");
+    struct arguments read = arguments_begin(names[settings->command], 2, count, arguments, all);
+    if (sweep) poptSetOtherOptionHelp(read.context, "[NAME] [OPTION...]");
     struct reason why;
     bool help = false;
-    const bool good = read_arguments(context, settings, &help, &why);
-    if (help) {
-        static char room[1 << 14]; /* one write at the end, whose failure keeps its reason */
-        setvbuf(stdout, room, _IOFBF, sizeof room);
-        poptPrintHelp(context, stdout, 0);
-        fputs(footers[settings->command], stdout);
-    }
-    if (!good) complain("%s", why.text);
-    poptFreeContext(context);
-    free(words);
+    const bool good = read_arguments(read.context, settings, &help, &why);
+    const enum reading reading = arguments_close(&read, good, help, footers[settings->command], &why);
     free(dimensionless);
     free(physical);
-    return help ? READING_STOP : good ? READING_GO_ON : READING_FAILED;
+    return reading;
 }
 
 void options_release(struct settings *settings)

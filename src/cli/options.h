@@ -3,6 +3,7 @@
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
+#include "arguments.h"
 #include "problem.h"
 
 /* Options that are not fields. */
@@ -54,9 +55,6 @@ struct settings {
     int argument_count;
     const char *const *arguments; /* the whole command line, for the record */
 };
-
-/* What to do after reading the command line. */
-enum reading { READING_GO_ON, READING_STOP, READING_FAILED };
 
 /* Read the options behind `restitute pair`, `history` or `sweep`: arguments[1] is the subcommand. STOP: help was
  * printed. */

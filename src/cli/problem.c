@@ -70,6 +70,22 @@ bool switch_read(const char *text, const char *place, int *on, struct reason *wh
     return true;
 }
 
+bool values_take(const char *name, const char *cell, struct values *values, struct reason *why)
+{
+    const enum field field = field_of_column(name);
+    if (field < FIELD_COUNT) {
+        if (!*cell && field_rules[field].may_be_empty) return true;
+        if (!*cell) return refuse(why, "%s is empty: %s", name, field_rules[field].range);
+        values->given[field] = true;
+        return field_read(field, cell, name, &values->number[field], why);
+    }
+    if (!*cell) return refuse(why, "%s is empty", name);
+    if (strcmp(name, "partner") == 0) return partner_read(cell, name, values, why);
+    if (strcmp(name, "rotation_blocked") == 0) return switch_read(cell, name, &values->rotation_blocked, why);
+    values->material = cell;
+    return true;
+}
+
 /* How a field is called here, with the dashes of an option. */
 static struct reason called(enum field field, enum naming naming)
 {

@@ -24,6 +24,9 @@ struct values values_none(void);
 /* The texts of options, one a field, NULL: not given. */
 bool values_read(char *const texts[FIELD_COUNT], struct values *values, struct reason *why);
 
+/* A cell of a column of a scene; an empty one counts as not given where that makes sense. */
+bool values_take(const char *column, const char *cell, struct values *values, struct reason *why);
+
 /* How the user calls things in this place, for messages. */
 enum naming { NAME_OPTIONS, NAME_COLUMNS };
 
@@ -50,9 +53,10 @@ bool problem_build(const struct values *values, enum naming naming, struct mater
 int problem_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
                   restitute_ledger *ledger, restitute_history *history, restitute_error *error);
 
-/* A partner: rigid, same, or the file of its own material. A rotation_blocked cell. False for anything else. */
 /* The word that partner_read would read. */
 const char *partner_word(const struct values *values);
+
+/* A partner: rigid, same, or the file of its own material. A rotation_blocked cell. False for anything else. */
 bool partner_read(const char *text, const char *place, struct values *values, struct reason *why);
 bool switch_read(const char *text, const char *place, int *on, struct reason *why);
 

@@ -10,9 +10,9 @@ int table_main(int count, char **arguments)
     static int (*const actions[TABLE_ACTIONS])(const struct table_settings *) = {table_build_run, table_info_run,
                                                                                  table_query_run};
     struct table_settings settings;
-    const enum table_reading reading = table_options_read(count, arguments, &settings);
-    const int status = reading == TABLE_GO_ON  ? actions[settings.action](&settings)
-                       : reading == TABLE_STOP ? EXIT_DONE
+    const enum reading reading = table_options_read(count, arguments, &settings);
+    const int status = reading == READING_GO_ON ? actions[settings.action](&settings)
+                       : reading == READING_STOP ? EXIT_DONE
                                                : EXIT_USAGE;
     table_options_release(&settings);
     return status;

@@ -1,16 +1,14 @@
-/* The options of `restitute table`, read with popt.
+/* The options of `restitute table`.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
-
+#include "arguments.h"
 #include "output.h"
 #include "table_settings.h"
 
-enum { CODE_FIELD = 100, CODE_TEXT = 200, CODE_HELP = 300, CODE_BLOCKED };
+enum { CODE_BLOCKED = CODE_HELP + 1 };
 
 const char *const table_text_names[TABLE_TEXTS] = {"material", "partner",   "speed",   "normal-speed", "tangential-speed",
                                                    "input",    "tolerance", "threads", "max-impacts",  "format",
@@ -18,23 +16,15 @@ const char *const table_text_names[TABLE_TEXTS] = {"material", "partner",   "spe
 
 static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query"};
 
-#define ENTRY(name, code, argument, help)                                                                              \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_STRING, NULL, (code), (help), (argument)                                                \
-    }
-#define FLAG(name, code, help)                                                                                         \
-    {                                                                                                                  \
-        (name), '\0', POPT_ARG_NONE, NULL, (code), (help), NULL                                                        \
-    }
-#define TEXT(which, argument, help) ENTRY(NULL, CODE_TEXT + (which), argument, help)
-#define HELP FLAG("help", CODE_HELP, "show this and stop"), POPT_TABLEEND
+#define TEXT(which, argument, help) OPTION(NULL, CODE_TEXT + (which), argument, help)
+#define HELP OPTION_HELP, POPT_TABLEEND
 
 static const struct poptOption build_options[] = {
     TEXT(TABLE_OUTPUT, "FILE", "the table, an HDF5 file; required"),
     TEXT(TABLE_MATERIAL, "FILE", "what deforms, a material file, .json, or .csv with tau_s,G_Pa"),
     TEXT(TABLE_PARTNER, "rigid|same|FILE",
          "one of the two bodies deforms (default), both do, or the partner's material"),
-    FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"),
+    OPTION_FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"),
     TEXT(TABLE_SPEED, "FROM:TO", "normal speeds, m/s; default 1e-4:100"),
     TEXT(TABLE_TOLERANCE, "ERROR", "largest error of ez and ex, in [1e-7, 0.1]; default 1e-5"),
     TEXT(TABLE_THREADS, "N", "solve by so many threads, 1 to 1024; default all processors"),
@@ -79,34 +69,11 @@ static bool of_contact(enum field field)
 
 static struct poptOption *option_table(enum table_action action)
 {
-    struct poptOption *table = allocate(2 * FIELD_COUNT + TABLE_TEXTS + 8, sizeof *table), *entry = table;
-    for (enum field field = 0; action == TABLE_BUILD && field < FIELD_COUNT; field++) {
-        if (!of_contact(field)) continue;
-        *entry++ = (struct poptOption)ENTRY(field_rules[field].option, CODE_FIELD + (int)field, "NUMBER",
-                                            field_rules[field].help);
-        if (!field_rules[field].alias) continue;
-        *entry = (struct poptOption)ENTRY(field_rules[field].alias, CODE_FIELD + (int)field, "NUMBER", NULL);
-        entry++->argInfo |= POPT_ARGFLAG_DOC_HIDDEN;
-    }
-    for (const struct poptOption *o = options[action];; o++) {
-        *entry = *o;
-        if (o->val >= CODE_TEXT && o->val < CODE_HELP)
-            entry->longName = table_text_names[o->val - CODE_TEXT];
-        else if (!o->longName)
-            break;
-        entry++;
-    }
+    struct poptOption *table = field_options(action == TABLE_BUILD ? of_contact : NULL, options[action]);
+    for (struct poptOption *entry = table; entry->val; entry++)
+        if (entry->val >= CODE_TEXT && entry->val < CODE_HELP)
+            entry->longName = table_text_names[entry->val - CODE_TEXT];
     return table;
-}
-
-static bool keep(char **place, const char *name, char *text, struct reason *why)
-{
-    if (*place) {
-        free(text);
-        return refuse(why, "--%s is given twice", name);
-    }
-    *place = text;
-    return true;
 }
 
 static bool take(poptContext context, int code, struct table_settings *s, struct reason *why)
@@ -114,9 +81,10 @@ static bool take(poptContext context, int code, struct table_settings *s, struct
     if (code == CODE_BLOCKED)
         s->values.rotation_blocked = 1;
     else if (code >= CODE_TEXT)
-        return keep(&s->text[code - CODE_TEXT], table_text_names[code - CODE_TEXT], poptGetOptArg(context), why);
+        return option_keep(table_text_names[code - CODE_TEXT], &s->text[code - CODE_TEXT], poptGetOptArg(context), why);
     else
-        return keep(&s->field[code - CODE_FIELD], field_rules[code - CODE_FIELD].option, poptGetOptArg(context), why);
+        return option_keep(field_rules[code - CODE_FIELD].option, &s->field[code - CODE_FIELD], poptGetOptArg(context),
+                           why);
     return true;
 }
 
@@ -127,14 +95,9 @@ static bool read_arguments(poptContext context, struct table_settings *s, bool *
         if (code == CODE_HELP) return *help = true;
         if (!take(context, code, s, why)) return false;
     }
-    if (code < -1) return refuse(why, "%.100s: %s; see --help", poptBadOption(context, 0), poptStrerror(code));
-    const char *file = poptGetArg(context);
-    if (file && s->action != TABLE_BUILD) {
-        s->file = copy_of(file);
-        file = poptGetArg(context);
-    } else if (s->action != TABLE_BUILD)
+    if (!arguments_end(context, code, s->action == TABLE_BUILD ? NULL : &s->file, why)) return false;
+    if (s->action != TABLE_BUILD && !s->file)
         return refuse(why, "a table file is missing: restitute table %s FILE", action_names[s->action]);
-    if (file) return refuse(why, "unexpected argument \"%.100s\"; see --help", file);
     if (s->action == TABLE_BUILD && !s->text[TABLE_OUTPUT]) return refuse(why, "--output is missing: the table's file");
     s->values.material = s->text[TABLE_MATERIAL];
     return values_read(s->field, &s->values, why) &&
@@ -142,52 +105,42 @@ static bool read_arguments(poptContext context, struct table_settings *s, bool *
 }
 
 /* FAILED also without an action. */
-static enum table_reading find_action(int count, char **arguments, enum table_action *action)
+static enum reading find_action(int count, char **arguments, enum table_action *action)
 {
     const char *word = count > 2 ? arguments[2] : "";
     for (int i = 0; i < TABLE_ACTIONS; i++)
         if (strcmp(word, action_names[i]) == 0) {
             *action = (enum table_action)i;
-            return TABLE_GO_ON;
+            return READING_GO_ON;
         }
     if (strcmp(word, "--help") == 0) {
         fputs(usage, stdout);
-        return TABLE_STOP;
+        return READING_STOP;
     }
     if (*word)
         complain("table: unknown action \"%.64s\": must be build, info or query", word);
     else
         complain("table: an action is missing: build, info or query; see restitute table --help");
-    return TABLE_FAILED;
+    return READING_FAILED;
 }
 
-enum table_reading table_options_read(int count, char **arguments, struct table_settings *settings)
+enum reading table_options_read(int count, char **arguments, struct table_settings *settings)
 {
     struct reason why;
     bool help = false;
     char name[64];
     *settings = (struct table_settings){.argument_count = count, .arguments = (const char *const *)arguments};
     settings->values = values_none();
-    const enum table_reading found = find_action(count, arguments, &settings->action);
-    if (found != TABLE_GO_ON) return found;
-    /* popt shows its first word as the name of the program. */
+    const enum reading found = find_action(count, arguments, &settings->action);
+    if (found != READING_GO_ON) return found;
     snprintf(name, sizeof name, "restitute table %s", action_names[settings->action]);
-    const char **words = allocate((size_t)count, sizeof *words);
-    words[0] = name;
-    memcpy(words + 1, arguments + 3, (size_t)(count - 3) * sizeof *words);
     struct poptOption *table = option_table(settings->action);
-    poptContext context = poptGetContext("restitute", count - 2, words, table, 0);
-    if (settings->action != TABLE_BUILD) poptSetOtherOptionHelp(context, "FILE [OPTION...]");
-    const bool good = read_arguments(context, settings, &help, &why);
-    if (help) {
-        poptPrintHelp(context, stdout, 0);
-        fputs(footers[settings->action], stdout);
-    }
-    if (!good) complain("%s", why.text);
-    poptFreeContext(context);
-    free(words);
+    struct arguments read = arguments_begin(name, 3, count, arguments, table);
+    if (settings->action != TABLE_BUILD) poptSetOtherOptionHelp(read.context, "FILE [OPTION...]");
+    const bool good = read_arguments(read.context, settings, &help, &why);
+    const enum reading reading = arguments_close(&read, good, help, footers[settings->action], &why);
     free(table);
-    return help ? TABLE_STOP : good ? TABLE_GO_ON : TABLE_FAILED;
+    return reading;
 }
 
 void table_options_release(struct table_settings *settings)
@@ -202,11 +155,5 @@ void table_options_release(struct table_settings *settings)
 bool table_number(const struct table_settings *settings, enum table_text option, double low, double high, double *value,
                   struct reason *why)
 {
-    const char *text = settings->text[option];
-    double number;
-    if (!text) return true;
-    if (restitute_number_read(text, &number) != RESTITUTE_OK || !(number >= low && number <= high))
-        return refuse(why, "--%s = \"%.64s\": must be a number in [%g, %g]", table_text_names[option], text, low, high);
-    *value = number;
-    return true;
+    return option_number(table_text_names[option], settings->text[option], low, high, false, value, why);
 }

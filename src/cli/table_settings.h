@@ -5,6 +5,7 @@
 
 #include <restitute/table_files.h>
 
+#include "arguments.h"
 #include "problem.h"
 
 enum table_action { TABLE_BUILD, TABLE_INFO, TABLE_QUERY, TABLE_ACTIONS };
@@ -37,10 +38,8 @@ struct table_settings {
     const char *const *arguments;
 };
 
-enum table_reading { TABLE_GO_ON, TABLE_STOP, TABLE_FAILED };
-
 /* Read the options; STOP: help was printed, FAILED: a complaint. To be released in any case. */
-enum table_reading table_options_read(int count, char **arguments, struct table_settings *settings);
+enum reading table_options_read(int count, char **arguments, struct table_settings *settings);
 void table_options_release(struct table_settings *settings);
 
 /* A number of an option within [low, high]; not given: left as it is. */

@@ -33,14 +33,16 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
 {
     const double *const arrays[] = {frequency, storage, loss};
     static const char *const names[] = {"frequency", "storage", "loss"};
+    char name[40];
     if (!frequency || !storage || !loss)
         return rst_report(error, RESTITUTE_ERROR_NULL, "frequency, storage or loss is NULL");
     if (n < 3 || n > 100000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu rows: must be in [3, 100000]", n);
     for (size_t i = 0; i < n; i++) {
-        for (int k = 0; k < 3; k++)
-            if (!(arrays[k][i] >= 1e-30 && arrays[k][i] <= 1e30))
-                return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: %s = %g: must be in [1e-30, 1e30]", i,
-                                  names[k], arrays[k][i]);
+        for (int k = 0; k < 3; k++) {
+            snprintf(name, sizeof name, "row[%zu]: %s", i, names[k]);
+            const int status = rst_fit_outside(name, arrays[k][i], 1e-30, 1e30, error);
+            if (status) return status;
+        }
         if (temperature && !isfinite(temperature[i]))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: temperature must be finite", i);
     }
@@ -52,14 +54,10 @@ static int check_options(const restitute_dma_options *o, restitute_error *error)
     if (o->struct_size != sizeof *o)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
                           sizeof *o);
-    if (!(o->poisson_ratio >= 0 && o->poisson_ratio <= 0.5))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.poisson_ratio = %g: must be in [0, 0.5]",
-                          o->poisson_ratio);
-    if (!(o->noise >= 1e-4 && o->noise <= 0.5))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.noise = %g: must be in [1e-4, 0.5]", o->noise);
     if (isnan(o->wlf_c1) != isnan(o->wlf_c2))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.wlf_c1, wlf_c2: must be both given or both NaN");
-    return RESTITUTE_OK;
+    const int status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
+    return status ? status : rst_fit_outside("options.noise", o->noise, 1e-4, 0.5, error);
 }
 
 static int ascending(const void *a, const void *b)
@@ -158,6 +156,22 @@ static void first_shifts(struct rst_dma *d, const restitute_dma_options *o, rest
     strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
 }
 
+/* A term's loss peak is 1.14 decades wide at half height: rows within one decade cannot place it. */
+static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
+{
+    double low = INFINITY, high = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        const double reduced = d->omega[i] * exp(d->shift[d->group[i]]);
+        low = fmin(low, reduced), high = fmax(high, reduced);
+    }
+    if (high >= 10 * low) return;
+    const size_t used = strlen(r->remarks);
+    r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    snprintf(r->remarks + used, sizeof r->remarks - used,
+             "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or more\n",
+             high / low);
+}
+
 /* c1, c2 of log10 a (c2 + dT) = -c1 dT by linear least squares over the temperatures but the reference. */
 static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
 {
@@ -191,6 +205,7 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
     r->rms = sqrt(r->rms);
     r->wlf_c1 = o->wlf_c1, r->wlf_c2 = o->wlf_c2;
     if (isnan(o->wlf_c1)) find_wlf(d, r);
+    remark_range(d, r);
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
         r->flags |= RESTITUTE_FIT_MISFIT;

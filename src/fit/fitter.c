@@ -67,6 +67,7 @@ static void add_rivals(restitute_fitter *f)
     const double *k = f->search.model.known, *c = f->start;
     const int kind = f->search.model.kind;
     rst_fit_constants(&f->search.model, f->search.logs, f->start);
+    if (f->search.model.free == 0) add_rival(f, kind, NULL, f->start, 1); /* are the known constants right? */
     if (kind == RESTITUTE_FIT_STANDARD_SOLID) {
         const double kv[] = {k[0], k[2]}, kv_start[] = {c[0], c[2]}, maxwell[] = {k[1], k[2]},
                      maxwell_start[] = {c[0] + c[1], c[2]};
@@ -78,9 +79,9 @@ static void add_rivals(restitute_fitter *f)
         if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_ELASTIC, k, c, 1);
         add_rival(f, RESTITUTE_FIT_STANDARD_SOLID, known, start, 10);
     } else if (kind == RESTITUTE_FIT_ELASTIC) {
-        struct rst_fit_model *m = &f->rival[0].model; /* for the scale of a viscosity */
-        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, m);
-        const double known[] = {k[0], NAN}, start[] = {c[0], exp(m->centre[1])};
+        struct rst_fit_model damped; /* for the scale of a viscosity */
+        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, &damped);
+        const double known[] = {k[0], NAN}, start[] = {c[0], exp(damped.centre[1])};
         add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, known, start, 0.1);
     } else
         add_shorter_series(f);
@@ -145,7 +146,6 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
     if (!fitter) return;
     rst_fit_search_release(&fitter->search);
     rst_fit_data_release(&fitter->data);
-    restitute_material_destroy(fitter->result.material);
     free(fitter->weight);
     free(fitter);
 }
@@ -212,7 +212,7 @@ static void write_constants(restitute_fitter *f)
     }
 }
 
-static int finish(restitute_fitter *f, restitute_error *error)
+static int finish(restitute_fitter *f)
 {
     restitute_fit_result *r = &f->result;
     const struct rst_fit_certainty *c = &f->certainty;
@@ -228,7 +228,6 @@ static int finish(restitute_fitter *f, restitute_error *error)
     rst_fit_remark_directions(&f->search, c, r);
     int status = rst_fit_remark_pattern(&f->search, c, r);
     if (status >= 0) status = rst_fit_remark_limits(&f->search, r);
-    if (status >= 0) status = rst_fit_solid(&f->data, &f->search.model, r->value, 1, &r->material, error);
     r->impacts = f->data.impacts;
     return status;
 }
@@ -248,7 +247,7 @@ int restitute_fitter_run(restitute_fitter *f, double *done, restitute_error *err
     else if (turn <= starts + 1 + MOST_RIVALS)
         status = try_rival(f, turn - starts - 2);
     else if (turn < f->turns)
-        status = finish(f, error);
+        status = finish(f);
     rst_fit_gsl_end();
     if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
     if (f->turn < f->turns) f->turn++;
@@ -265,20 +264,17 @@ static int check_finished(const restitute_fitter *f, restitute_error *error)
 
 int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *result, restitute_error *error)
 {
-    restitute_fit_result copy;
-    double g_inf, eta, tau[RESTITUTE_FIT_CONSTANTS], g[RESTITUTE_FIT_CONSTANTS];
     int status = check_finished(f, error);
     if (status) return status;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     if (result->struct_size != sizeof *result)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
                           result->struct_size, sizeof *result);
-    copy = f->result;
-    restitute_material_series(copy.material, &g_inf, &eta, tau, g);
-    status = restitute_material_prony(g_inf, eta, restitute_material_terms(copy.material), tau, g,
-                                      f->data.options.poisson_ratio, &copy.material, error);
+    restitute_material *material;
+    status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
     if (status < 0) return status;
-    *result = copy;
+    *result = f->result;
+    result->material = material;
     return rst_done(error);
 }
 
@@ -289,15 +285,14 @@ int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, d
     if (status) return status;
     restitute_result *results = calloc(f->data.n, sizeof *results);
     struct rst_fit_data data = f->data; /* a copy: only its count of impacts changes */
-    status = results ? rst_fit_solve(&data, &f->search.model, 1, f->result.value, 1, results, error)
-                     : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    status = results ? rst_fit_solve_points(&data, &f->search.model, f->result.value, results) : RESTITUTE_ERROR_MEMORY;
     for (size_t i = 0; i < f->data.n && status >= 0; i++) {
         if (ez) ez[i] = results[i].ez;
         if (ex) ex[i] = results[i].ex;
         if (contact_time) contact_time[i] = results[i].contact_time;
     }
     free(results);
-    return status < 0 ? status : rst_done(error);
+    return status < 0 ? rst_report(error, status, "%s", restitute_status_text(status)) : rst_done(error);
 }
 
 int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,

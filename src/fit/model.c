@@ -13,37 +13,26 @@ static const double widest = 18.4; /* ln 1e8 */
 /* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
 static const double elastic_time = 2.9432751843;
 
-/* The modulus that gives a point its contact time if it were elastic, by (24): a_el = sqrt(T R v). */
-static double modulus_of_time(const restitute_scene *s, double nu, double contact_time)
-{
-    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
-    return 15 * m * v * v * r * r * (1 - nu) / (32 * pow(contact_time / elastic_time * r * v, 2.5));
-}
-
-static double time_of_modulus(const restitute_scene *s, double nu, double modulus)
-{
-    const double r = 1 / (1 / s->radius1 + 1 / s->radius2), m = 1 / (1 / s->mass1 + 1 / s->mass2), v = s->normal_speed;
-    return pow(15 * m * v * v * r * r * (1 - nu) / (32 * modulus), 0.4) / (r * v);
-}
-
-/* Scale of the moduli and of time: from contact times, else from a known modulus, else 1 MPa. */
+/* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. The plan has T for
+ * 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, double *modulus, double *time)
 {
+    const double softness = 2 * (1 - d->options.poisson_ratio);
     double logs = 0, times = 0;
     size_t n = 0;
     const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
-    for (size_t i = 0; i < d->n; i++)
-        if (!isnan(d->points[i].contact_time))
-            logs += log(modulus_of_time(&d->points[i].scene, d->options.poisson_ratio, d->points[i].contact_time)), n++;
+    for (size_t i = 0; i < d->n; i++) {
+        const double t = d->place[i].time, contact_time = d->points[i].contact_time;
+        times += log(t) / (double)d->n;
+        if (!isnan(contact_time)) logs += log(softness * pow(elastic_time * t / contact_time, 2.5)), n++;
+    }
     for (size_t i = 0; n == 0 && i < moduli; i++)
         if (m->known[i] > 0) logs = log(m->known[i]), n = 1;
     m->scaled = n > 0;
     for (size_t i = 0; i < m->solid; i++)
         m->scaled |= m->known[i] > 0;
     *modulus = n ? exp(logs / (double)n) : 1e6;
-    for (size_t i = 0; i < d->n; i++)
-        times += log(time_of_modulus(&d->points[i].scene, d->options.poisson_ratio, *modulus)) / (double)d->n;
-    *time = exp(times);
+    *time = exp(times) * pow(softness / *modulus, 0.4);
 }
 
 /* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
@@ -136,15 +125,15 @@ int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, c
 
 /* The solids of a set, one a group; with the partner's where it has a material of its own. */
 static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
-                       restitute_material **solids, restitute_error *error)
+                       restitute_material **solids)
 {
     int status = RESTITUTE_OK;
     for (size_t g = 0; g < d->groups && status >= 0; g++) {
         const restitute_fit_point *p = &d->points[d->first[g]];
         restitute_material *own = NULL;
-        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, error);
+        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, NULL);
         if (status >= 0 && p->scene.material) {
-            status = restitute_material_pair(own, p->scene.material, &solids[g], error);
+            status = restitute_material_pair(own, p->scene.material, &solids[g], NULL);
             restitute_material_destroy(own);
         } else
             solids[g] = own;
@@ -152,39 +141,36 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
     return status;
 }
 
-static void make_scenes(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
-                        int tangential, restitute_material *const *solids, restitute_scene *scenes,
-                        restitute_result *results)
+static void make_scenes(const struct rst_fit_model *m, const double *constants, size_t n,
+                        const struct rst_fit_impact *impacts, restitute_material *const *solids,
+                        restitute_scene *scenes, restitute_result *results)
 {
-    for (size_t i = 0; i < d->n; i++) {
-        const restitute_fit_point *p = &d->points[i];
-        scenes[i] = p->scene;
-        scenes[i].material = solids[d->group[i]];
-        if (isnan(p->scene.friction)) scenes[i].friction = m->friction < m->count ? constants[m->friction] : 0;
-        if (isnan(p->ex) && !tangential) scenes[i].friction = 0; /* saves the tangential problem */
+    for (size_t i = 0; i < n; i++) {
+        scenes[i] = impacts[i].scene;
+        scenes[i].material = solids[impacts[i].group];
+        if (isnan(scenes[i].friction)) scenes[i].friction = m->friction < m->count ? constants[m->friction] : 0;
         restitute_result_init(&results[i]);
         results[i].ez = NAN;
     }
 }
 
-int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
-                  int tangential, restitute_result *results, restitute_error *error)
+/* n impacts for every set of constants; one that failed has ez = NaN. */
+static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants, size_t n,
+                 const struct rst_fit_impact *impacts, restitute_result *results)
 {
-    restitute_scene *scenes = calloc(sets * d->n, sizeof *scenes);
+    restitute_scene *scenes = calloc(sets * n, sizeof *scenes);
     restitute_material **solids = calloc(sets * d->groups, sizeof *solids);
-    int *statuses = malloc(sets * d->n * sizeof *statuses);
-    int status =
-        scenes && solids && statuses ? RESTITUTE_OK : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
+    int *statuses = malloc(sets * n * sizeof *statuses);
+    int status = scenes && solids && statuses ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY;
     for (size_t s = 0; s < sets && status >= 0; s++) {
-        status = make_solids(d, m, constants + s * m->count, solids + s * d->groups, error);
-        if (status >= 0)
-            make_scenes(d, m, constants + s * m->count, tangential, solids + s * d->groups, scenes + s * d->n,
-                        results + s * d->n);
+        const double *c = constants + s * m->count;
+        status = make_solids(d, m, c, solids + s * d->groups);
+        if (status >= 0) make_scenes(m, c, n, impacts, solids + s * d->groups, scenes + s * n, results + s * n);
     }
     if (status >= 0) {
-        status = restitute_solve_scenes(&d->solver, sets * d->n, scenes, results, statuses, d->options.threads, error);
-        d->impacts += (int64_t)(sets * d->n);
-        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK; /* an impact that failed has ez = NaN */
+        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, NULL);
+        d->impacts += (int64_t)(sets * n);
+        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK;
     }
     for (size_t i = 0; solids && i < sets * d->groups; i++)
         restitute_material_destroy(solids[i]);
@@ -194,11 +180,32 @@ int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t 
     return status;
 }
 
-double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result)
+int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
+                  struct rst_fit_values *values)
 {
-    const double value = row->kind == RST_FIT_EZ   ? result->ez
-                         : row->kind == RST_FIT_EX ? result->ex
-                                                   : result->contact_time;
-    if (isnan(result->ez) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    restitute_result *results = malloc(sets * d->needed * sizeof *results);
+    const int status =
+        results ? solve(d, m, sets, constants, d->needed, d->impact, results) : RESTITUTE_ERROR_MEMORY;
+    for (size_t s = 0; s < sets && status >= 0; s++)
+        rst_fit_values(d, results + s * d->needed, values + s * d->n);
+    free(results);
+    return status;
+}
+
+int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants,
+                         restitute_result *results)
+{
+    struct rst_fit_impact *impacts = calloc(d->n, sizeof *impacts);
+    for (size_t i = 0; impacts && i < d->n; i++)
+        impacts[i].scene = d->points[i].scene, impacts[i].group = d->group[i];
+    const int status = impacts ? solve(d, m, 1, constants, d->n, impacts, results) : RESTITUTE_ERROR_MEMORY;
+    free(impacts);
+    return status;
+}
+
+double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values)
+{
+    const double value = values->of[row->kind];
+    if (isnan(values->of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
     return (value - row->measured) / row->sigma;
 }

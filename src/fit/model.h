@@ -14,17 +14,39 @@ struct rst_fit_row {
     double measured, sigma;
 };
 
-/* Copies of the points and options, the rows that follow from them, and points of one temperature and partner. */
+/* An impact to be solved for every set of constants, and its T apart from a factor of its group. */
+struct rst_fit_impact {
+    restitute_scene scene;
+    size_t group;
+    double time;
+};
+
+/* Where a point is: its own impact, or between `count` of them. */
+enum { RST_FIT_STENCIL = 6 };
+struct rst_fit_place {
+    double time, weight[RST_FIT_STENCIL];
+    size_t first, count;
+};
+
+/* What a set of constants gives for a point. */
+struct rst_fit_values {
+    double of[RST_FIT_KINDS];
+};
+
+/* Copies of the points and options, what follows from them, and points of one temperature and partner. */
 struct rst_fit_data {
     size_t n, rows, groups, temperatures;
     restitute_fit_point *points;
     restitute_fit_options options;
     double *memory; /* relaxation times and known constants */
     struct rst_fit_row *row;
+    size_t needed; /* impacts, of a set of constants */
+    struct rst_fit_impact *impact;
+    struct rst_fit_place *place;
     size_t *group, *first;                    /* group of a point; first point of a group */
     double temperature[RESTITUTE_DMA_SHIFTS]; /* distinct ones, the reference first */
     restitute_options solver;
-    int64_t impacts;
+    int64_t impacts; /* that were solved */
 };
 
 /* One solid and which of its constants are fitted. Constants: those of the solid, friction, shifts. */
@@ -42,6 +64,9 @@ struct rst_fit_model {
 int rst_fit_data_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
                         struct rst_fit_data *data, restitute_error *error);
 void rst_fit_data_release(struct rst_fit_data *data);
+
+/* A value out of its range is refused by its name; NaN is. */
+int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error);
 
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
@@ -61,12 +86,19 @@ void rst_fit_constants(const struct rst_fit_model *model, const double *logs, do
 int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
                   double shift, restitute_material **material, restitute_error *error);
 
-/* What `sets` sets of constants give at every point: results[set * n + point], `tangential`: e_x of all points. A result
- * whose impact could not be solved has ez = NaN. */
+/* What `sets` sets of constants give at every point: values[set * n + point]. e_z is NaN where an impact failed. */
 int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, size_t sets, const double *constants,
-                  int tangential, restitute_result *results, restitute_error *error);
+                  struct rst_fit_values *values);
+
+/* Every point by an impact of its own, with friction, whatever was measured. */
+int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
+                         restitute_result *results);
 
 /* Weighted residual of a row. */
-double rst_fit_residual(const struct rst_fit_row *row, const restitute_result *result);
+double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values);
+
+/* plan.c: the impacts that are needed, and from them the values of the points. */
+int rst_fit_plan(struct rst_fit_data *data, restitute_error *error);
+void rst_fit_values(const struct rst_fit_data *data, const restitute_result *solved, struct rst_fit_values *values);
 
 #endif

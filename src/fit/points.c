@@ -54,7 +54,7 @@ double rst_fit_wlf(double c1, double c2, double difference)
     return c2 + difference > 0 && fabs(shift) <= 30 ? shift : NAN;
 }
 
-static int outside(const char *name, double value, double low, double high, restitute_error *error)
+int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error)
 {
     if (value >= low && value <= high) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
@@ -66,12 +66,12 @@ static int check_known(const restitute_fit_options *o, restitute_error *error)
     for (size_t i = 0; o->known && i < rst_fit_solid_constants(o->model, o->terms); i++) {
         snprintf(name, sizeof name, "options.known[%zu]", i);
         const int may_be_0 = o->model == RESTITUTE_FIT_PRONY && o->known[i] == 0;
-        const int status = isnan(o->known[i]) || may_be_0 ? 0 : outside(name, o->known[i], 1e-30, 1e30, error);
+        const int status = isnan(o->known[i]) || may_be_0 ? 0 : rst_fit_outside(name, o->known[i], 1e-30, 1e30, error);
         if (status) return status;
     }
     for (size_t k = 0; o->model == RESTITUTE_FIT_PRONY && k < o->terms; k++) {
         snprintf(name, sizeof name, "options.relaxation_time[%zu]", k);
-        const int status = outside(name, o->relaxation_time[k], 1e-30, 1e30, error);
+        const int status = rst_fit_outside(name, o->relaxation_time[k], 1e-30, 1e30, error);
         if (status) return status;
         for (size_t l = 0; l < k; l++)
             if (o->relaxation_time[l] == o->relaxation_time[k])
@@ -86,16 +86,16 @@ static int check_options(const restitute_fit_options *o, restitute_error *error)
     if (o->struct_size != sizeof *o)
         return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
                           sizeof *o);
-    int status = outside("options.model", o->model, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_PRONY, error);
-    if (!status) status = outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
-    if (!status) status = outside("options.loss", o->loss, RESTITUTE_FIT_SQUARES, RESTITUTE_FIT_CAUCHY, error);
-    if (!status) status = outside("options.confidence", o->confidence, 0.5, 0.999, error);
-    if (!status) status = outside("options.starts", o->starts, 1, 100, error);
-    if (!status) status = outside("options.threads", o->threads, 0, 1024, error);
+    int status = rst_fit_outside("options.model", o->model, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_PRONY, error);
+    if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
+    if (!status) status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_SQUARES, RESTITUTE_FIT_CAUCHY, error);
+    if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
+    if (!status) status = rst_fit_outside("options.starts", o->starts, 1, 100, error);
+    if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
     if (!status && isnan(o->wlf_c1) != isnan(o->wlf_c2))
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.wlf_c1, wlf_c2: must be both given or both NaN");
     if (!status && o->model == RESTITUTE_FIT_PRONY) {
-        status = outside("options.terms", (double)o->terms, 1, 20, error);
+        status = rst_fit_outside("options.terms", (double)o->terms, 1, 20, error);
         if (!status && !o->relaxation_time)
             status = rst_report(error, RESTITUTE_ERROR_NULL, "options.relaxation_time is NULL");
     }
@@ -109,21 +109,25 @@ static double measured(const restitute_fit_point *p, enum rst_fit_kind kind, dou
     return kind == RST_FIT_EZ ? p->ez : kind == RST_FIT_EX ? p->ex : p->contact_time;
 }
 
+/* The scene itself is checked where its T is found, in plan.c. */
 static int check_point(size_t i, const restitute_fit_point *p, int noise_known, restitute_error *error)
 {
     static const char *const names[] = {"ez", "ex", "contact_time"};
     static const double low[] = {0, -1, 1e-100}, high[] = {1, 1, 1e100};
     char name[64];
     int values = 0;
+    if (p->struct_size != sizeof *p)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "points[%zu].struct_size = %zu: must be %zu", i,
+                          p->struct_size, sizeof *p);
     for (enum rst_fit_kind kind = 0; kind < RST_FIT_KINDS; kind++) {
         double sigma;
         const double value = measured(p, kind, &sigma);
         if (isnan(value)) continue;
         values++;
         snprintf(name, sizeof name, "points[%zu].%s", i, names[kind]);
-        int status = outside(name, value, low[kind], high[kind], error);
+        int status = rst_fit_outside(name, value, low[kind], high[kind], error);
         snprintf(name, sizeof name, "points[%zu].sigma_%s", i, names[kind]);
-        if (!status && (!isnan(sigma) || noise_known)) status = outside(name, sigma, 1e-100, 1e100, error);
+        if (!status && (!isnan(sigma) || noise_known)) status = rst_fit_outside(name, sigma, 1e-100, 1e100, error);
         if (status) return status;
     }
     if (values == 0)
@@ -131,40 +135,11 @@ static int check_point(size_t i, const restitute_fit_point *p, int noise_known, 
     if (isinf(p->temperature))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu].temperature = %g: must be finite", i,
                           p->temperature);
-    snprintf(name, sizeof name, "points[%zu].scene.normal_speed", i);
-    return outside(name, p->scene.normal_speed, 1e-50, 1e50, error);
-}
-
-/* The scene as a whole is checked by the core, with a solid in the place of the fitted one. */
-static int check_scene(size_t i, const restitute_fit_point *p, const restitute_material *any, restitute_error *error)
-{
-    restitute_scene scene = p->scene;
-    restitute_numbers numbers;
-    restitute_error inner;
-    restitute_numbers_init(&numbers);
-    scene.material = any;
-    if (isnan(scene.friction)) scene.friction = 0.5;
-    const int status = restitute_scene_numbers(&scene, &numbers, &inner);
-    if (status < 0) return rst_report(error, status, "points[%zu]: %s", i, inner.message);
     if (p->scene.material && p->scene.deformable == RESTITUTE_BOTH_BODIES_DEFORM)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: a partner's material with BOTH_BODIES_DEFORM",
                           i);
-    return RESTITUTE_OK;
-}
-
-static int check_points(size_t n, const restitute_fit_point *points, int noise_known, restitute_error *error)
-{
-    restitute_material *any = NULL;
-    int status = restitute_material_elastic(1, 0.5, &any, error);
-    for (size_t i = 0; !status && i < n; i++) {
-        if (points[i].struct_size != sizeof *points)
-            status = rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "points[%zu].struct_size = %zu: must be %zu", i,
-                                points[i].struct_size, sizeof *points);
-        if (!status) status = check_point(i, &points[i], noise_known, error);
-        if (!status) status = check_scene(i, &points[i], any, error);
-    }
-    restitute_material_destroy(any);
-    return status;
+    snprintf(name, sizeof name, "points[%zu].scene.normal_speed", i);
+    return rst_fit_outside(name, p->scene.normal_speed, 1e-50, 1e50, error);
 }
 
 static void make_rows(struct rst_fit_data *d)
@@ -251,7 +226,8 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
     if (!points) return rst_report(error, RESTITUTE_ERROR_NULL, "points is NULL");
     if (n == 0 || n > 1000000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "n = %zu: must be in [1, 1000000]", n);
     int status = check_options(options, error);
-    if (!status) status = check_points(n, points, options->noise_known, error);
+    for (size_t i = 0; !status && i < n; i++)
+        status = check_point(i, &points[i], options->noise_known, error);
     if (!status && (status = copy(n, points, options, data)))
         rst_report(error, status, "out of memory for %zu points", n);
     if (!status) {
@@ -259,6 +235,7 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
         make_rows(data);
         status = make_groups(data, error);
     }
+    if (!status) status = rst_fit_plan(data, error);
     if (status) rst_fit_data_release(data);
     return status;
 }
@@ -269,5 +246,7 @@ void rst_fit_data_release(struct rst_fit_data *data)
     free(data->row);
     free(data->group);
     free(data->memory);
+    free(data->impact);
+    free(data->place);
     *data = (struct rst_fit_data){0};
 }

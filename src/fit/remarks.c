@@ -162,13 +162,15 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
     static const int bits[] = {RESTITUTE_FLAG_FAST, RESTITUTE_FLAG_LARGE_CONTACT};
     static const char *const ratios[] = {"v/c_s", "a/R"};
     if (!s->model.scaled) return RESTITUTE_OK; /* both ratios need the modulus */
+    restitute_result *results = calloc(s->data->n, sizeof *results);
+    if (!results) return RESTITUTE_ERROR_MEMORY;
     rst_fit_constants(&s->model, s->logs, s->sets);
-    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve_points(s->data, &s->model, s->sets, results);
     for (int b = 0; b < 2 && status >= 0; b++) {
         size_t count = 0;
         double worst = 0;
         for (size_t i = 0; i < s->data->n; i++) {
-            const restitute_result *r = &s->results[i];
+            const restitute_result *r = &results[i];
             if (!(r->flags & bits[b])) continue;
             count++;
             worst = fmax(worst, b ? r->radius_ratio : r->speed_ratio);
@@ -178,11 +180,13 @@ int rst_fit_remark_limits(struct rst_fit_search *s, restitute_fit_result *result
                            "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s", count, s->data->n,
                            ratios[b], worst, restitute_flag_text(bits[b]));
     }
+    free(results);
     return status;
 }
 
-static const char *kind_text(const struct rst_fit_model *m)
+static const char *kind_text(const struct rst_fit_model *m, int ours)
 {
+    if (m->kind == ours && m->free == m->count) return "the same model with other constants";
     static const char *const texts[] = {"",
                                         "an elastic solid",
                                         "a Kelvin-Voigt solid",
@@ -210,9 +214,9 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_c
     if (simpler && chance > SIMPLER_FROM)
         rst_fit_remark(result, RESTITUTE_FIT_SIMPLER,
                        "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
-                       kind_text(&rival->model), sqrt(worse / rows), sqrt(better / rows));
+                       kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)
         rst_fit_remark(result, RESTITUTE_FIT_MISFIT,
                        "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
-                       kind_text(&rival->model), sqrt(better / rows), sqrt(worse / rows));
+                       kind_text(&rival->model, s->model.kind), sqrt(better / rows), sqrt(worse / rows));
 }

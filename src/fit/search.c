@@ -11,7 +11,7 @@
 #include "least.h"
 
 /* SCAN sets are solved for the starts: 64 find the valley of three constants; more cost more than a further start.
- * STEP is that of central differences in the logarithm: 1e-3 keeps both the truncation and the solver's 1e-7 below 1e-4.
+ * STEP is that of differences in the logarithm: at 1e-3 truncation and the solver's 1e-6 both stay near 1e-3 of them.
  * ROUGH and FINE: iterations of a fit from a start and of the last one from the best. Most need five. Two starts that end
  * with sums alike within ALIKE have found the same valley: the others are left out. */
 enum { SCAN = 64, ROUGH = 8, FINE = 40 };
@@ -23,12 +23,12 @@ static const double COARSE = 1e-4, PRECISE = 1e-6;
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
                           size_t starts, struct rst_fit_search *s)
 {
-    const size_t sets = 2 * model->free + 1;
+    const size_t sets = model->free + 1;
     *s = (struct rst_fit_search){.data = data, .model = *model, .weight = weight, .starts = starts, .sum = INFINITY};
     s->start = calloc(starts * model->free + 1, sizeof *s->start);
     s->sets = calloc(sets * model->count, sizeof *s->sets);
-    s->results = calloc(sets * data->n, sizeof *s->results);
-    if (s->start && s->sets && s->results) return RESTITUTE_OK;
+    s->values = calloc(sets * data->n, sizeof *s->values);
+    if (s->start && s->sets && s->values) return RESTITUTE_OK;
     rst_fit_search_release(s);
     return RESTITUTE_ERROR_MEMORY;
 }
@@ -37,21 +37,21 @@ void rst_fit_search_release(struct rst_fit_search *s)
 {
     free(s->start);
     free(s->sets);
-    free(s->results);
+    free(s->values);
     *s = (struct rst_fit_search){0};
 }
 
 static double weighted(const struct rst_fit_search *s, size_t row, size_t set)
 {
     const struct rst_fit_row *r = &s->data->row[row];
-    return sqrt(s->weight[row]) * rst_fit_residual(r, &s->results[set * s->data->n + r->point]);
+    return sqrt(s->weight[row]) * rst_fit_residual(r, &s->values[set * s->data->n + r->point]);
 }
 
 static int residuals(void *own, const double *x, double *r)
 {
     struct rst_fit_search *s = own;
     rst_fit_constants(&s->model, x, s->sets);
-    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
         r[i] = weighted(s, i, 0);
     return status;
@@ -62,16 +62,16 @@ static int jacobian(void *own, const double *x, double *j)
     struct rst_fit_search *s = own;
     const size_t p = s->model.free;
     double moved[RESTITUTE_FIT_CONSTANTS];
-    for (size_t k = 0; k < 2 * p; k++) {
+    for (size_t k = 0; k <= p; k++) { /* the last set is x itself */
         memcpy(moved, x, p * sizeof *x);
-        moved[k / 2] += k % 2 ? STEP : -STEP;
+        if (k < p) moved[k] += STEP;
         rst_fit_constants(&s->model, moved, s->sets + k * s->model.count);
     }
-    const int status = rst_fit_solve(s->data, &s->model, 2 * p, s->sets, 0, s->results, NULL);
+    const int status = rst_fit_solve(s->data, &s->model, p + 1, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
         for (size_t k = 0; k < p; k++) {
-            const double low = weighted(s, i, 2 * k), high = weighted(s, i, 2 * k + 1);
-            j[i * p + k] = fabs(high - low) < 100 ? (high - low) / (2 * STEP) : 0; /* one of them was not solved */
+            const double rise = weighted(s, i, k) - weighted(s, i, p);
+            j[i * p + k] = fabs(rise) < 100 ? rise / STEP : 0; /* one of them was not solved */
         }
     return status;
 }
@@ -93,7 +93,7 @@ static int solve_scan(struct rst_fit_search *s, gsl_qrng *sequence, double *sums
         for (size_t k = 0; k < m->free; k++)
             x[k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
         rst_fit_constants(m, x, s->sets);
-        status = rst_fit_solve(s->data, m, 1, s->sets, 0, s->results, NULL);
+        status = rst_fit_solve(s->data, m, 1, s->sets, s->values);
         for (size_t r = 0; r < s->data->rows; r++)
             sums[i] += pow(weighted(s, r, 0), 2);
     }

@@ -13,7 +13,7 @@ struct rst_fit_search {
     size_t starts;
     double *start; /* starts x free, the best of the scan */
     double *sets;  /* constants of the sets that are solved together */
-    restitute_result *results;
+    struct rst_fit_values *values;
     double logs[RESTITUTE_FIT_CONSTANTS]; /* the best */
     double sum;                           /* of its squared residuals; infinite before the first start */
     int converged;

@@ -36,6 +36,11 @@ cp solid.json first.json
 expect 0 fit --input drop.csv $ball --output solid.json --threads 2
 cmp first.json solid.json || fail "two runs give different files"
 
+# The report comes last: where a file has no room, there is neither.
+(ulimit -f 0; "$RESTITUTE" fit --input drop.csv $ball --output full.json 2>&1 </dev/null) | cat >said
+[ "$(cat said)" = 'restitute: full.json: cannot be written: File too large' ] || fail "no room: $(cat said)"
+absent full.json full.json.meta.json
+
 # e alone has no scale: remarks and exit status 1; a known constant sets it.
 cut -d, -f1,2 drop.csv >only.csv
 expect 1 fit --input only.csv $ball
@@ -43,6 +48,8 @@ has out 'not determined'
 has err 'remark: ' 'measure a contact time'
 expect 0 fit --input only.csv $ball --known modulus1=1e6
 has out 'known'
+expect 1 fit --input drop.csv $ball --known modulus1=1e6,modulus2=3e6,viscosity=400
+has err 'the same model with other constants fits better'
 expect 1 fit --input drop.csv $ball --model kelvin_voigt
 has err 'the data do not follow the model'
 
@@ -65,6 +72,9 @@ awk 'BEGIN { print "frequency_Hz,storage_Pa,loss_Pa"
 expect 0 fit --dma curve.csv --output series.json
 has out 'Prony series of 1 terms'
 near "$(sed -n 's/.*"modulus_pa": \([0-9.]*\).*/\1/p' series.json)" 1e6 10
+sed -n '1p;10p;10p;10p' curve.csv >single.csv
+expect 1 fit --dma single.csv
+has err 'rows within a factor of 1 in frequency do not determine relaxation times'
 expect 0 pair --material series.json $ball --friction 0.3 --velocity 1 --angle 30
 
 # Refusals name the row and the value; nothing is written.

@@ -1,0 +1,107 @@
+/* Which impacts are solved for a set of constants, and how the values of all points follow from them.
+ * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md, 2). So where
+ * many points measure no e_x, a few impacts evenly spaced in log T are solved, and the points lie between these.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <stdlib.h>
+
+#include "model.h"
+#include "report.h"
+
+/* Polynomials through six impacts. A relaxation bends e_z over y = log T as 1/(1 + exp(2 y)) does, with poles at i pi/2:
+ * its sixth derivative is about 6!/(pi/2)^6 = 50, so the error is 0.005 x 50 STEP^6 = 2e-7, as that of the impacts.
+ * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
+static const double STEP = 0.1;
+
+/* T of every point, apart from a factor of its group: with the same modulus for all. The core checks the scene. */
+static int find_times(struct rst_fit_data *d, restitute_error *error)
+{
+    restitute_material *any = NULL;
+    restitute_numbers numbers;
+    restitute_error inner;
+    int status = restitute_material_elastic(1, 0.5, &any, error);
+    restitute_numbers_init(&numbers);
+    for (size_t i = 0; i < d->n && status >= 0; i++) {
+        restitute_scene scene = d->points[i].scene;
+        scene.material = any;
+        if (isnan(scene.friction)) scene.friction = 0.5;
+        status = restitute_scene_numbers(&scene, &numbers, &inner);
+        if (status < 0) rst_report(error, status, "points[%zu]: %s", i, inner.message);
+        d->place[i].time = numbers.time;
+    }
+    restitute_material_destroy(any);
+    return status;
+}
+
+static void add_impact(struct rst_fit_data *d, size_t point, double time)
+{
+    const restitute_fit_point *p = &d->points[point];
+    struct rst_fit_impact *impact = &d->impact[d->needed++];
+    *impact = (struct rst_fit_impact){p->scene, d->group[point], time};
+    impact->scene.normal_speed *= pow(time / d->place[point].time, -5); /* T ~ v^(-1/5) */
+    if (isnan(p->ex)) impact->scene.friction = 0;                       /* saves the tangential problem */
+}
+
+/* Lagrange's weights of the impacts around a point; the first of them all is two steps below `low`. */
+static void set_between(struct rst_fit_place *place, size_t first, double low)
+{
+    const double steps = log(place->time / low) / STEP, u = 2 + steps - floor(steps);
+    place->first = first + (size_t)steps;
+    place->count = RST_FIT_STENCIL;
+    for (int j = 0; j < RST_FIT_STENCIL; j++) {
+        place->weight[j] = 1;
+        for (int k = 0; k < RST_FIT_STENCIL; k++)
+            if (k != j) place->weight[j] *= (u - k) / (j - k);
+    }
+}
+
+/* Points without e_x lie between impacts, if that halves the impacts; the others have their own. */
+static void plan_group(struct rst_fit_data *d, size_t group)
+{
+    const size_t first = d->needed;
+    double low = INFINITY, high = 0;
+    size_t members = 0, some = 0;
+    for (size_t i = 0; i < d->n; i++)
+        if (d->group[i] == group && isnan(d->points[i].ex))
+            low = fmin(low, d->place[i].time), high = fmax(high, d->place[i].time), some = i, members++;
+    size_t nodes = members ? (size_t)(log(high / low) / STEP) + RST_FIT_STENCIL : 0;
+    if (2 * nodes > members) nodes = 0;
+    for (size_t k = 0; k < nodes; k++)
+        add_impact(d, some, low * exp(STEP * ((double)k - 2)));
+    for (size_t i = 0; i < d->n; i++) {
+        if (d->group[i] != group) continue;
+        if (nodes && isnan(d->points[i].ex)) {
+            set_between(&d->place[i], first, low);
+            continue;
+        }
+        d->place[i].first = d->needed, d->place[i].count = 1, d->place[i].weight[0] = 1;
+        add_impact(d, i, d->place[i].time);
+    }
+}
+
+int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
+{
+    d->impact = malloc(d->n * sizeof *d->impact);
+    d->place = malloc(d->n * sizeof *d->place);
+    if (!d->impact || !d->place)
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
+    const int status = find_times(d, error);
+    for (size_t g = 0; g < d->groups && status >= 0; g++)
+        plan_group(d, g);
+    return status;
+}
+
+void rst_fit_values(const struct rst_fit_data *d, const restitute_result *solved, struct rst_fit_values *values)
+{
+    for (size_t i = 0; i < d->n; i++) {
+        const struct rst_fit_place *place = &d->place[i];
+        values[i] = (struct rst_fit_values){{0}};
+        for (size_t j = 0; j < place->count; j++) {
+            const restitute_result *r = &solved[place->first + j];
+            values[i].of[RST_FIT_EZ] += place->weight[j] * r->ez;
+            values[i].of[RST_FIT_EX] += place->weight[j] * r->ex;
+            values[i].of[RST_FIT_TIME] +=
+                place->weight[j] * r->contact_time * place->time / d->impact[place->first + j].time;
+        }
+    }
+}
