@@ -28,21 +28,19 @@ module rst_front
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
   !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is
-  !> linear in X: H is then off by about e^3, and the front by e^2. Within Newton's steps the next search begins
-  !> where this one ended.
-  real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
+  !> linear in X: H is then off by about e^3, and the front by e^2. The next search begins where this one ended.
+  real(dp), parameter :: near_front = 1.0e-4_dp
 
 contains
 
   !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
-  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
+  !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
   !> as if all stuck.
-  pure subroutine find_front(normal, store, time, side, edge_angle, edge, precise, slack)
+  pure subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, edge_angle
     type(element_type), intent(in) :: edge
-    logical, intent(in) :: precise
     type(slack_type), intent(inout) :: slack
     type(element_type) :: element
     real(dp) :: low, high, y, theta, enough
@@ -59,7 +57,7 @@ contains
       slack%force = edge%force + edge%radius*slack%edge
       return
     end if
-    enough = min(slack%centre, -slack%edge)*merge(at_front, near_front, precise)
+    enough = min(slack%centre, -slack%edge)*near_front
     low = 0
     high = edge_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
