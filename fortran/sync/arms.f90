@@ -4,7 +4,7 @@
 !> G_inf is an arm with the rate 0, so that the solid is a dashpot eta and arms, and no formula has a case for any of them.
 module rst_arms
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, integral, solve_linear
+  use rst_collocation, only: stages, integral, differential, shifted_inverse, applied
   implicit none (type, external)
   private
   public :: solid_type, respond, respond_all, advance
@@ -23,22 +23,15 @@ contains
     real(dp), intent(in) :: rate, span(stages)
     real(dp), intent(out) :: kernel(stages, stages), decay(stages)
     logical, intent(out) :: fails
-    real(dp) :: a(stages, stages), b(stages, stages + 1)
-    integer(ip) :: j
     fails = .false.
     kernel = integral
     decay = 1
     if (.not. rate > 0) return
-    do j = 1, stages
-      a(:, j) = integral(:, j)*(rate*span(j))
-      a(j, j) = 1 + a(j, j)
-    end do
-    b(:, 1:stages) = integral
-    b(:, stages + 1) = 1
-    call solve_linear(stages + 1, a, b, fails)
-    kernel = b(:, 1:stages)
-    decay = b(:, stages + 1)
+    kernel = shifted_inverse(rate*span)
+    decay = applied(kernel, sum(differential, dim=2))
+    fails = .not. all(abs(decay) <= huge(1.0_dp))
   end subroutine respond
+
   !> That of all arms, and answer: how the stress of an element answers to its velocity. (Arrays of any stride: compilers would
   !> copy components of derived types to make them contiguous.)
   pure subroutine respond_all(eta, g, rate, span, kernel, decay, answer, fails)

@@ -7,7 +7,8 @@ module rst_collocation
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: stages, point, integral, weights_at, last_coefficient, integrated, start_of, slope_of, root_between
+  public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
+  public :: shifted_inverse
   public :: applied, composed, solve_linear, has_converged
 
   integer(ip), parameter :: stages = 6
@@ -30,6 +31,22 @@ module rst_collocation
     -2.48763031998222861e-02_dp, 9.24305343356996018e-02_dp, 1.59820376610255471e-01_dp, &
     -2.90953645256171456e-03_dp, 4.51223712257675397e-03_dp, -6.00340261044787597e-03_dp, &
     7.83708405064264743e-03_dp, -1.09952368277285543e-02_dp, 2.77777777777777762e-02_dp], [stages, stages])
+
+  !> The inverse of `integral`: differential(i, j) is the slope at x_i of the polynomial that is 1 at point j and 0 at the others and
+  !> at x = 0.
+  real(dp), parameter :: differential(stages, stages) = reshape([ &
+    1.25597034762915083e+01_dp, -9.80283871256801653e+00_dp, 5.18215783855871859e+00_dp, &
+    -4.10823909345880711e+00_dp, 4.38578506340093455e+00_dp, -9.94297742192881095e+00_dp, &
+    4.07582598887629555e+00_dp, 2.52508140796372516e+00_dp, -5.54452290952743798e+00_dp, &
+    3.49150290911386163e+00_dp, -3.46400504745148874e+00_dp, 7.67606215723304786e+00_dp, &
+    -1.21720380846426046e+00_dp, 3.13222586264734160e+00_dp, 1.14161816684749406e+00_dp, &
+    -5.06987875099360696e+00_dp, 3.95154245658761161e+00_dp, -8.23273712821840675e+00_dp, &
+    5.66231866944142515e-01_dp, -1.15740999277438084e+00_dp, 2.97497625382125097e+00_dp, &
+    7.18944191897770368e-01_dp, -6.81053943889144531e+00_dp, 1.16387072773680202e+01_dp, &
+    -3.07104212256840814e-01_dp, 5.83382192454110382e-01_dp, -1.17801932705882950e+00_dp, &
+    3.46004179608626705e+00_dp, 5.54652756999501451e-01_dp, -2.56390548844538486e+01_dp, &
+    1.09086010788007282e-01_dp, -2.02547698469053405e-01_dp, 3.84542362009172578e-01_dp, &
+    -9.26443110403131875e-01_dp, 4.01713280695131214e+00_dp, 1.85000000000000000e+01_dp], [stages, stages])
 
   !> 1/prod(point_j - point_k): the barycentric weights; sum_j weight_j y_j is the coefficient of x^stages.
   real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
@@ -99,19 +116,28 @@ contains
     start = -sum(barycentric(1:)*y)/barycentric(0)
   end function start_of
 
-  !> Slopes at the points of the polynomial through them that is 0 at the start.
-  pure function slope_of(y) result(slope)
-    real(dp), intent(in) :: y(stages)
-    real(dp) :: slope(stages)
-    integer(ip) :: i, j
-    do i = 1, stages
-      slope(i) = -barycentric(0)*y(i)/point(i)
-      do j = 1, stages
-        if (j /= i) slope(i) = slope(i) + barycentric(j)*(y(j) - y(i))/(point(i) - point(j))
-      end do
-      slope(i) = slope(i)/barycentric(i)
+  !> (differential + diagonal)^-1 for a diagonal that is nowhere negative, by elimination in place. Without pivots: Radau's matrix
+  !> is positive definite but for a scale of its rows (diagonally stable, Hairer and Wanner), so that none is zero.
+  pure function shifted_inverse(diagonal) result(a)
+    real(dp), intent(in) :: diagonal(stages)
+    real(dp) :: a(stages, stages), column(stages), row
+    integer(ip) :: j, k
+    a = differential
+    do k = 1, stages
+      a(k, k) = a(k, k) + diagonal(k)
     end do
-  end function slope_of
+    do k = 1, stages
+      column = a(:, k)*(-1/a(k, k))
+      column(k) = 1/a(k, k)
+      a(:, k) = 0
+      do j = 1, stages
+        row = a(k, j)
+        if (j == k) row = 1
+        a(k, j) = 0
+        a(:, j) = a(:, j) + column*row
+      end do
+    end do
+  end function shifted_inverse
 
   !> A zero of the polynomial through y between the points i - 1 and i, where it changes its sign: the secant's, halved where that
   !> hardly moves.

@@ -143,8 +143,8 @@ contains
     end associate
     do k = 1, normal%n_arms
       do i = 0, stages
-        store%held(1:2, i, k, panel) = [normal%memory(i, k, panel), normal%loading(i, k, panel)]
-        store%held(3:4, i, k, panel) = store%held(1:2, i, k, panel)
+        store%held(1:2, i, k, panel) = 0
+        store%held(3:4, i, k, panel) = 2*[normal%memory(i, k, panel), normal%loading(i, k, panel)]
       end do
     end do
   end subroutine record_slip
@@ -156,7 +156,7 @@ contains
     type(ground_type), intent(in) :: ground
     type(solution_type), intent(in) :: s
     type(store_type), intent(inout) :: store
-    real(dp) :: weight(0:stages)
+    real(dp) :: weight(0:stages), loading
     integer(ip) :: n, i, k
     store%n_pieces = store%n_pieces + 1
     store%piece(store%n_pieces) = piece_type(ground%panel, merge(1_ip, 0_ip, ground%rooted), ground%from, ground%to, s%w, &
@@ -171,8 +171,9 @@ contains
         store%record(n)%edge(:, i) = [ground%radius(i), ground%time(i), ground%velocity(i)*ground%pace(i), s%w(i)*ground%pace(i)]
         weight = weights_at(ground%place(i))
         do k = 1, normal%n_arms
-          store%held(:, i, k, n) = [store%now_z(i, k), sum(weight*normal%loading(:, k, ground%panel)), &
-                                    store%now_x(i, k), store%now_l(i, k)]
+          loading = sum(weight*normal%loading(:, k, ground%panel))
+          store%held(:, i, k, n) = [store%now_z(i, k) - store%now_x(i, k), loading - store%now_l(i, k), &
+                                    store%now_z(i, k) + store%now_x(i, k), loading + store%now_l(i, k)]
         end do
       end do
     end if

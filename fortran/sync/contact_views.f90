@@ -49,7 +49,7 @@ module rst_contact_views
     integer(ip) :: n_records, n_pieces
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
-    real(dp), pointer, contiguous :: held(:, :, :, :)                    !! (of_arm, 0:stages, arms, records): M_k, P_k in z, in x
+    real(dp), pointer, contiguous :: held(:, :, :, :)                    !! (of_arm, 0:stages, arms, records): m_k, p_k for d = 1, for d = -1
     real(dp), pointer, contiguous :: kernel(:, :, :), decay(:, :)        !! of the arms (module rst_arms)
     real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
   end type store_type

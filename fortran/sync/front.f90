@@ -9,7 +9,7 @@
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
-  use rst_contact_views, only: normal_type, store_type, of_edge, of_arm
+  use rst_contact_views, only: normal_type, store_type, of_edge
   implicit none (type, external)
   private
   public :: element_type, slack_type, look_at, find_front, held_by
@@ -28,21 +28,19 @@ module rst_front
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
   !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is
-  !> linear in X: H is then off by about e^3, and the front by e^2. Within Newton's steps the next search begins
-  !> where this one ended.
-  real(dp), parameter :: near_front = 1.0e-3_dp, at_front = 1.0e-6_dp
+  !> linear in X: H is then off by about e^3, and the front by e^2. The next search begins where this one ended.
+  real(dp), parameter :: near_front = 1.0e-4_dp
 
 contains
 
   !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
-  !> precise: with at_front. Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
+  !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
   !> as if all stuck.
-  pure subroutine find_front(normal, store, time, side, edge_angle, edge, precise, slack)
+  pure subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, edge_angle
     type(element_type), intent(in) :: edge
-    logical, intent(in) :: precise
     type(slack_type), intent(inout) :: slack
     type(element_type) :: element
     real(dp) :: low, high, y, theta, enough
@@ -59,7 +57,7 @@ contains
       slack%force = edge%force + edge%radius*slack%edge
       return
     end if
-    enough = min(slack%centre, -slack%edge)*merge(at_front, near_front, precise)
+    enough = min(slack%centre, -slack%edge)*near_front
     low = 0
     high = edge_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
@@ -99,14 +97,14 @@ contains
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, theta
-    real(dp) :: held, weight(0:stages), edge(of_edge), arm(of_arm)
+    real(dp) :: held, weight(0:stages), edge(of_edge), arm(2)
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
     edge = edge_between(weight, store, record)
     held = 0
     do k = 1, normal%n_arms
-      arm = arm_between(weight, store, k, record)
-      held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(4) - edge(1)*arm(3))
+      arm = 0.5_dp*(arm_between(weight, store, k, record, -1.0_dp) - arm_between(weight, store, k, record, 1.0_dp))
+      held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(2) - edge(1)*arm(1))
     end do
   end function held_by
 
@@ -136,7 +134,7 @@ contains
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, theta
     type(element_type), intent(out) :: element
-    real(dp) :: weight(0:stages), edge(of_edge), arm(of_arm), fade, answer
+    real(dp) :: weight(0:stages), edge(of_edge), arm(2), fade, answer
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
     edge = edge_between(weight, store, record)
@@ -146,9 +144,9 @@ contains
     do k = 1, normal%n_arms
       fade = 1
       if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
-      arm = arm_between(weight, store, k, record)
-      element%taken = element%taken + fade*(arm(1) - side*arm(3))
-      element%force = element%force + fade*(arm(2) - side*arm(4))
+      arm = arm_between(weight, store, k, record, side)
+      element%taken = element%taken + fade*arm(1)
+      element%force = element%force + fade*arm(2)
       answer = answer + normal%g(k)*fade
     end do
     element%radius = edge(1)
@@ -170,16 +168,17 @@ contains
     end do
   end function edge_between
 
-  !> What an arm of it holds.
-  pure function arm_between(weight, store, arm, record) result(values)
-    real(dp), intent(in) :: weight(0:stages)
+  !> m_k and p_k of an arm for a sense of slip.
+  pure function arm_between(weight, store, arm, record, side) result(values)
+    real(dp), intent(in) :: weight(0:stages), side
     type(store_type), intent(in) :: store
     integer(ip), intent(in) :: arm, record
-    real(dp) :: values(of_arm)
-    integer(ip) :: i
+    real(dp) :: values(2)
+    integer(ip) :: i, k
+    k = merge(1, 3, side > 0)
     values = 0
     do i = 0, stages
-      values = values + weight(i)*store%held(:, i, arm, record)
+      values = values + weight(i)*store%held(k:k + 1, i, arm, record)
     end do
   end function arm_between
 end module rst_front

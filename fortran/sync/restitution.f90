@@ -6,7 +6,7 @@
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, start_of, slope_of, integrated, applied, composed, &
+  use rst_collocation, only: stages, point, integral, weights_at, start_of, differential, integrated, applied, composed, &
                              solve_linear, has_converged
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
@@ -98,7 +98,7 @@ contains
       do i = 1, stages
         after(i) = first_return(solid, g, rate, panel(n + 1)%time(0) - m%entered(i))
       end do
-      m%pace = slope_of(after)/(panel(n + 1)%from - panel(n + 1)%to)
+      m%pace = applied(differential, after)/(panel(n + 1)%from - panel(n + 1)%to)
       m%v = -mass_factor*panel(n + 1)%force(0)*after
       m%pace = max(m%pace, 1.0e-3_dp*maxval(m%pace))
     else

@@ -111,14 +111,14 @@ contains
     push = push_factor(contact)
     call look_at_edges(normal, store, ground, side, edge)
     s%front = edge_of(store, ground, 0_ip)
-    call slacken(normal, store, ground, side, edge(0), 0_ip, .true., s)
+    call slacken(normal, store, ground, side, edge(0), 0_ip, s)
     if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, edge(i), i, .false., s)
+        call slacken(normal, store, ground, side, edge(i), i, s)
       end do
       step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
       do j = 1, stages
@@ -138,8 +138,10 @@ contains
     if (fails) return
     call advance_memory(normal, ground, s%w(1:), store)
     do i = 1, stages
-      call slacken(normal, store, ground, side, edge(i), i, .true., s)
+      s%centre(i) = slack_at_centre(normal, store, ground, side, i, s%w(i))
+      s%edge(i) = s%centre(i) - edge(i)%taken
     end do
+    s%force(1:) = s%force(1:) + s%stick(1:)*applied(ground%answer, step(:, 1)) ! by the last step
     s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
     if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
   end subroutine slip_behind
@@ -158,25 +160,34 @@ contains
   end subroutine look_at_edges
 
   !> Front, slack and S at the point i.
-  subroutine slacken(normal, store, ground, side, edge, i, precise, s)
+  subroutine slacken(normal, store, ground, side, edge, i, s)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
     type(element_type), intent(in) :: edge
     integer(ip), intent(in) :: i
-    logical, intent(in) :: precise
     type(solution_type), intent(inout) :: s
     type(slack_type) :: slack
     slack%angle = s%front(i)
-    slack%centre = normal%eta*(ground%velocity(i) - side*s%w(i)) + sum(store%now_z(i, :) - side*store%now_x(i, :))
-    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, precise, slack)
+    slack%centre = slack_at_centre(normal, store, ground, side, i, s%w(i))
+    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, slack)
     s%front(i) = slack%angle
     s%stick(i) = slack%radius
     s%centre(i) = slack%centre
     s%edge(i) = slack%edge
     s%force(i) = side*(ground%force(i) - slack%force)
   end subroutine slacken
+
+  pure function slack_at_centre(normal, store, ground, side, i, w) result(slack)
+    type(normal_type), intent(in) :: normal
+    type(store_type), intent(in) :: store
+    type(ground_type), intent(in) :: ground
+    real(dp), intent(in) :: side, w
+    integer(ip), intent(in) :: i
+    real(dp) :: slack
+    slack = normal%eta*(ground%velocity(i) - side*w) + sum(store%now_z(i, :) - side*store%now_x(i, :))
+  end function slack_at_centre
 
   !> The angle of the outermost element that may stick: recorded, and in contact.
   pure function edge_of(store, ground, i) result(edge)

@@ -6,7 +6,7 @@
 
 /* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
  * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
-static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.05;
+static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.2;
 
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
 static const double rst_least_estimate = 0.003;

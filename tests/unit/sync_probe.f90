@@ -4,7 +4,7 @@
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, slope_of, root_between
+  use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type
   use rst_normal_motion, only: normal_control_type, follow_normal
@@ -50,7 +50,7 @@ contains
     real(c_double), intent(out) :: last, start, slope(stages), root
     last = last_coefficient(y)
     start = start_of(y(1:))
-    slope = slope_of(y(1:))
+    slope = applied(differential, y(1:))
     root = root_between(i, y)
   end subroutine probe_polynomial
 
@@ -175,7 +175,7 @@ contains
           r%edge(:, i) = [radius, radius**2, 2*radius, shear*2*radius]
           do k = 1, n
             call load(g(k), rate(k), radius**2, stress, force)
-            store%held(:, i, k, j) = [stress, force, shear*stress, shear*force]
+            store%held(:, i, k, j) = [(1 - shear)*[stress, force], (1 + shear)*[stress, force]]
           end do
         end do
       end associate
@@ -183,7 +183,7 @@ contains
     call look_at(normal, store, time, side, sqrt(loaded), edge)
     slack%angle = 0
     slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
-    call find_front(normal, store, time, side, sqrt(loaded), edge, .true., slack)
+    call find_front(normal, store, time, side, sqrt(loaded), edge, slack)
     out = [slack%radius, slack%force, slack%centre, slack%edge]
   end subroutine probe_front
 
