@@ -508,6 +508,25 @@ static int turn(struct run *run)
     return status || run->contact.square > 0 ? status : end_contact(run);
 }
 
+/* All stick that have slipped since first touch. */
+static int end_gross_slip(struct run *run)
+{
+    int inside = 0;
+    for (int64_t i = 0; i < run->setup->n_nodes; i++)
+        inside += run->elements.x[i] * run->elements.x[i] < run->contact.square;
+    run->y[1] = run->slip_end;
+    const int status = note(run, RESTITUTE_EVENT_GROSS_SLIP_END, run->contact.radius, inside);
+    return status ? status : begin_shear(run, 1);
+}
+
+/* Gross slip may end there too (psi = 2 chi): restarted on that root, CVODE would not see it fall. */
+static int turn_and_stick(struct run *run)
+{
+    const int both = !run->shears && run->setup->n_nodes > 0 && fabs(run->slip_end) <= nearly(run);
+    const int status = turn(run);
+    return status || !both || run->ended ? status : end_gross_slip(run);
+}
+
 static int react(struct run *run, int64_t first)
 {
     const int *fell = rst_integrator_events(run->integrator);
@@ -528,15 +547,8 @@ static int react(struct run *run, int64_t first)
     }
     if (status) return status;
     if (fell[ROOT_PHASE] && run->scene.restitution) return end_contact(run);
-    if (fell[ROOT_PHASE]) return turn(run);
-    if (fell[ROOT_SLIP_END] && !run->shears && run->setup->n_nodes > 0) {
-        int inside = 0;
-        for (int64_t i = 0; i < run->setup->n_nodes; i++)
-            inside += run->elements.x[i] * run->elements.x[i] < run->contact.square;
-        run->y[1] = run->slip_end;
-        status = note(run, RESTITUTE_EVENT_GROSS_SLIP_END, run->contact.radius, inside);
-        return status ? status : begin_shear(run, 1);
-    }
+    if (fell[ROOT_PHASE]) return turn_and_stick(run);
+    if (fell[ROOT_SLIP_END] && !run->shears && run->setup->n_nodes > 0) return end_gross_slip(run);
     return RESTITUTE_OK;
 }
 

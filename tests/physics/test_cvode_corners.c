@@ -40,11 +40,23 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
     compare(impact_of(1.106, 2.6e-5, 0.124, 0.2997));
 }
 
+/* psi = 2 chi, and next to it: both are one event of the integrator, or two that it cannot tell apart. */
+static void gross_slip_may_end_at_the_turning_point(void **state)
+{
+    (void)state;
+    const double off[] = {-1e-9, -1e-15, 0, 1e-15, 1e-9};
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
+        compare(impact_of(7.0 / 6, 7.0 / 3 * (1 + off[i]), 0, 1));
+        compare(impact_of(7.0 / 6, 7.0 / 3 * (1 + off[i]), 0.3, 1));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slip_passes_through_a_contact_that_relaxes_at_once),
         cmocka_unit_test(strong_friction_leaves_thin_rings_of_slip),
+        cmocka_unit_test(gross_slip_may_end_at_the_turning_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

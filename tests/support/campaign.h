@@ -214,6 +214,16 @@ static inline restitute_impact strong_damping_corner(struct campaign_draw *d)
     return impact;
 }
 
+/* Spheres that lose next to nothing, so that they rebound as they came. */
+static inline restitute_impact nearly_elastic_corner(struct campaign_draw *d)
+{
+    restitute_impact impact = impact_of(7.0 / 6, 0, random_log(&d->random, 1e-12, 1e-4), 0);
+    if (random_below(&d->random, 3) == 0) impact.gamma = random_log(&d->random, 1e-4, 1e4);
+    impact.chi = draw_chi(&d->random);
+    impact.psi = draw_psi(d, &impact);
+    return impact;
+}
+
 /* Fluids in which the sphere sinks, rotation blocked. */
 static inline restitute_impact blocked_sinking_corner(struct campaign_draw *d)
 {
@@ -264,6 +274,7 @@ static const struct campaign_corner {
     {"tiny-psi", tiny_psi_corner},
     {"nearly-sinking", nearly_sinking_corner},
     {"strong-damping", strong_damping_corner},
+    {"nearly-elastic", nearly_elastic_corner},
     {"blocked-sinking", blocked_sinking_corner},
     {"limits", limit_corner},
 };
