@@ -199,7 +199,8 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 }
 
 /* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
- * agree by chance, so that the change before extrapolation counts, too. */
+ * agree by chance, so that the change before extrapolation counts, too: less if twice in a row it fell to a quarter, as
+ * it does where all is regular. */
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
@@ -207,7 +208,8 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
     struct rst_walk coarse, now;
     const double rest = outcome->error_ez +
                         (outcome->sunk ? 4 * problem->chi * ground.run->normal.left / problem->psi : 0); /* see compare */
-    double change, least = 1;
+    double before = 0, extrapolated = 0;
+    int walked = 1, regular = 0;
     const double first = rst_first_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
     int64_t parts = 1 + (int64_t)first / ground.run->normal.n_compression;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * ground.run->normal.n_compression);
@@ -217,15 +219,18 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
         parts *= 2;
         status = walk_once(motion, problem, &ground, parts, outcome, &now, error);
         if (status) break;
-        const double extrapolated = now.velocity + (now.velocity - coarse.velocity) / 3;
-        const int twice = least < 1; /* extrapolated before */
-        change = least * fabs(now.velocity - coarse.velocity);
-        if (twice) change = fmax(change, fabs(extrapolated - outcome->shear_velocity));
-        least = rst_share_by_chance;
+        const double plain = now.velocity - coarse.velocity, last = extrapolated;
+        extrapolated = now.velocity + plain / 3;
+        walked++;
+        regular = walked > 2 && fabs(before / plain - 4) < rst_regular ? regular + 1 : 0;
+        double change = fabs(plain);
+        if (walked > 2) change *= regular > 1 ? rst_share_if_regular : rst_share_by_chance;
+        if (walked > 2) change = fmax(change, fabs(extrapolated - last));
+        before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
             (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + rest;
-        if (problem->elements > 0 || (twice && meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
+        if (problem->elements > 0 || (walked > 2 && meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
         coarse = now;
     }
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;

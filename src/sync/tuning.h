@@ -8,6 +8,9 @@
  * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
 static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.2;
 
+/* The same if changes of elements fall regularly, to a quarter within that. */
+static const double rst_share_if_regular = 0.05, rst_regular = 0.5;
+
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
 static const double rst_least_estimate = 0.003;
 
