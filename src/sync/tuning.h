@@ -6,7 +6,7 @@
 
 /* Two runs differ by the error of the coarser one. This part of it is the estimate for the finer one, of the normal motion, and
  * of the tangential one behind a front and with elements; by chance: least part of the change before extrapolation. */
-static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.2;
+static const double rst_share_of_change = 0.5, rst_share_of_elements = 0.5, rst_share_by_chance = 0.1;
 
 /* The same if changes of elements fall regularly, to a quarter within that. */
 static const double rst_share_if_regular = 0.05, rst_regular = 0.5;
