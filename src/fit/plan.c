@@ -13,6 +13,14 @@
  * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
 static const double STEP = 0.1;
 
+/* A contact time has no bound where e falls to 0, so that no polynomial follows it there. */
+static const double LEAST_EZ = 0.3;
+
+static int may_lie_between(const restitute_fit_point *p)
+{
+    return isnan(p->ex) && (isnan(p->contact_time) || p->ez >= LEAST_EZ);
+}
+
 /* T of every point, apart from a factor of its group: with the same modulus for all. The core checks the scene. */
 static int find_times(struct rst_fit_data *d, restitute_error *error)
 {
@@ -55,14 +63,15 @@ static void set_between(struct rst_fit_place *place, size_t first, double low)
     }
 }
 
-/* Points without e_x lie between impacts, if that halves the impacts; the others have their own. */
+/* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds whose time was
+ * measured, have their own. */
 static void plan_group(struct rst_fit_data *d, size_t group)
 {
     const size_t first = d->needed;
     double low = INFINITY, high = 0;
     size_t members = 0, some = 0;
     for (size_t i = 0; i < d->n; i++)
-        if (d->group[i] == group && isnan(d->points[i].ex))
+        if (d->group[i] == group && may_lie_between(&d->points[i]))
             low = fmin(low, d->place[i].time), high = fmax(high, d->place[i].time), some = i, members++;
     size_t nodes = members ? (size_t)(log(high / low) / STEP) + RST_FIT_STENCIL : 0;
     if (2 * nodes > members) nodes = 0;
@@ -70,7 +79,7 @@ static void plan_group(struct rst_fit_data *d, size_t group)
         add_impact(d, some, low * exp(STEP * ((double)k - 2)));
     for (size_t i = 0; i < d->n; i++) {
         if (d->group[i] != group) continue;
-        if (nodes && isnan(d->points[i].ex)) {
+        if (nodes && may_lie_between(&d->points[i])) {
             set_between(&d->place[i], first, low);
             continue;
         }
