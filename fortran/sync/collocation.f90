@@ -9,7 +9,7 @@ module rst_collocation
   private
   public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
   public :: shifted_inverse
-  public :: applied, composed, solve_linear, has_converged
+  public :: applied, composed, factors_type, factorize, solution_of, has_converged
 
   integer(ip), parameter :: stages = 6
 
@@ -52,23 +52,30 @@ module rst_collocation
   real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
                          -3.56279434793616133e+02_dp, 2.72918967701194731e+02_dp, -1.94528678408716956e+02_dp, 7.7e1_dp]
 
+  !> Of a matrix: what elimination takes off its rows, what is left of them, and which row is exchanged for which.
+  type :: factors_type
+    real(dp), dimension(stages, stages) :: lower, upper
+    integer(ip) :: pivot(stages)
+  end type factors_type
+
 contains
 
-  !> The polynomial through y has the value sum(weight*y) at x.
+  !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other points.
   pure function weights_at(x) result(weight)
     real(dp), intent(in) :: x
-    real(dp) :: weight(0:stages), away
+    real(dp) :: weight(0:stages), away(0:stages), product
     integer(ip) :: j
+    away = x - point
+    product = 1
     do j = 0, stages
-      away = x - point(j)
-      if (.not. abs(away) > 0) then
-        weight = 0
-        weight(j) = 1
-        return
-      end if
-      weight(j) = barycentric(j)/away
+      weight(j) = barycentric(j)*product
+      product = product*away(j)
     end do
-    weight = weight*(1/sum(weight))
+    product = 1
+    do j = stages, 0, -1
+      weight(j) = weight(j)*product
+      product = product*away(j)
+    end do
   end function weights_at
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
@@ -82,22 +89,14 @@ contains
   pure function integrated(start, y) result(total)
     real(dp), intent(in) :: start, y(stages)
     real(dp) :: total(stages)
-    integer(ip) :: j
-    total = start
-    do j = 1, stages
-      total = total + integral(:, j)*y(j)
-    end do
+    total = start + applied(integral, y)
   end function integrated
 
-  !> The matrix a, applied to y. (Compilers may call a library for matmul.)
+  !> The matrix a, applied to y. (Compilers may call a library for matmul; a sum written out stays in registers.)
   pure function applied(a, y) result(z)
     real(dp), intent(in) :: a(stages, stages), y(stages)
     real(dp) :: z(stages)
-    integer(ip) :: j
-    z = 0
-    do j = 1, stages
-      z = z + a(:, j)*y(j)
-    end do
+    z = a(:, 1)*y(1) + a(:, 2)*y(2) + a(:, 3)*y(3) + a(:, 4)*y(4) + a(:, 5)*y(5) + a(:, 6)*y(6)
   end function applied
 
   pure function composed(a, b) result(c)
@@ -120,22 +119,22 @@ contains
   !> is positive definite but for a scale of its rows (diagonally stable, Hairer and Wanner), so that none is zero.
   pure function shifted_inverse(diagonal) result(a)
     real(dp), intent(in) :: diagonal(stages)
-    real(dp) :: a(stages, stages), column(stages), row
+    real(dp) :: a(stages, stages), column(stages), row(stages)
     integer(ip) :: j, k
     a = differential
     do k = 1, stages
       a(k, k) = a(k, k) + diagonal(k)
     end do
     do k = 1, stages
-      column = a(:, k)*(-1/a(k, k))
-      column(k) = 1/a(k, k)
+      row = a(k, :)*(1/a(k, k))
+      row(k) = 1/a(k, k)
+      column = a(:, k)
+      column(k) = 0
       a(:, k) = 0
       do j = 1, stages
-        row = a(k, j)
-        if (j == k) row = 1
-        a(k, j) = 0
-        a(:, j) = a(:, j) + column*row
+        a(:, j) = a(:, j) - column*row(j)
       end do
+      a(k, :) = row
     end do
   end function shifted_inverse
 
@@ -174,45 +173,52 @@ contains
     yes = change*min(1.0_dp, change/previous) < closeness .or. (change < stagnates_below .and. change > 0.5_dp*previous)
   end function has_converged
 
-  !> Solve a x = b by elimination with pivots; both are destroyed, b becomes x. fails: a is singular or not finite.
-  pure subroutine solve_linear(columns, a, b, fails)
-    integer(ip), intent(in) :: columns
-    real(dp), intent(inout) :: a(stages, stages), b(stages, columns)
+  !> Factors of a matrix by elimination with pivots. fails: it is singular or not finite.
+  pure subroutine factorize(a, factors, fails)
+    real(dp), intent(in) :: a(stages, stages)
+    type(factors_type), intent(out) :: factors
     logical, intent(out) :: fails
-    real(dp) :: row(stages), part(stages), one
+    real(dp) :: row(stages)
     integer(ip) :: j, k, p
+    factors%upper = a
     fails = .true.
     do k = 1, stages
       p = k
       do j = k + 1, stages
-        if (abs(a(j, k)) > abs(a(p, k))) p = j
+        if (abs(factors%upper(j, k)) > abs(factors%upper(p, k))) p = j
       end do
-      if (.not. (abs(a(p, k)) > 0 .and. abs(a(p, k)) <= huge(1.0_dp))) return
+      if (.not. (abs(factors%upper(p, k)) > 0 .and. abs(factors%upper(p, k)) <= huge(1.0_dp))) return
+      factors%pivot(k) = p
       if (p /= k) then
-        row = a(k, :)
-        a(k, :) = a(p, :)
-        a(p, :) = row
-        do j = 1, columns
-          one = b(k, j)
-          b(k, j) = b(p, j)
-          b(p, j) = one
-        end do
+        row = factors%upper(k, :)
+        factors%upper(k, :) = factors%upper(p, :)
+        factors%upper(p, :) = row
       end if
-      part = a(:, k)/a(k, k)  ! of the row k, taken off all others: whole columns are faster than parts of them
-      part(k) = 0
-      do j = k + 1, stages
-        a(:, j) = a(:, j) - part*a(k, j)
+      factors%lower(:, k) = factors%upper(:, k)*(1/factors%upper(k, k))
+      factors%lower(:k, k) = 0  ! rows that are done: whole columns are faster than parts of them
+      do j = k, stages
+        factors%upper(:, j) = factors%upper(:, j) - factors%lower(:, k)*factors%upper(k, j)
       end do
-      do j = 1, columns
-        b(:, j) = b(:, j) - part*b(k, j)
-      end do
-    end do
-    do k = 1, stages
-      part(k) = 1/a(k, k)
-    end do
-    do j = 1, columns
-      b(:, j) = b(:, j)*part
     end do
     fails = .false.
-  end subroutine solve_linear
+  end subroutine factorize
+
+  !> x with a x = b, from the factors of a.
+  pure function solution_of(factors, b) result(x)
+    type(factors_type), intent(in) :: factors
+    real(dp), intent(in) :: b(stages)
+    real(dp) :: x(stages), rest(stages), one
+    integer(ip) :: k
+    rest = b
+    do k = 1, stages
+      one = rest(factors%pivot(k))
+      rest(factors%pivot(k)) = rest(k)
+      rest(k) = one
+      rest = rest - factors%lower(:, k)*one
+    end do
+    do k = stages, 1, -1
+      x(k) = rest(k)/factors%upper(k, k)
+      rest = rest - factors%upper(:, k)*x(k)
+    end do
+  end function solution_of
 end module rst_collocation

@@ -7,7 +7,7 @@
 !> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2) too.
 module rst_compression_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, composed, solve_linear, &
+  use rst_collocation, only: stages, point, integral, integrated, applied, composed, factors_type, factorize, solution_of, &
                              has_converged
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, mass_factor
@@ -16,6 +16,7 @@ module rst_compression_panel
   public :: compress
 
   integer(ip), parameter :: most_iterations = 15
+  real(dp), parameter :: keeps_matrix = 0.1_dp !! Newton's matrix is kept while steps fall by that
 
   !> Sine and cosine of theta at the points, rho, kappa, force, and cos^2 + kappa sin^2.
   type :: motion_type
@@ -24,32 +25,35 @@ module rst_compression_panel
 
 contains
 
-  !> The panel from its values at its start, (0), and from the panel before as a guess.
-  pure subroutine compress(solid, g, rate, mesh, before, panel, memory, loading, fails)
+  !> The panel from its values at its start, (0), and from those at its points as a guess.
+  pure subroutine compress(solid, g, rate, mesh, panel, memory, loading, fails)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
     type(mesh_type), intent(in) :: mesh
-    type(panel_type), intent(in) :: before
     type(panel_type), intent(inout) :: panel
     real(dp), dimension(0:stages, solid%n_arms), intent(inout) :: memory, loading  !! M_k and P_k
     logical, intent(out) :: fails
     type(motion_type) :: m
-    real(dp) :: answer(stages, stages), step(stages, 1), change, previous, h, start
+    type(factors_type) :: factors
+    real(dp) :: answer(stages, stages), step(stages), change, previous, h, start
+    logical :: new
     integer(ip) :: i
     h = panel%to - panel%from
     start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/mesh%radius)**2)
-    call guess(mesh%radius, before, panel, start, m)
+    call begin(mesh%radius, panel, m)
     previous = 1
+    new = .true.
     do i = 1, most_iterations
       call load(solid, g, rate, mesh%radius, h, m, loading, answer, fails)
+      if (.not. fails .and. new) call factorize(newton_matrix(mesh%radius, h, m, answer), factors, fails)
       if (fails) return
-      call newton(mesh%radius, h, start, m, answer, step, fails)
-      if (fails) return
-      m%rho = m%rho + step(:, 1)
+      step = solution_of(factors, missing(h, start, m))
+      m%rho = m%rho + step
       change = maxval(abs(step))
       fails = .not. (change < 1.0e3_dp .and. all(m%rho > 0))
       if (fails) return
       if (has_converged(change, min(previous, 10*change), mesh%closeness)) exit
+      new = change > keeps_matrix*previous
       previous = change
     end do
     fails = i > most_iterations
@@ -58,28 +62,20 @@ contains
     if (.not. fails) call note(solid, g, rate, mesh%radius, h, m, panel, memory, fails)
   end subroutine compress
 
-  !> From the panel before, continued; at first touch rho = 1 and F is that of a spring.
-  pure subroutine guess(r, before, panel, start, m)
-    real(dp), intent(in) :: r, start
-    type(panel_type), intent(in) :: before, panel
+  !> From the guess in the panel.
+  pure subroutine begin(r, panel, m)
+    real(dp), intent(in) :: r
+    type(panel_type), intent(in) :: panel
     type(motion_type), intent(out) :: m
-    real(dp) :: theta, weight(0:stages)
-    integer(ip) :: i
-    do i = 1, stages
-      theta = panel%from + point(i)*(panel%to - panel%from)
-      m%sine(i) = sin(theta)
-      m%cosine(i) = cos(theta)
-      m%rho(i) = start
-      m%force(i) = (r*start*m%sine(i))**3
-      if (panel%from > 0) then
-        weight = weights_at((theta - before%from)/(before%to - before%from))
-        m%force(i) = sum(weight*before%force)
-      end if
-    end do
-    if (any(m%force <= 0)) m%force = max(panel%force(0), tiny(1.0_dp))
+    real(dp) :: theta(stages)
+    theta = panel%from + point(1:)*(panel%to - panel%from)
+    m%sine = sin(theta)
+    m%cosine = cos(theta)
+    m%rho = sqrt(panel%velocity(1:)**2 + (panel%radius(1:)/r)**2)
+    m%force = panel%force(1:)
     m%kappa = 2*mass_factor*r*r*m%force
     m%below = m%cosine**2 + m%kappa*m%sine**2
-  end subroutine guess
+  end subroutine begin
 
   !> F by P_k at the pace of the F before; answer: of F at a point to A D' at another one.
   pure subroutine load(solid, g, rate, r, h, m, loading, answer, fails)
@@ -120,13 +116,19 @@ contains
     pace = 2*r*r*m%rho*m%sine/m%below
   end function pace_of
 
-  !> Newton's step of rho; that the arms answer to the pace too is left out of its matrix.
-  pure subroutine newton(r, h, start, m, answer, step, fails)
-    real(dp), intent(in) :: r, h, start, answer(stages, stages)
+  !> What rho lacks of its integral.
+  pure function missing(h, start, m) result(miss)
+    real(dp), intent(in) :: h, start
     type(motion_type), intent(in) :: m
-    real(dp), intent(out) :: step(stages, 1)
-    logical, intent(out) :: fails
-    real(dp) :: slope(stages, stages), matrix(stages, stages), both(stages), by_kappa(stages)
+    real(dp) :: miss(stages)
+    miss = integrated(start, h*m%rho*m%sine*m%cosine*(1 - m%kappa)/m%below) - m%rho
+  end function missing
+
+  !> Newton's matrix for that; that the arms answer to the pace too is left out.
+  pure function newton_matrix(r, h, m, answer) result(matrix)
+    real(dp), intent(in) :: r, h, answer(stages, stages)
+    type(motion_type), intent(in) :: m
+    real(dp) :: matrix(stages, stages), slope(stages, stages), both(stages), by_kappa(stages)
     integer(ip) :: j
     both = m%sine*m%cosine
     by_kappa = -(m%rho*both/m%below**2)*(2*mass_factor*r*r)
@@ -138,9 +140,7 @@ contains
     do j = 1, stages
       matrix(j, j) = 1 + matrix(j, j)
     end do
-    step(:, 1) = integrated(start, h*m%rho*both*(1 - m%kappa)/m%below) - m%rho
-    call solve_linear(1_ip, matrix, step, fails)
-  end subroutine newton
+  end function newton_matrix
 
   !> The motion, put into the panel, and M_k.
   pure subroutine note(solid, g, rate, r, h, m, panel, memory, fails)

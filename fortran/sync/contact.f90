@@ -1,7 +1,7 @@
 !> The tangential motion of an impact, piece after piece (docs/sync.md): stick, partial slip behind a front, gross slip.
 module rst_tangential_motion
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, root_between, weights_at, solve_linear
+  use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
   use rst_contact_views, only: normal_type, contact_type, piece_type, store_type
   use rst_piece, only: ground_type, lay_ground, advance_memory
@@ -228,22 +228,25 @@ contains
     type(ground_type), intent(out) :: ground
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: lasts
-    real(dp) :: matrix(stages, stages), right(stages, 1), slip(stages)
+    real(dp) :: kept(stages), velocity(stages), slip(stages)
+    type(factors_type) :: factors
     integer(ip) :: i, k
     logical :: fails
     call lay_ground(normal, panel, from, 1.0_dp, .false., store, ground, fails)
     s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
     s%force = side*ground%force
     s%stick = 0
-    right = 0
+    kept = 0
     do k = 1, normal%n_arms
-      right(:, 1) = right(:, 1) - store%decay(:, k)*store%now_l(0, k)
+      kept = kept + store%decay(:, k)*store%now_l(0, k)
     end do
-    matrix = ground%answer
-    call solve_linear(1_ip, matrix, right, fails)
-    slip = right(:, 1) - (ground%velocity(1:) - side*s%w(1:))
-    call advance(normal%g, ground%span, store%kernel, store%decay, right(:, 1), store%now_l)
-    lasts = .not. fails
+    lasts = .false.
+    call factorize(ground%answer, factors, fails)
+    if (fails) return
+    velocity = solution_of(factors, -kept)
+    slip = velocity - (ground%velocity(1:) - side*s%w(1:))
+    call advance(normal%g, ground%span, store%kernel, store%decay, velocity, store%now_l)
+    lasts = .true.
     do i = 1, stages
       lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless*contact%stress
     end do

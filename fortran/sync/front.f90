@@ -9,7 +9,7 @@
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
-  use rst_contact_views, only: normal_type, store_type, of_edge
+  use rst_contact_views, only: normal_type, store_type, of_edge, of_arm
   implicit none (type, external)
   private
   public :: element_type, slack_type, look_at, find_front, held_by
@@ -97,13 +97,14 @@ contains
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, theta
-    real(dp) :: held, weight(0:stages), edge(of_edge), arm(2)
+    real(dp) :: held, weight(0:stages), edge(of_edge), both(of_arm), arm(2)
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
-    edge = edge_between(weight, store, record)
+    edge = between(weight, store%record(record)%edge)
     held = 0
     do k = 1, normal%n_arms
-      arm = 0.5_dp*(arm_between(weight, store, k, record, -1.0_dp) - arm_between(weight, store, k, record, 1.0_dp))
+      both = between(weight, store%held(:, :, k, record))
+      arm = 0.5_dp*(both(3:) - both(:2))
       held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(2) - edge(1)*arm(1))
     end do
   end function held_by
@@ -137,14 +138,14 @@ contains
     real(dp) :: weight(0:stages), edge(of_edge), arm(2), fade, answer
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
-    edge = edge_between(weight, store, record)
+    edge = between(weight, store%record(record)%edge)
     element%taken = 0
     element%force = 0
     answer = 0
     do k = 1, normal%n_arms
       fade = 1
       if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
-      arm = arm_between(weight, store, k, record, side)
+      arm = arm_between(weight, side, store%held(:, :, k, record))
       element%taken = element%taken + fade*arm(1)
       element%force = element%force + fade*arm(2)
       answer = answer + normal%g(k)*fade
@@ -155,30 +156,21 @@ contains
     if (element%radius > 0) element%stretch = edge(3)/(2*element%radius)
   end subroutine look_at
 
-  !> What an element at the edge has between the points of a record.
-  pure function edge_between(weight, store, record) result(values)
-    real(dp), intent(in) :: weight(0:stages)
-    type(store_type), intent(in) :: store
-    integer(ip), intent(in) :: record
+  !> Values that are known at the points of a record, in between.
+  pure function between(weight, at) result(values)
+    real(dp), intent(in) :: weight(0:stages), at(of_edge, 0:stages)
     real(dp) :: values(of_edge)
-    integer(ip) :: i
-    values = 0
-    do i = 0, stages
-      values = values + weight(i)*store%record(record)%edge(:, i)
-    end do
-  end function edge_between
+    values = weight(0)*at(:, 0) + weight(1)*at(:, 1) + weight(2)*at(:, 2) + weight(3)*at(:, 3) + weight(4)*at(:, 4) &
+             + weight(5)*at(:, 5) + weight(6)*at(:, 6)
+  end function between
 
-  !> m_k and p_k of an arm for a sense of slip.
-  pure function arm_between(weight, store, arm, record, side) result(values)
-    real(dp), intent(in) :: weight(0:stages), side
-    type(store_type), intent(in) :: store
-    integer(ip), intent(in) :: arm, record
+  !> The same of m_k and p_k for a sense of slip.
+  pure function arm_between(weight, side, at) result(values)
+    real(dp), intent(in) :: weight(0:stages), side, at(2, 2, 0:stages)
     real(dp) :: values(2)
-    integer(ip) :: i, k
-    k = merge(1, 3, side > 0)
-    values = 0
-    do i = 0, stages
-      values = values + weight(i)*store%held(k:k + 1, i, arm, record)
-    end do
+    integer(ip) :: k
+    k = merge(1, 2, side > 0)
+    values = weight(0)*at(:, k, 0) + weight(1)*at(:, k, 1) + weight(2)*at(:, k, 2) + weight(3)*at(:, k, 3) &
+             + weight(4)*at(:, k, 4) + weight(5)*at(:, k, 5) + weight(6)*at(:, k, 6)
   end function arm_between
 end module rst_front

@@ -8,6 +8,7 @@ module rst_normal_motion
   use rst_collocation, only: stages, last_coefficient
   use rst_arms, only: solid_type
   use rst_panel, only: panel_type, mesh_type, mass_factor
+  use rst_guess, only: guess_compression
   use rst_compression_panel, only: compress
   use rst_restitution_panel, only: rebound
   implicit none (type, external)
@@ -81,12 +82,7 @@ contains
         end if
         panel(n)%from = merge(whole - place, place, back)*unit
         panel(n)%to = merge(whole - place - width, place + width, back)*unit
-        if (back) then
-          call rebound(solid, g, rate, mesh, panel, memory, loading, entry, fails)
-        else
-          call compress(solid, g, rate, mesh, panel(max(1_ip, n - 1)), panel(n), memory(:, :, n), &
-                        loading(:, :, n), fails)
-        end if
+        call solve_panel(back, n, fails)
         if (.not. fails) fails = missed(mesh%radius, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
@@ -106,6 +102,34 @@ contains
       end do
       found = rebounds
     end subroutine go_through
+
+    !> Newton's steps begin where the coarser run was, or where the panel before leads, if that converges better.
+    subroutine solve_panel(back, n, fails)
+      logical, intent(in) :: back
+      integer(ip), intent(in) :: n
+      logical, intent(out) :: fails
+      integer(ip) :: first, last
+      first = merge(control%n_coarse_compression, 0_ip, back) + 1
+      last = merge(control%n_coarse, control%n_coarse_compression, back)
+      fails = .true.
+      if (first <= last) call solve_from(coarse(first:last), back, n, fails)
+      if (.not. fails) return
+      first = merge(n, n - 1, n == merge(mesh%n_compression, 0_ip, back) + 1)
+      call solve_from(panel(first:n - 1), back, n, fails)
+    end subroutine solve_panel
+
+    subroutine solve_from(known, back, n, fails)
+      type(panel_type), intent(in) :: known(:)
+      logical, intent(in) :: back
+      integer(ip), intent(in) :: n
+      logical, intent(out) :: fails
+      if (back) then
+        call rebound(solid, g, rate, mesh, known, panel, memory, loading, entry, fails)
+      else
+        call guess_compression(mesh, known, panel(n))
+        call compress(solid, g, rate, mesh, panel(n), memory(:, :, n), loading(:, :, n), fails)
+      end if
+    end subroutine solve_from
 
     !> No panel is wider than half the one that the coarser run has at a place. beside: the first of those that may be there.
     subroutine halve_coarser(back, place, beside, width)

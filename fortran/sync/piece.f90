@@ -1,7 +1,8 @@
 !> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
 module rst_piece
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, solve_linear
+  use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, factors_type, &
+                             factorize, solution_of
   use rst_arms, only: respond_all, advance
   use rst_panel, only: mass_factor
   use rst_contact_views, only: normal_type, contact_type, store_type
@@ -92,7 +93,8 @@ contains
     real(dp), intent(inout) :: force(0:stages)
     type(store_type), intent(inout) :: store
     logical, intent(out) :: fails
-    real(dp) :: response(stages, stages), matrix(stages, stages), kept(stages), right(stages, 1), push
+    real(dp) :: response(stages, stages), matrix(stages, stages), kept(stages), push
+    type(factors_type) :: factors
     integer(ip) :: j, k
     push = push_factor(contact)
     kept = held
@@ -118,10 +120,9 @@ contains
       matrix(:, j) = push*applied(integral, ground%span*response(:, j))
       matrix(j, j) = 1 + matrix(j, j)
     end do
-    right(:, 1) = integrated(w(0), -push*ground%span*kept)
-    call solve_linear(1_ip, matrix, right, fails)
+    call factorize(matrix, factors, fails)
     if (fails) return
-    w(1:) = right(:, 1)
+    w(1:) = solution_of(factors, integrated(w(0), -push*ground%span*kept))
     force(1:) = kept + applied(response, w(1:))
     call advance_memory(normal, ground, w(1:), store)
     if (ground%returning) return

@@ -6,10 +6,11 @@
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, start_of, differential, integrated, applied, composed, &
-                             solve_linear, has_converged
+  use rst_collocation, only: stages, point, integral, start_of, integrated, applied, composed, &
+                             factors_type, factorize, solution_of, has_converged
   use rst_arms, only: solid_type, respond
-  use rst_panel, only: panel_type, mesh_type, find_angle, place_on, mass_factor
+  use rst_guess, only: guess_restitution
+  use rst_panel, only: panel_type, mesh_type, find_angle, mass_factor
   implicit none (type, external)
   private
   public :: rebound
@@ -23,11 +24,12 @@ module rst_restitution_panel
 
 contains
 
-  !> The panel mesh%n_panels + 1 from its values at its start, (0).
-  pure subroutine rebound(solid, g, rate, mesh, panel, memory, loading, entry, fails)
+  !> The panel mesh%n_panels + 1 from its values at its start, (0), and from known panels as a guess.
+  pure subroutine rebound(solid, g, rate, mesh, known, panel, memory, loading, entry, fails)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
     type(mesh_type), intent(in) :: mesh
+    type(panel_type), intent(in) :: known(:)
     type(panel_type), intent(inout) :: panel(mesh%n_panels + 1)
     real(dp), intent(inout) :: memory(0:stages, solid%n_arms, mesh%n_panels + 1)
     real(dp), intent(in) :: loading(0:stages, solid%n_arms, mesh%n_compression)
@@ -39,7 +41,9 @@ contains
     new = mesh%n_panels + 1
     h = panel(new)%from - panel(new)%to
     call recall(solid, mesh, panel, memory, loading, panel(new), m, entry)
-    call guess(solid, g, rate, mesh, panel, m)
+    call guess_restitution(solid, g, rate, known, m%entered, panel(new))
+    m%v = panel(new)%velocity(1:)
+    m%pace = panel(new)%pace(1:)
     previous = 1
     do i = 1, most_iterations
       call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, by_v, by_pace, fails)
@@ -83,65 +87,6 @@ contains
       end do
     end do
   end subroutine recall
-
-  !> The panel before, continued. After the turning point D' is linear in time.
-  pure subroutine guess(solid, g, rate, mesh, panel, m)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
-    type(mesh_type), intent(in) :: mesh
-    type(panel_type), intent(in) :: panel(mesh%n_panels + 1)
-    type(motion_type), intent(inout) :: m
-    real(dp) :: weight(0:stages), after(stages)
-    integer(ip) :: i, n
-    n = mesh%n_panels
-    if (n == mesh%n_compression) then
-      do i = 1, stages
-        after(i) = first_return(solid, g, rate, panel(n + 1)%time(0) - m%entered(i))
-      end do
-      m%pace = applied(differential, after)/(panel(n + 1)%from - panel(n + 1)%to)
-      m%v = -mass_factor*panel(n + 1)%force(0)*after
-      m%pace = max(m%pace, 1.0e-3_dp*maxval(m%pace))
-    else
-      do i = 1, stages
-        weight = weights_at(place_on(panel(n), panel(n + 1)%from + point(i)*(panel(n + 1)%to - panel(n + 1)%from)))
-        m%pace(i) = sum(weight*panel(n)%pace)
-        m%v(i) = sum(weight*panel(n)%velocity)
-      end do
-      if (any(m%pace <= 0)) m%pace = panel(n)%pace(stages)
-    end if
-  end subroutine guess
-
-  !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
-  !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0,
-  !> E_k = exp(-(x + before)/tau_k). It rises with x; x = before solves the elastic one.
-  pure function first_return(solid, g, rate, before) result(x)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), before
-    real(dp) :: x, low, high, excess, slope, z
-    integer(ip) :: i, k
-    low = 0
-    high = before
-    x = before
-    do i = 1, 60
-      excess = solid%eta*x
-      slope = solid%eta
-      do k = 1, solid%n_arms
-        z = rate(k)*(x + before)
-        if (z < 1.0e-3_dp) then
-          excess = excess + g(k)*(x + before)*((x - before)/2 + z*(2*before - x)/6)
-          slope = slope + g(k)*x
-        else
-          excess = excess + g(k)*((x - (1 - exp(-z))/rate(k)) + before*exp(-z))/rate(k)
-          slope = slope + g(k)*((1 - exp(-z))/rate(k) - before*exp(-z))
-        end if
-      end do
-      if (excess > 0) high = x
-      if (excess <= 0) low = x
-      x = x - excess/slope
-      if (.not. (x > low .and. x < high)) x = (low + high)/2
-      if (abs(excess) <= 1.0e-3_dp*slope*x .or. high - low <= 1.0e-3_dp*high) exit
-    end do
-  end function first_return
 
   !> The sums at the points for D' and the pace, with memory, and by_v, by_pace: how the sum that is zero answers to both.
   pure subroutine balance(solid, g, rate, h, start, memory, entry, m, by_v, by_pace, fails)
@@ -189,7 +134,8 @@ contains
     type(motion_type), intent(in) :: m
     real(dp), intent(out) :: step_v(stages), step_pace(stages)
     logical, intent(out) :: fails
-    real(dp) :: pull(stages, stages), faded(stages, stages), matrix(stages, stages), right(stages, 1), miss(stages)
+    real(dp) :: pull(stages, stages), faded(stages, stages), matrix(stages, stages), miss(stages)
+    type(factors_type) :: factors
     integer(ip) :: j
     miss = integrated(start, -mass_factor*h*m%pace*m%force) - m%v
     do j = 1, stages
@@ -198,9 +144,9 @@ contains
     end do
     pull = (mass_factor*h)*composed(integral, faded)  ! of D' to the pace
     matrix = by_pace + composed(by_v, pull)
-    right(:, 1) = -m%open - applied(by_v, miss)
-    call solve_linear(1_ip, matrix, right, fails)
-    step_pace = right(:, 1)
+    call factorize(matrix, factors, fails)
+    if (fails) return
+    step_pace = solution_of(factors, -m%open - applied(by_v, miss))
     step_v = miss + applied(pull, step_pace)
   end subroutine newton
 

@@ -1,7 +1,8 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, solve_linear, &
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, &
+                             factors_type, factorize, solution_of, &
                              has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
@@ -106,28 +107,29 @@ contains
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     type(element_type) :: edge(0:stages)
-    real(dp) :: matrix(stages, stages), step(stages, 1), push, change, previous
+    type(factors_type) :: factors
+    real(dp) :: matrix(stages, stages), step(stages), push, change, previous
     integer(ip) :: i, j, n
     push = push_factor(contact)
     call look_at_edges(normal, store, ground, side, edge)
-    s%front = edge_of(store, ground, 0_ip)
+    s%front(0) = edge_of(store, ground, 0_ip)
     call slacken(normal, store, ground, side, edge(0), 0_ip, s)
     if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
-        if (n == 1) s%front(i) = s%front(i - 1)
+        if (n == 1 .and. .not. warm) s%front(i) = continued(i, s%front)
         call slacken(normal, store, ground, side, edge(i), i, s)
       end do
-      step(:, 1) = integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:)
       do j = 1, stages
         matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
         matrix(j, j) = 1 + matrix(j, j)
       end do
-      call solve_linear(1_ip, matrix, step, fails)
+      call factorize(matrix, factors, fails)
       if (fails) return
-      s%w(1:) = s%w(1:) + step(:, 1)
+      step = solution_of(factors, integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:))
+      s%w(1:) = s%w(1:) + step
       change = maxval(abs(step))
       fails = .not. change < 1.0e3_dp
       if (fails) return
@@ -141,10 +143,19 @@ contains
       s%centre(i) = slack_at_centre(normal, store, ground, side, i, s%w(i))
       s%edge(i) = s%centre(i) - edge(i)%taken
     end do
-    s%force(1:) = s%force(1:) + s%stick(1:)*applied(ground%answer, step(:, 1)) ! by the last step
+    s%force(1:) = s%force(1:) + s%stick(1:)*applied(ground%answer, step) ! by the last step
     s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
     if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
   end subroutine slip_behind
+
+  !> The front at the point i by those before.
+  pure function continued(i, front) result(next)
+    integer(ip), intent(in) :: i
+    real(dp), intent(in) :: front(0:stages)
+    real(dp) :: next
+    next = front(i - 1)
+    if (i > 1) next = next + (front(i - 1) - front(i - 2))*(point(i) - point(i - 1))/(point(i - 1) - point(i - 2))
+  end function continued
 
   !> At every point, the outermost element that may stick.
   subroutine look_at_edges(normal, store, ground, side, edge)
@@ -225,21 +236,23 @@ contains
     end do
   end subroutine next_event
 
-  !> U' of the piece on `ground` at the points of one that starts where it does and ends at `to`, as a guess.
+  !> U' and front of the piece on `ground` at the points of one that starts where it does and ends at `to`, as a guess.
   pure subroutine shorten(ground, to, rooted, s)
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: to
     logical, intent(in) :: rooted
     type(solution_type), intent(inout) :: s
-    real(dp) :: w(0:stages), place
+    real(dp) :: w(0:stages), front(0:stages), place
     integer(ip) :: i
     w = s%w
+    front = s%front
     do i = 1, stages
       place = point(i)
       if (rooted) place = 1 - (1 - point(i))**2
       place = place*(to - ground%from)/(ground%to - ground%from)
       if (ground%rooted) place = 1 - sqrt(max(0.0_dp, 1 - place))
       s%w(i) = value_on(place, w)
+      s%front(i) = value_on(place, front)
     end do
   end subroutine shorten
 

@@ -3,6 +3,7 @@
 #include "collocation.f90"
 #include "arms.f90"
 #include "panel.f90"
+#include "guess.f90"
 #include "compression.f90"
 #include "restitution.f90"
 #include "normal.f90"
