@@ -20,20 +20,20 @@ module rst_front
     real(dp) :: radius, taken, force, slope, stretch
   end type element_type
 
-  !> At an instant: the front, its radius, H, and y at the centre and at the edge of what has been recorded.
+  !> At an instant: the front, its radius, H, and y at the centre and at the edge of what has been recorded. near: part e of the
+  !> slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is linear in X: H is
+  !> then off by about e^3, and the front by e^2.
   type :: slack_type
-    real(dp) :: angle, radius, force, centre, edge
+    real(dp) :: near, angle, radius, force, centre, edge
   end type slack_type
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  !> Part e of the slack at the centre, or of what the edge lacks if that is less, at which a search may end. Near its end y is
-  !> linear in X: H is then off by about e^3, and the front by e^2. The next search begins where this one ended.
-  real(dp), parameter :: near_front = 1.0e-4_dp
 
 contains
 
-  !> The front among the elements up to the one at the edge. slack%centre is given, and slack%angle, where to begin the search.
+  !> The front among the elements up to the one at the edge. slack%near and slack%centre are given, and slack%angle, where to
+  !> begin the search.
   !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
   !> as if all stuck.
   pure subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
@@ -57,7 +57,7 @@ contains
       slack%force = edge%force + edge%radius*slack%edge
       return
     end if
-    enough = min(slack%centre, -slack%edge)*near_front
+    enough = min(slack%centre, -slack%edge)*slack%near
     low = 0
     high = edge_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)

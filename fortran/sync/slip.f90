@@ -108,19 +108,20 @@ contains
     logical, intent(out) :: fails
     type(element_type) :: edge(0:stages)
     type(factors_type) :: factors
-    real(dp) :: matrix(stages, stages), step(stages), push, change, previous
+    real(dp) :: matrix(stages, stages), step(stages), push, change, previous, near
     integer(ip) :: i, j, n
     push = push_factor(contact)
     call look_at_edges(normal, store, ground, side, edge)
     s%front(0) = edge_of(store, ground, 0_ip)
-    call slacken(normal, store, ground, side, edge(0), 0_ip, s)
+    near = sqrt(0.1_dp*contact%noise) ! a front that is at rest is then not taken for one that moves outward
+    call slacken(normal, store, ground, side, near, edge(0), 0_ip, s)
     if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
     previous = 1
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1 .and. .not. warm) s%front(i) = continued(i, s%front)
-        call slacken(normal, store, ground, side, edge(i), i, s)
+        call slacken(normal, store, ground, side, near, edge(i), i, s)
       end do
       do j = 1, stages
         matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
@@ -171,15 +172,16 @@ contains
   end subroutine look_at_edges
 
   !> Front, slack and S at the point i.
-  subroutine slacken(normal, store, ground, side, edge, i, s)
+  subroutine slacken(normal, store, ground, side, near, edge, i, s)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side
+    real(dp), intent(in) :: side, near  !! see slack_type
     type(element_type), intent(in) :: edge
     integer(ip), intent(in) :: i
     type(solution_type), intent(inout) :: s
     type(slack_type) :: slack
+    slack%near = near
     slack%angle = s%front(i)
     slack%centre = slack_at_centre(normal, store, ground, side, i, s%w(i))
     call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, slack)

@@ -183,6 +183,7 @@ contains
     call look_at(normal, store, time, side, sqrt(loaded), edge)
     slack%angle = 0
     slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
+    slack%near = 1.0e-4_dp
     call find_front(normal, store, time, side, sqrt(loaded), edge, slack)
     out = [slack%radius, slack%force, slack%centre, slack%edge]
   end subroutine probe_front
