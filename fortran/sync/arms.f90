@@ -32,48 +32,35 @@ contains
     fails = .not. all(abs(decay) <= huge(1.0_dp))
   end subroutine respond
 
-  !> That of all arms, and answer: how the stress of an element answers to its velocity. (Arrays of any stride: compilers would
-  !> copy components of derived types to make them contiguous.)
-  pure subroutine respond_all(eta, g, rate, span, kernel, decay, answer, fails)
-    real(dp), intent(in) :: eta, g(:), rate(:), span(stages)
-    real(dp), intent(out) :: kernel(:, :, :), decay(:, :), answer(stages, stages)
+  !> That of all arms, and answer: how the stress of an element answers to its velocity.
+  pure subroutine respond_all(solid, g, rate, span, kernel, decay, answer, fails)
+    type(solid_type), intent(in) :: solid
+    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), span(stages)
+    real(dp), intent(out) :: kernel(stages, stages, solid%n_arms), decay(stages, solid%n_arms), answer(stages, stages)
     logical, intent(out) :: fails
-    real(dp) :: one(stages, stages), fade(stages)
-    integer(ip) :: i, j, k
+    integer(ip) :: j, k
     answer = 0
     fails = .false.
-    do k = 1, size(g, kind=ip)
-      call respond(rate(k), span, one, fade, fails)
+    do k = 1, solid%n_arms
+      call respond(rate(k), span, kernel(:, :, k), decay(:, k), fails)
       if (fails) return
       do j = 1, stages
-        answer(:, j) = answer(:, j) + one(:, j)*(g(k)*span(j))
-        do i = 1, stages
-          kernel(i, j, k) = one(i, j)
-        end do
-        decay(j, k) = fade(j)
+        answer(:, j) = answer(:, j) + kernel(:, j, k)*(g(k)*span(j))
       end do
     end do
     do j = 1, stages
-      answer(j, j) = answer(j, j) + eta
+      answer(j, j) = answer(j, j) + solid%eta
     end do
   end subroutine respond_all
 
   !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v.
-  pure subroutine advance(g, span, kernel, decay, v, y)
-    real(dp), intent(in) :: g(:), span(stages), kernel(:, :, :), decay(:, :), v(stages)
-    real(dp), intent(inout) :: y(0:, :)
-    real(dp) :: total(stages)
-    integer(ip) :: i, j, k
-    do k = 1, size(g, kind=ip)
-      total = 0
-      do j = 1, stages
-        do i = 1, stages
-          total(i) = total(i) + kernel(i, j, k)*(span(j)*v(j))
-        end do
-      end do
-      do i = 1, stages
-        y(i, k) = decay(i, k)*y(0, k) + g(k)*total(i)
-      end do
+  pure subroutine advance(n_arms, g, span, kernel, decay, v, y)
+    integer(ip), intent(in) :: n_arms
+    real(dp), intent(in) :: g(n_arms), span(stages), kernel(stages, stages, n_arms), decay(stages, n_arms), v(stages)
+    real(dp), intent(inout) :: y(0:stages, n_arms)
+    integer(ip) :: k
+    do k = 1, n_arms
+      y(1:, k) = decay(:, k)*y(0, k) + applied(kernel(:, :, k), g(k)*span*v)
     end do
   end subroutine advance
 end module rst_arms

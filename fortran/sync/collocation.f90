@@ -178,28 +178,27 @@ contains
     real(dp), intent(in) :: a(stages, stages)
     type(factors_type), intent(out) :: factors
     logical, intent(out) :: fails
-    real(dp) :: row(stages)
+    real(dp) :: rest(stages, stages), part(stages), row(stages)
     integer(ip) :: j, k, p
-    factors%upper = a
+    rest = a
     fails = .true.
     do k = 1, stages
-      p = k
-      do j = k + 1, stages
-        if (abs(factors%upper(j, k)) > abs(factors%upper(p, k))) p = j
-      end do
-      if (.not. (abs(factors%upper(p, k)) > 0 .and. abs(factors%upper(p, k)) <= huge(1.0_dp))) return
+      p = k - 1 + maxloc(abs(rest(k:, k)), dim=1, kind=ip)
+      if (.not. (abs(rest(p, k)) > 0 .and. abs(rest(p, k)) <= huge(1.0_dp))) return
       factors%pivot(k) = p
       if (p /= k) then
-        row = factors%upper(k, :)
-        factors%upper(k, :) = factors%upper(p, :)
-        factors%upper(p, :) = row
+        row = rest(k, :)
+        rest(k, :) = rest(p, :)
+        rest(p, :) = row
       end if
-      factors%lower(:, k) = factors%upper(:, k)*(1/factors%upper(k, k))
-      factors%lower(:k, k) = 0  ! rows that are done: whole columns are faster than parts of them
-      do j = k, stages
-        factors%upper(:, j) = factors%upper(:, j) - factors%lower(:, k)*factors%upper(k, j)
+      part = rest(:, k)*(1/rest(k, k))
+      part(:k) = 0 ! rows that are done: whole columns are faster than parts of them
+      do j = k + 1, stages
+        rest(:, j) = rest(:, j) - part*rest(k, j)
       end do
+      factors%lower(:, k) = part
     end do
+    factors%upper = rest
     fails = .false.
   end subroutine factorize
 
