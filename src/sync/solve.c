@@ -88,14 +88,15 @@ static double largest_force(const struct sync_normal *normal)
 {
     enum { samples = 64 };
     double largest = 0, weight[rst_points];
-    int64_t at = 0;
+    int64_t first = 0, last = 0;
     for (int64_t p = 0; p < normal->n_panels; p++)
         for (int i = 0; i < rst_points; i++)
             if (normal->panel[p].force[i] > largest) {
                 largest = normal->panel[p].force[i];
-                at = p;
+                first = p;
+                last = i < rst_stages ? p : p + 1; /* at the end of a panel: maybe beyond it */
             }
-    for (int64_t p = at > 0 ? at - 1 : 0; p <= at + 1 && p < normal->n_panels; p++)
+    for (int64_t p = first; p <= last && p < normal->n_panels; p++)
         for (int i = 0; i <= samples; i++) {
             double force = 0;
             rst_sync_weights_at((double)i / samples, weight);
