@@ -9,7 +9,7 @@ module rst_collocation
   private
   public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
   public :: shifted_inverse
-  public :: applied, composed, factors_type, factorize, solution_of, has_converged
+  public :: applied, composed, factors_type, factorize, solution_of, has_converged, keeps_matrix
 
   integer(ip), parameter :: stages = 6
 
@@ -51,6 +51,8 @@ module rst_collocation
   !> 1/prod(point_j - point_k): the barycentric weights; sum_j weight_j y_j is the coefficient of x^stages.
   real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
                          -3.56279434793616133e+02_dp, 2.72918967701194731e+02_dp, -1.94528678408716956e+02_dp, 7.7e1_dp]
+
+  real(dp), parameter :: keeps_matrix = 0.1_dp !! Newton's matrix is kept while steps fall by that
 
   !> Of a matrix: what elimination takes off its rows, what is left of them, and which row is exchanged for which.
   type :: factors_type

@@ -8,7 +8,7 @@
 module rst_compression_panel
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, integrated, applied, composed, factors_type, factorize, solution_of, &
-                             has_converged
+                             has_converged, keeps_matrix
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, mass_factor
   implicit none (type, external)
@@ -16,7 +16,6 @@ module rst_compression_panel
   public :: compress
 
   integer(ip), parameter :: most_iterations = 15
-  real(dp), parameter :: keeps_matrix = 0.1_dp !! Newton's matrix is kept while steps fall by that
 
   !> Sine and cosine of theta at the points, rho, kappa, force, and cos^2 + kappa sin^2.
   type :: motion_type

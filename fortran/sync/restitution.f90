@@ -7,7 +7,7 @@
 module rst_restitution_panel
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, start_of, integrated, applied, composed, &
-                             factors_type, factorize, solution_of, has_converged
+                             factors_type, factorize, solution_of, has_converged, keeps_matrix
   use rst_arms, only: solid_type, respond
   use rst_guess, only: guess_restitution
   use rst_panel, only: panel_type, mesh_type, find_angle, mass_factor
@@ -21,6 +21,13 @@ module rst_restitution_panel
   type :: motion_type
     real(dp), dimension(stages) :: entered, radius, v, pace, open, force, kept_rate, force_rate
   end type motion_type
+
+  !> If it is wanted, or kept: how the sum that is zero answers to D' and the pace, D' to the pace, and Newton's matrix for the pace.
+  type :: slope_type
+    logical :: wanted
+    real(dp), dimension(stages, stages) :: by_v, by_pace, pull
+    type(factors_type) :: factors
+  end type slope_type
 
 contains
 
@@ -36,7 +43,8 @@ contains
     real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room: M_k and P_k when the edge went in
     logical, intent(out) :: fails
     type(motion_type) :: m
-    real(dp) :: by_v(stages, stages), by_pace(stages, stages), step_v(stages), step_pace(stages), change, previous, h
+    type(slope_type) :: slope
+    real(dp) :: step_v(stages), step_pace(stages), change, previous, h
     integer(ip) :: i, new
     new = mesh%n_panels + 1
     h = panel(new)%from - panel(new)%to
@@ -45,11 +53,12 @@ contains
     m%v = panel(new)%velocity(1:)
     m%pace = panel(new)%pace(1:)
     previous = 1
+    slope%wanted = .true.
     do i = 1, most_iterations
-      call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, by_v, by_pace, fails)
+      call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, slope, fails)
+      if (.not. fails .and. slope%wanted) call prepare(solid%eta, h, m, slope, fails)
       if (fails) return
-      call newton(h, panel(new)%velocity(0), m, by_v, by_pace, step_v, step_pace, fails)
-      if (fails) return
+      call newton(h, panel(new)%velocity(0), m, slope, step_v, step_pace)
       change = maxval(abs(step_v)) + maxval(abs(step_pace))/maxval(m%pace)
       fails = .not. change < 1.0e6_dp
       if (fails) return
@@ -58,11 +67,13 @@ contains
       step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
       m%pace = m%pace + step_pace
       if (has_converged(change, previous, mesh%closeness)) exit
+      slope%wanted = change > keeps_matrix*previous
       previous = change
     end do
     fails = i > most_iterations
     if (fails) return
-    call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, by_v, by_pace, fails)
+    slope%wanted = .false.
+    call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, slope, fails)
     if (.not. fails) call note(mesh, h, m, panel(new))
     if (.not. fails) fails = .not. all(abs(panel(new)%time) < huge(1.0_dp))
   end subroutine rebound
@@ -88,24 +99,24 @@ contains
     end do
   end subroutine recall
 
-  !> The sums at the points for D' and the pace, with memory, and by_v, by_pace: how the sum that is zero answers to both.
-  pure subroutine balance(solid, g, rate, h, start, memory, entry, m, by_v, by_pace, fails)
+  !> The sums at the points for D' and the pace, with memory and, if wanted, how the sum that is zero answers to both.
+  pure subroutine balance(solid, g, rate, h, start, memory, entry, m, slope, fails)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), h, start
     real(dp), intent(inout) :: memory(0:stages, solid%n_arms)
     real(dp), intent(in) :: entry(stages, solid%n_arms, 2)
     type(motion_type), intent(inout) :: m
-    real(dp), intent(out) :: by_v(stages, stages), by_pace(stages, stages)
+    type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
     real(dp) :: kernel(stages, stages), decay(stages), left(stages), since(stages)
-    integer(ip) :: j, k
+    integer(ip) :: k
     since = integrated(start, h*m%pace) - m%entered
     m%open = solid%eta*m%v
     m%force = 0
     m%kept_rate = 0
     m%force_rate = 0
-    by_v = 0
-    by_pace = 0
+    if (slope%wanted) slope%by_v = 0
+    if (slope%wanted) slope%by_pace = 0
     fails = .false.
     do k = 1, solid%n_arms
       call respond(rate(k), h*m%pace, kernel, decay, fails)
@@ -117,37 +128,49 @@ contains
       m%force = m%force + left*entry(:, k, 2)
       m%kept_rate = m%kept_rate + rate(k)*left*entry(:, k, 1)
       m%force_rate = m%force_rate + rate(k)*left*entry(:, k, 2)
-      do j = 1, stages
-        by_v(:, j) = by_v(:, j) + kernel(:, j)*(g(k)*h*m%pace(j))
-        by_pace(:, j) = by_pace(:, j) + kernel(:, j)*(h*(g(k)*m%v(j) - rate(k)*memory(j, k)))
-      end do
-    end do
-    do j = 1, stages
-      by_v(j, j) = by_v(j, j) + solid%eta
-      by_pace(:, j) = by_pace(:, j) + m%kept_rate*(h*integral(:, j))
+      if (slope%wanted) call add_answer(kernel, (g(k)*h)*m%pace, h*(g(k)*m%v - rate(k)*memory(1:, k)), slope)
     end do
   end subroutine balance
 
-  !> Newton's step: that of D' follows from that of the pace.
-  pure subroutine newton(h, start, m, by_v, by_pace, step_v, step_pace, fails)
-    real(dp), intent(in) :: h, start, by_v(stages, stages), by_pace(stages, stages)
-    type(motion_type), intent(in) :: m
-    real(dp), intent(out) :: step_v(stages), step_pace(stages)
-    logical, intent(out) :: fails
-    real(dp) :: pull(stages, stages), faded(stages, stages), matrix(stages, stages), miss(stages)
-    type(factors_type) :: factors
+  !> How the stress of an arm answers to D' and to the pace.
+  pure subroutine add_answer(kernel, to_v, to_pace, slope)
+    real(dp), intent(in) :: kernel(stages, stages), to_v(stages), to_pace(stages)
+    type(slope_type), intent(inout) :: slope
     integer(ip) :: j
-    miss = integrated(start, -mass_factor*h*m%pace*m%force) - m%v
     do j = 1, stages
+      slope%by_v(:, j) = slope%by_v(:, j) + kernel(:, j)*to_v(j)
+      slope%by_pace(:, j) = slope%by_pace(:, j) + kernel(:, j)*to_pace(j)
+    end do
+  end subroutine add_answer
+
+  !> Newton's matrix for the pace, from which that of D' follows.
+  pure subroutine prepare(eta, h, m, slope, fails)
+    real(dp), intent(in) :: eta, h
+    type(motion_type), intent(in) :: m
+    type(slope_type), intent(inout) :: slope
+    logical, intent(out) :: fails
+    real(dp) :: faded(stages, stages)
+    integer(ip) :: j
+    do j = 1, stages
+      slope%by_v(j, j) = slope%by_v(j, j) + eta
+      slope%by_pace(:, j) = slope%by_pace(:, j) + m%kept_rate*(h*integral(:, j))
       faded(:, j) = (m%pace*m%force_rate)*(h*integral(:, j))
       faded(j, j) = faded(j, j) - m%force(j)
     end do
-    pull = (mass_factor*h)*composed(integral, faded)  ! of D' to the pace
-    matrix = by_pace + composed(by_v, pull)
-    call factorize(matrix, factors, fails)
-    if (fails) return
-    step_pace = solution_of(factors, -m%open - applied(by_v, miss))
-    step_v = miss + applied(pull, step_pace)
+    slope%pull = (mass_factor*h)*composed(integral, faded)
+    call factorize(slope%by_pace + composed(slope%by_v, slope%pull), slope%factors, fails)
+  end subroutine prepare
+
+  !> Newton's step: that of D' follows from that of the pace.
+  pure subroutine newton(h, start, m, slope, step_v, step_pace)
+    real(dp), intent(in) :: h, start
+    type(motion_type), intent(in) :: m
+    type(slope_type), intent(in) :: slope
+    real(dp), intent(out) :: step_v(stages), step_pace(stages)
+    real(dp) :: miss(stages)
+    miss = integrated(start, -mass_factor*h*m%pace*m%force) - m%v
+    step_pace = solution_of(slope%factors, -m%open - applied(slope%by_v, miss))
+    step_v = miss + applied(slope%pull, step_pace)
   end subroutine newton
 
   pure subroutine note(mesh, h, m, panel)
