@@ -7,7 +7,7 @@
 !> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2) too.
 module rst_compression_panel
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, applied, composed, factors_type, factorize, solution_of, &
+  use rst_collocation, only: stages, point, integral, integrated, applied, factors_type, factorize, solution_of, &
                              has_converged, keeps_matrix
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type, mass_factor
@@ -17,14 +17,21 @@ module rst_compression_panel
 
   integer(ip), parameter :: most_iterations = 15
 
-  !> Sine and cosine of theta at the points, rho, kappa, force, and cos^2 + kappa sin^2.
+  !> At the points: sine and cosine of theta, rho, force, and cos^2 + kappa sin^2.
   type :: motion_type
-    real(dp), dimension(stages) :: sine, cosine, rho, kappa, force, below
+    real(dp), dimension(stages) :: sine, cosine, rho, force, below
   end type motion_type
+
+  !> If it is wanted, or kept: how the force answers to A D' and to the time per x, and Newton's matrix.
+  type :: slope_type
+    logical :: wanted
+    real(dp), dimension(stages, stages) :: by_sweep, by_span
+    type(factors_type) :: factors
+  end type slope_type
 
 contains
 
-  !> The panel from its values at its start, (0), and from those at its points as a guess.
+  !> The panel from its values at its start, (0), and from those at its points as a guess. Unknown is F: rho follows from it.
   pure subroutine compress(solid, g, rate, mesh, panel, memory, loading, fails)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
@@ -33,78 +40,83 @@ contains
     real(dp), dimension(0:stages, solid%n_arms), intent(inout) :: memory, loading  !! M_k and P_k
     logical, intent(out) :: fails
     type(motion_type) :: m
-    type(factors_type) :: factors
-    real(dp) :: answer(stages, stages), step(stages), change, previous, h, start
-    logical :: new
+    type(slope_type) :: slope
+    real(dp), dimension(stages) :: theta, force, step, turn
+    real(dp) :: change, previous, h, start
     integer(ip) :: i
     h = panel%to - panel%from
     start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/mesh%radius)**2)
-    call begin(mesh%radius, panel, m)
+    theta = panel%from + point(1:)*h
+    m%sine = sin(theta)
+    m%cosine = cos(theta)
+    force = panel%force(1:)
     previous = 1
-    new = .true.
+    slope%wanted = .true.
     do i = 1, most_iterations
-      call load(solid, g, rate, mesh%radius, h, m, loading, answer, fails)
-      if (.not. fails .and. new) call factorize(newton_matrix(mesh%radius, h, m, answer), factors, fails)
+      call follow(mesh%radius, h, start, force, m)
+      call load(solid, g, rate, mesh%radius, h, m, loading, slope, fails)
+      if (.not. fails .and. slope%wanted) call prepare(mesh%radius, h, m, slope, fails)
       if (fails) return
-      step = solution_of(factors, missing(h, start, m))
-      m%rho = m%rho + step
-      change = maxval(abs(step))
-      fails = .not. (change < 1.0e3_dp .and. all(m%rho > 0))
+      step = max(solution_of(slope%factors, m%force - force), -0.9_dp*force)
+      force = force + step
+      turn = 2*mass_factor*mesh%radius**2*step/m%below ! of kappa
+      change = maxval(abs(turn)*m%sine**2) + maxval(abs(integrated(0.0_dp, h*m%sine*m%cosine*turn/m%below)))
+      fails = .not. change < 1.0e3_dp
       if (fails) return
-      if (has_converged(change, min(previous, 10*change), mesh%closeness)) exit
-      new = change > keeps_matrix*previous
+      if (has_converged(change, previous, mesh%closeness)) exit
+      slope%wanted = change > keeps_matrix*previous
       previous = change
     end do
     fails = i > most_iterations
     if (fails) return
-    call load(solid, g, rate, mesh%radius, h, m, loading, answer, fails)
+    slope%wanted = .false.
+    call follow(mesh%radius, h, start, force, m)
+    call load(solid, g, rate, mesh%radius, h, m, loading, slope, fails)
     if (.not. fails) call note(solid, g, rate, mesh%radius, h, m, panel, memory, fails)
   end subroutine compress
 
-  !> From the guess in the panel.
-  pure subroutine begin(r, panel, m)
-    real(dp), intent(in) :: r
-    type(panel_type), intent(in) :: panel
-    type(motion_type), intent(out) :: m
-    real(dp) :: theta(stages)
-    theta = panel%from + point(1:)*(panel%to - panel%from)
-    m%sine = sin(theta)
-    m%cosine = cos(theta)
-    m%rho = sqrt(panel%velocity(1:)**2 + (panel%radius(1:)/r)**2)
-    m%force = panel%force(1:)
-    m%kappa = 2*mass_factor*r*r*m%force
-    m%below = m%cosine**2 + m%kappa*m%sine**2
-  end subroutine begin
+  !> rho for a force, d ln(rho)/dtheta = sin cos (1 - kappa)/(cos^2 + kappa sin^2).
+  pure subroutine follow(r, h, start, force, m)
+    real(dp), intent(in) :: r, h, start, force(stages)
+    type(motion_type), intent(inout) :: m
+    real(dp) :: kappa(stages)
+    kappa = 2*mass_factor*r*r*force
+    m%below = m%cosine**2 + kappa*m%sine**2
+    m%rho = start*exp(integrated(0.0_dp, h*m%sine*m%cosine*(1 - kappa)/m%below))
+  end subroutine follow
 
-  !> F by P_k at the pace of the F before; answer: of F at a point to A D' at another one.
-  pure subroutine load(solid, g, rate, r, h, m, loading, answer, fails)
+  !> The force of that motion.
+  pure subroutine load(solid, g, rate, r, h, m, loading, slope, fails)
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), r, h
     type(motion_type), intent(inout) :: m
     real(dp), intent(inout) :: loading(0:stages, solid%n_arms)
-    real(dp), intent(out) :: answer(stages, stages)
+    type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
-    real(dp) :: kernel(stages, stages), decay(stages), span(stages), sweep(stages)
+    real(dp) :: kernel(stages, stages), decay(stages), span(stages), sweep(stages), to_span(stages)
     integer(ip) :: j, k
     span = h*pace_of(r, m)
     sweep = r*m%rho**2*m%sine*m%cosine ! A D'
-    answer = 0
     m%force = solid%eta*sweep
+    if (slope%wanted) slope%by_sweep = 0
+    if (slope%wanted) slope%by_span = 0
     fails = .false.
     do k = 1, solid%n_arms
       call respond(rate(k), span, kernel, decay, fails)
       if (fails) return
       loading(1:, k) = decay*loading(0, k) + applied(kernel, g(k)*span*sweep)
       m%force = m%force + loading(1:, k)
+      if (.not. slope%wanted) cycle
+      to_span = g(k)*sweep - rate(k)*loading(1:, k)
       do j = 1, stages
-        answer(:, j) = answer(:, j) + kernel(:, j)*(g(k)*span(j))
+        slope%by_sweep(:, j) = slope%by_sweep(:, j) + kernel(:, j)*(g(k)*span(j))
+        slope%by_span(:, j) = slope%by_span(:, j) + kernel(:, j)*to_span(j)
       end do
     end do
+    if (.not. slope%wanted) return
     do j = 1, stages
-      answer(j, j) = answer(j, j) + solid%eta
+      slope%by_sweep(j, j) = slope%by_sweep(j, j) + solid%eta
     end do
-    m%kappa = 2*mass_factor*r*r*m%force
-    m%below = m%cosine**2 + m%kappa*m%sine**2
   end subroutine load
 
   !> ds/dtheta
@@ -115,31 +127,27 @@ contains
     pace = 2*r*r*m%rho*m%sine/m%below
   end function pace_of
 
-  !> What rho lacks of its integral.
-  pure function missing(h, start, m) result(miss)
-    real(dp), intent(in) :: h, start
+  !> Newton's matrix for the force, of what it is less what its own motion makes it.
+  pure subroutine prepare(r, h, m, slope, fails)
+    real(dp), intent(in) :: r, h
     type(motion_type), intent(in) :: m
-    real(dp) :: miss(stages)
-    miss = integrated(start, h*m%rho*m%sine*m%cosine*(1 - m%kappa)/m%below) - m%rho
-  end function missing
-
-  !> Newton's matrix for that; that the arms answer to the pace too is left out.
-  pure function newton_matrix(r, h, m, answer) result(matrix)
-    real(dp), intent(in) :: r, h, answer(stages, stages)
-    type(motion_type), intent(in) :: m
-    real(dp) :: matrix(stages, stages), slope(stages, stages), both(stages), by_kappa(stages)
+    type(slope_type), intent(inout) :: slope
+    logical, intent(out) :: fails
+    real(dp) :: by_rho(stages, stages), matrix(stages, stages), both(stages), span(stages), kappa
     integer(ip) :: j
+    kappa = 2*mass_factor*r*r ! of a force
     both = m%sine*m%cosine
-    by_kappa = -(m%rho*both/m%below**2)*(2*mass_factor*r*r)
+    span = h*pace_of(r, m)
     do j = 1, stages
-      slope(:, j) = by_kappa*answer(:, j)*(2*r*m%rho(j)*both(j))
-      slope(j, j) = slope(j, j) + both(j)*(1 - m%kappa(j))/m%below(j)
+      by_rho(:, j) = slope%by_sweep(:, j)*(2*r*m%rho(j)**2*both(j)) + slope%by_span(:, j)*span(j) ! to ln(rho)
     end do
-    matrix = -h*composed(integral, slope)
     do j = 1, stages
+      matrix(:, j) = applied(by_rho, integral(:, j))*(h*kappa*both(j)/m%below(j)**2) &
+                     + slope%by_span(:, j)*(span(j)*kappa*m%sine(j)**2/m%below(j))
       matrix(j, j) = 1 + matrix(j, j)
     end do
-  end function newton_matrix
+    call factorize(matrix, slope%factors, fails)
+  end subroutine prepare
 
   !> The motion, put into the panel, and M_k.
   pure subroutine note(solid, g, rate, r, h, m, panel, memory, fails)

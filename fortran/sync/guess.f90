@@ -11,8 +11,9 @@ module rst_guess
 
 contains
 
-  !> At first touch D' and A go as without a force, and F is that of a spring.
-  pure subroutine guess_compression(mesh, known, panel)
+  !> At first touch D' and A go as without a force, and F is that of a spring and the dashpot.
+  pure subroutine guess_compression(solid, mesh, known, panel)
+    type(solid_type), intent(in) :: solid
     type(mesh_type), intent(in) :: mesh
     type(panel_type), intent(in) :: known(:) !! panels of the coarser run or the one before; none at first touch
     type(panel_type), intent(inout) :: panel
@@ -25,7 +26,7 @@ contains
       theta = panel%from + point(1:)*(panel%to - panel%from)
       panel%radius(1:) = mesh%radius*sin(theta)
       panel%velocity(1:) = cos(theta)
-      panel%force(1:) = panel%radius(1:)**3
+      panel%force(1:) = panel%radius(1:)*(panel%radius(1:)**2 + solid%eta*panel%velocity(1:))
     end if
   end subroutine guess_compression
 

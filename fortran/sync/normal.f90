@@ -126,7 +126,7 @@ contains
       if (back) then
         call rebound(solid, g, rate, mesh, known, panel, memory, loading, entry, fails)
       else
-        call guess_compression(mesh, known, panel(n))
+        call guess_compression(solid, mesh, known, panel(n))
         call compress(solid, g, rate, mesh, panel(n), memory(:, :, n), loading(:, :, n), fails)
       end if
     end subroutine solve_from
