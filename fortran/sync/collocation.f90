@@ -78,6 +78,7 @@ contains
       weight(j) = weight(j)*product
       product = product*away(j)
     end do
+    weight = weight/sum(weight)  ! at a point the value there, to the last bit
   end function weights_at
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.

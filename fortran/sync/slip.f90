@@ -18,7 +18,9 @@ module rst_slip
   integer(ip), parameter :: nothing = 0, slip_begins = 1, stick_ends = 2, slip_leaves = 3
 
   integer(ip), parameter :: most_iterations = 20, most_secants = 15
-  real(dp), parameter :: at_event = 0.1_dp      !! part e of the roughness that may be left at an event: U' is then off by e^(3/2)
+  !> Part e of the roughness that may be left of what is zero when slip begins or leaves at the edge: as many elements slip for so
+  !> long, that U' is off by e^2. (Stick may end in all elements at once.)
+  real(dp), parameter :: at_edge = 0.1_dp
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
@@ -301,7 +303,8 @@ contains
       call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
-      if (abs(miss) <= at_event*contact%roughness*merge(1.0_dp, contact%stress, event == slip_begins)) return
+      if (abs(miss) <= merge(contact%closeness, at_edge*contact%roughness, event == stick_ends) &
+          *merge(1.0_dp, contact%stress, event == slip_begins)) return
       if (n == 1) then
         slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
         slope = slope/merge((to - range(1))*(1 - point(stages - 1))**2, (to - range(1))*(1 - point(stages - 1)), &
