@@ -124,7 +124,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
         problem->mode == RST_FRICTIONLESS
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
-                  rst_share_of_pieces * rst_piece_roughness(problem, fine->halvings) + least +
+                  rst_piece_part * rst_piece_roughness(problem, fine->halvings) + least +
                   2 * problem->chi * left / problem->psi; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
         outcome->error_ex += fabs(fine->shear_velocity) / problem->psi;
@@ -200,8 +200,8 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 }
 
 /* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
- * agree by chance, so that the change before extrapolation counts, too: less if twice in a row it fell to a quarter, as
- * it does where all is regular. */
+ * agree by chance, so that a part of the change before extrapolation counts, too: half of that if twice in a row it fell
+ * to a quarter, as it does where all is regular. */
 static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
                          struct rst_outcome *outcome, restitute_error *error)
 {
@@ -221,16 +221,15 @@ static int walk_refining(struct rst_motion *motion, const struct rst_problem *pr
         status = walk_once(motion, problem, &ground, parts, outcome, &now, error);
         if (status) break;
         const double plain = now.velocity - coarse.velocity, last = extrapolated;
-        extrapolated = now.velocity + plain / 3;
-        walked++;
-        regular = walked > 2 && fabs(before / plain - 4) < rst_regular ? regular + 1 : 0;
         double change = fabs(plain);
-        if (walked > 2) change *= regular > 1 ? rst_share_if_regular : rst_share_by_chance;
-        if (walked > 2) change = fmax(change, fabs(extrapolated - last));
+        extrapolated = now.velocity + plain / 3;
+        regular = ++walked > 2 && fabs(before / plain - 4) < rst_regular ? regular + 1 : 0;
+        if (walked > 2)
+            change = fmax(rst_share_by_chance / (regular > 1 ? 2 : 1) * change, fabs(extrapolated - last));
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
-            (rst_share_of_elements * change + rst_rounding * (double)now.n) / problem->psi + rest;
+            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
         if (problem->elements > 0 || (walked > 2 && meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
         coarse = now;
     }
