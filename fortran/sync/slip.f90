@@ -106,7 +106,7 @@ contains
     type(store_type), intent(inout) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
-    logical, intent(in) :: warm  !! s%w is a guess
+    logical, intent(in) :: warm  !! s%w and s%front are a guess
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     type(element_type) :: edge(0:stages)
