@@ -32,16 +32,17 @@ contains
     fails = .not. all(abs(decay) <= huge(1.0_dp))
   end subroutine respond
 
-  !> That of all arms, and answer: how the stress of an element answers to its velocity.
-  pure subroutine respond_all(solid, g, rate, span, kernel, decay, answer, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), span(stages)
-    real(dp), intent(out) :: kernel(stages, stages, solid%n_arms), decay(stages, solid%n_arms), answer(stages, stages)
+  !> That of all arms, and answer: how the stress of an element answers to its velocity. (Pointers, here and below, since
+  !> compilers would copy components of derived types.)
+  subroutine respond_all(eta, g, rate, span, kernel, decay, answer, fails)
+    real(dp), intent(in) :: eta, span(stages)
+    real(dp), pointer, contiguous, intent(in) :: g(:), rate(:), kernel(:, :, :), decay(:, :)
+    real(dp), intent(out) :: answer(stages, stages)
     logical, intent(out) :: fails
     integer(ip) :: j, k
     answer = 0
     fails = .false.
-    do k = 1, solid%n_arms
+    do k = 1, size(g, kind=ip)
       call respond(rate(k), span, kernel(:, :, k), decay(:, k), fails)
       if (fails) return
       do j = 1, stages
@@ -49,18 +50,17 @@ contains
       end do
     end do
     do j = 1, stages
-      answer(j, j) = answer(j, j) + solid%eta
+      answer(j, j) = answer(j, j) + eta
     end do
   end subroutine respond_all
 
   !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v.
-  pure subroutine advance(n_arms, g, span, kernel, decay, v, y)
-    integer(ip), intent(in) :: n_arms
-    real(dp), intent(in) :: g(n_arms), span(stages), kernel(stages, stages, n_arms), decay(stages, n_arms), v(stages)
-    real(dp), intent(inout) :: y(0:stages, n_arms)
+  subroutine advance(g, span, kernel, decay, v, y)
+    real(dp), intent(in) :: span(stages), v(stages)
+    real(dp), pointer, contiguous, intent(in) :: g(:), kernel(:, :, :), decay(:, :), y(:, :)
     integer(ip) :: k
-    do k = 1, n_arms
-      y(1:, k) = decay(:, k)*y(0, k) + applied(kernel(:, :, k), g(k)*span*v)
+    do k = 1, size(g, kind=ip)
+      y(1:stages, k) = decay(:, k)*y(0, k) + applied(kernel(:, :, k), g(k)*span*v)
     end do
   end subroutine advance
 end module rst_arms

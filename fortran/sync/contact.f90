@@ -245,7 +245,7 @@ contains
     if (fails) return
     velocity = solution_of(factors, -kept)
     slip = velocity - (ground%velocity(1:) - side*s%w(1:))
-    call advance(normal%n_arms, normal%g, ground%span, store%kernel, store%decay, velocity, store%now_l)
+    call advance(normal%g, ground%span, store%kernel, store%decay, velocity, store%now_l)
     lasts = .true.
     do i = 1, stages
       lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless*contact%stress

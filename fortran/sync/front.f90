@@ -36,7 +36,7 @@ contains
   !> begin the search.
   !> Where even the element at the edge has slack, the radius is that of the edge, and H its continuation,
   !> as if all stuck.
-  pure subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
+  subroutine find_front(normal, store, time, side, edge_angle, edge, slack)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, edge_angle
@@ -93,7 +93,7 @@ contains
   end subroutine go_on
 
   !> Without slip: what the force of the contact lacks of A q, q by the arms' memory alone, for an edge at the angle theta.
-  pure function held_by(normal, store, time, theta) result(held)
+  function held_by(normal, store, time, theta) result(held)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, theta
@@ -103,7 +103,7 @@ contains
     edge = between(weight, store%record(record)%edge)
     held = 0
     do k = 1, normal%n_arms
-      both = between(weight, store%held(:, :, k, record))
+      both = held_between(weight, store%held, k, record)
       arm = 0.5_dp*(both(3:) - both(:2))
       held = held + exp(-normal%rate(k)*(time - edge(2)))*(arm(2) - edge(1)*arm(1))
     end do
@@ -130,12 +130,12 @@ contains
 
   !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
   !> dy/dtheta = -r ds/dtheta sum_k g_k E_k.
-  pure subroutine look_at(normal, store, time, side, theta, element)
+  subroutine look_at(normal, store, time, side, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, theta
     type(element_type), intent(out) :: element
-    real(dp) :: weight(0:stages), edge(of_edge), arm(2), fade, answer
+    real(dp) :: weight(0:stages), edge(of_edge), both(of_arm), arm(2), fade, answer
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
     edge = between(weight, store%record(record)%edge)
@@ -145,7 +145,8 @@ contains
     do k = 1, normal%n_arms
       fade = 1
       if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
-      arm = arm_between(weight, side, store%held(:, :, k, record))
+      both = held_between(weight, store%held, k, record)
+      arm = merge(both(:2), both(3:), side > 0)
       element%taken = element%taken + fade*arm(1)
       element%force = element%force + fade*arm(2)
       answer = answer + normal%g(k)*fade
@@ -164,13 +165,12 @@ contains
              + weight(5)*at(:, 5) + weight(6)*at(:, 6)
   end function between
 
-  !> The same of m_k and p_k for a sense of slip.
-  pure function arm_between(weight, side, at) result(values)
-    real(dp), intent(in) :: weight(0:stages), side, at(2, 2, 0:stages)
-    real(dp) :: values(2)
-    integer(ip) :: k
-    k = merge(1, 2, side > 0)
-    values = weight(0)*at(:, k, 0) + weight(1)*at(:, k, 1) + weight(2)*at(:, k, 2) + weight(3)*at(:, k, 3) &
-             + weight(4)*at(:, k, 4) + weight(5)*at(:, k, 5) + weight(6)*at(:, k, 6)
-  end function arm_between
+  !> m_k and p_k of an arm for d = 1 and for d = -1. (As a pointer, since compilers would copy parts of a component.)
+  function held_between(weight, held, arm, record) result(values)
+    real(dp), intent(in) :: weight(0:stages)
+    real(dp), pointer, contiguous, intent(in) :: held(:, :, :, :)
+    integer(ip), intent(in) :: arm, record
+    real(dp) :: values(of_arm)
+    values = between(weight, held(:, :, arm, record))
+  end function held_between
 end module rst_front

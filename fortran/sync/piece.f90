@@ -3,7 +3,7 @@ module rst_piece
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, factors_type, &
                              factorize, solution_of
-  use rst_arms, only: solid_type, respond_all, advance
+  use rst_arms, only: respond_all, advance
   use rst_panel, only: mass_factor
   use rst_contact_views, only: normal_type, contact_type, store_type
   implicit none (type, external)
@@ -69,8 +69,7 @@ contains
       end do
       ground%span(max(i, 1_ip)) = ground%pace(i)*width*slope  ! that of the start is written over
     end do
-    call respond_all(solid_type(normal%eta, normal%n_arms), normal%g, normal%rate, ground%span, store%kernel, store%decay, &
-                     ground%answer, fails)
+    call respond_all(normal%eta, normal%g, normal%rate, ground%span, store%kernel, store%decay, ground%answer, fails)
   end subroutine lay_ground
 
   !> M_k in x at the points, from that at the start and U' = w.
@@ -79,7 +78,7 @@ contains
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: w(stages)
     type(store_type), intent(inout) :: store
-    call advance(normal%n_arms, normal%g, ground%span, store%kernel, store%decay, w, store%now_x)
+    call advance(normal%g, ground%span, store%kernel, store%decay, w, store%now_x)
   end subroutine advance_memory
 
   !> All sticks: S at the points is linear in U', S = kept + response U'. While the contact grows
@@ -127,7 +126,7 @@ contains
     force(1:) = kept + applied(response, w(1:))
     call advance_memory(normal, ground, w(1:), store)
     if (ground%returning) return
-    call advance(normal%n_arms, normal%g, ground%span, store%kernel, store%decay, ground%radius(1:)*w(1:), store%now_l)
+    call advance(normal%g, ground%span, store%kernel, store%decay, ground%radius(1:)*w(1:), store%now_l)
   end subroutine stick
 
   !> The polynomial through y at the place on the piece, which is between 0 and 1.

@@ -233,9 +233,10 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
 {
     const double scale = fmin(1, problem->psi), roughness = rst_piece_roughness(problem, halvings);
     const double closeness = fmax(10 * rst_rounding, rst_piece_closeness * roughness);
+    const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
-                                         .roughness = roughness * scale,
+                                         .roughness = roughness * scale / swings,
                                          .noise = rst_noise * roughness_of(halvings - 1),
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
