@@ -77,7 +77,7 @@ static int residuals(void *own, const double *x, double *r)
 }
 
 /* x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of x/(1+x^2) it is x (1-x^2)/(1+x^2)^2; tau and a_T act by x alone. */
-static int jacobian(void *own, const double *x, double *j)
+static int jacobian(void *own, const double *x, const double *r, double *j)
 {
     struct rst_dma *d = own;
     const size_t p = unknowns(d), m = d->terms;

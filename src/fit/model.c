@@ -35,18 +35,29 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     *time = exp(times) * pow(softness / *modulus, 0.4);
 }
 
+int rst_fit_part(int kind, size_t i)
+{
+    static const signed char parts[][RST_FIT_PARTS] = {[RESTITUTE_FIT_ELASTIC] = {RST_FIT_MODULUS1},
+                                                       [RESTITUTE_FIT_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
+                                                       [RESTITUTE_FIT_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2,
+                                                                                         RST_FIT_VISCOSITY},
+                                                       [RESTITUTE_FIT_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
+    return parts[kind][i];
+}
+
 /* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
  * shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow to solve; the local fits may go there. */
 static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
 {
     double modulus, time;
     find_scales(d, m, &modulus, &time);
+    m->viscosity = modulus * time;
     for (size_t i = 0; i < m->count; i++) {
         m->centre[i] = i < m->solid ? log(modulus) : 0;
         m->spread[i] = i < m->solid ? log(300) : log(10);
     }
     if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC) {
-        m->centre[m->solid - 1] = log(modulus * time);
+        m->centre[m->solid - 1] = log(m->viscosity);
         m->spread[m->solid - 1] = log(30);
     }
     if (!m->scaled) m->spread[0] = 0; /* any scale would do */

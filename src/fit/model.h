@@ -56,7 +56,8 @@ struct rst_fit_model {
     size_t friction, shift;                /* places; friction = count: none. shift: that of the second temperature */
     double known[RESTITUTE_FIT_CONSTANTS]; /* NaN: fitted */
     double centre[RESTITUTE_FIT_CONSTANTS], spread[RESTITUTE_FIT_CONSTANTS]; /* of the logarithm, for the starts */
-    int scaled; /* contact times or a known constant set a scale; else 1 MPa is assumed */
+    double viscosity; /* scale of one */
+    int scaled;       /* contact times or a known constant set a scale; else 1 MPa is assumed */
     size_t free, index[RESTITUTE_FIT_CONSTANTS]; /* which are fitted */
 };
 
@@ -70,6 +71,10 @@ int rst_fit_outside(const char *name, double value, double low, double high, res
 
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
+
+/* Which part of a standard solid constant i of an elastic, Kelvin-Voigt, standard solid or Maxwell body is. */
+enum { RST_FIT_MODULUS1, RST_FIT_MODULUS2, RST_FIT_VISCOSITY, RST_FIT_PARTS };
+int rst_fit_part(int kind, size_t i);
 
 /* log10 a_T by the constants of Williams, Landel and Ferry. NaN: at T_r - c2 or below, where the law has its pole, or a
  * shift beyond 1e30, where no relaxation time is left. */
