@@ -1,14 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The component fit of restitute for Fortran: all that fit.h declares but restitute_fitter_values, under the same
-!> names. fit.h is the manual.
+!> names. fit.h is the manual. Every struct is prepared by its _init.
 !> Arrays know their size, optional arguments are optional; names and remarks come as Fortran texts.
 !>
 !>     use restitute
 !>     use restitute_fitting
 !>     type(restitute_fit_point) :: points(20)
 !>     type(restitute_fit_result) :: result
-!>     points = restitute_fit_point()          ! then points(i)%scene and points(i)%ez
-!>     result = restitute_fit_result()
+!>     call restitute_fit_result_init(result)
+!>     do i = 1, 20
+!>       call restitute_fit_point_init(points(i))   ! then points(i)%scene and points(i)%ez
+!>     end do
 !>     status = restitute_fit(points, result, error=error)
 module restitute_fitting
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
@@ -17,6 +19,8 @@ module restitute_fitting
   private
   public :: restitute_fit_point, restitute_fit_options, restitute_fit_result, restitute_fitter
   public :: restitute_dma_options, restitute_dma_result
+  public :: restitute_fit_point_init, restitute_fit_options_init, restitute_fit_result_init
+  public :: restitute_dma_options_init, restitute_dma_result_init
   public :: restitute_fit, restitute_dma_fit, restitute_fit_name, restitute_fit_remarks, restitute_fit_arrays
   public :: restitute_fitter_create, restitute_fitter_run, restitute_fitter_result, restitute_fitter_destroy
 
@@ -92,48 +96,32 @@ module restitute_fitting
     type(c_ptr) :: address = c_null_ptr
   end type restitute_fitter
 
-  interface restitute_fit_point
-    module procedure new_point
-  end interface restitute_fit_point
-  interface restitute_fit_options
-    module procedure new_options
-  end interface restitute_fit_options
-  interface restitute_fit_result
-    module procedure new_result
-  end interface restitute_fit_result
-  interface restitute_dma_options
-    module procedure new_dma_options
-  end interface restitute_dma_options
-  interface restitute_dma_result
-    module procedure new_dma_result
-  end interface restitute_dma_result
-
   interface
-    subroutine c_point_init(point) bind(c, name="restitute_fit_point_init")
+    subroutine restitute_fit_point_init(point) bind(c)
       import :: restitute_fit_point
       implicit none (type, external)
       type(restitute_fit_point), intent(inout) :: point
-    end subroutine c_point_init
-    subroutine c_options_init(options) bind(c, name="restitute_fit_options_init")
+    end subroutine restitute_fit_point_init
+    subroutine restitute_fit_options_init(options) bind(c)
       import :: restitute_fit_options
       implicit none (type, external)
       type(restitute_fit_options), intent(inout) :: options
-    end subroutine c_options_init
-    subroutine c_result_init(result) bind(c, name="restitute_fit_result_init")
+    end subroutine restitute_fit_options_init
+    subroutine restitute_fit_result_init(result) bind(c)
       import :: restitute_fit_result
       implicit none (type, external)
       type(restitute_fit_result), intent(inout) :: result
-    end subroutine c_result_init
-    subroutine c_dma_options_init(options) bind(c, name="restitute_dma_options_init")
+    end subroutine restitute_fit_result_init
+    subroutine restitute_dma_options_init(options) bind(c)
       import :: restitute_dma_options
       implicit none (type, external)
       type(restitute_dma_options), intent(inout) :: options
-    end subroutine c_dma_options_init
-    subroutine c_dma_result_init(result) bind(c, name="restitute_dma_result_init")
+    end subroutine restitute_dma_options_init
+    subroutine restitute_dma_result_init(result) bind(c)
       import :: restitute_dma_result
       implicit none (type, external)
       type(restitute_dma_result), intent(inout) :: result
-    end subroutine c_dma_result_init
+    end subroutine restitute_dma_result_init
     function c_fit(n, points, options, result, error) result(status) bind(c, name="restitute_fit")
       import :: c_int, c_size_t, restitute_error, restitute_fit_options, restitute_fit_point, restitute_fit_result
       implicit none (type, external)
@@ -190,31 +178,6 @@ module restitute_fitting
   end interface
 
 contains
-
-  impure elemental function new_point() result(point)
-    type(restitute_fit_point) :: point
-    call c_point_init(point)
-  end function new_point
-
-  function new_options() result(options)
-    type(restitute_fit_options) :: options
-    call c_options_init(options)
-  end function new_options
-
-  function new_result() result(made)
-    type(restitute_fit_result) :: made
-    call c_result_init(made)
-  end function new_result
-
-  function new_dma_options() result(options)
-    type(restitute_dma_options) :: options
-    call c_dma_options_init(options)
-  end function new_dma_options
-
-  function new_dma_result() result(made)
-    type(restitute_dma_result) :: made
-    call c_dma_result_init(made)
-  end function new_dma_result
 
   !> Relaxation times and known constants of the options: targets that live until the fit is called.
   subroutine restitute_fit_arrays(options, relaxation_time, known)

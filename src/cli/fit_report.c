@@ -163,16 +163,18 @@ static int by_x(const void *a, const void *b)
     return (p->x > q->x) - (p->x < q->x);
 }
 
-/* Data as points, the fit as a line, in the first panel; what is left of the data in the second. */
-static void plot(struct chart *chart, struct pairs *pairs, size_t n, size_t style, const char *what, bool relative)
+/* Data as points, the fit as a line, in the first panel (unless they have another unit); what is left in the second. */
+static void plot(struct chart *chart, struct pairs *pairs, size_t n, size_t style, const char *what, bool both, bool relative)
 {
+    struct panel *panel = chart->panel;
+    if (n == 0) return;
     qsort(pairs, n, sizeof *pairs, by_x);
-    struct series *data = chart_series(&chart->panel[0], MARK_POINTS, style, n, "");
-    struct series *fit = chart_series(&chart->panel[0], MARK_LINE, style, n, "");
-    struct series *rest = chart_series(&chart->panel[1], MARK_POINTS, style, n, what);
-    for (size_t i = 0; i < n && data && fit && rest; i++) {
-        series_add(data, pairs[i].x, pairs[i].measured);
-        series_add(fit, pairs[i].x, pairs[i].fitted);
+    struct series *data = both ? chart_series(&panel[0], MARK_POINTS, style, n, "") : NULL;
+    struct series *fit = both ? chart_series(&panel[0], MARK_LINE, style, n, "") : NULL;
+    struct series *rest = chart_series(&panel[1], MARK_POINTS, style, n, what);
+    for (size_t i = 0; i < n; i++) {
+        if (both) series_add(data, pairs[i].x, pairs[i].measured);
+        if (both) series_add(fit, pairs[i].x, pairs[i].fitted);
         series_add(rest, pairs[i].x, (pairs[i].measured - pairs[i].fitted) / (relative ? pairs[i].fitted : 1));
     }
 }
@@ -214,13 +216,7 @@ static bool figure(const struct fit_settings *s, const struct fit_input *input, 
             const double value = kind == 0 ? p->ez : kind == 1 ? p->ex : p->contact_time;
             if (!isnan(value)) pairs[used++] = (struct pairs){p->scene.normal_speed, value, fitted[kind * n + i]};
         }
-        if (used && kind < 2)
-            plot(chart, pairs, used, kind, names[kind], false);
-        else if (used) { /* another unit: residuals alone */
-            struct series *rest = chart_series(&chart->panel[1], MARK_POINTS, kind, used, names[kind]);
-            for (size_t i = 0; i < used; i++)
-                series_add(rest, pairs[i].x, pairs[i].measured / pairs[i].fitted - 1);
-        }
+        plot(chart, pairs, used, kind, names[kind], kind < 2, kind == 2);
     }
     const bool good = chart_draw(chart, s->text[FIT_FIGURE], why);
     chart_release(chart);
@@ -294,7 +290,7 @@ static bool figure_dma(const struct fit_settings *s, const struct fit_input *inp
             const double measured = factor * (loss ? input->loss[i] : input->storage[i]);
             pairs[i] = (struct pairs){f, measured, modulus_at(r, 2 * 3.14159265358979323846 * f, loss)};
         }
-        plot(chart, pairs, input->n, loss, loss ? "loss" : "storage", true);
+        plot(chart, pairs, input->n, loss, loss ? "loss" : "storage", true, true);
     }
     const bool good = chart_draw(chart, s->text[FIT_FIGURE], why);
     chart_release(chart);

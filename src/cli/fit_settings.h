@@ -48,19 +48,20 @@ void fit_options_release(struct fit_settings *settings);
 
 /* The measurements of --input or --dma. */
 struct fit_input {
+    const char *source;
     restitute_csv *csv;
     struct materials materials; /* of partners */
     size_t n;
+    double *numbers; /* of the columns */
     restitute_fit_point *points;
-    double *frequency, *storage, *loss, *temperature; /* of --dma; temperature NULL: no such column */
+    const double *frequency, *storage, *loss, *temperature; /* of --dma; temperature NULL: no such column */
 };
 
 bool fit_input_read(struct fit_settings *settings, struct fit_input *input, struct reason *why);
 void fit_input_release(struct fit_input *input);
 
-/* A library's message that names points[i] or row[i], with the line of the file instead. */
-void fit_input_place(const struct fit_settings *settings, const struct fit_input *input, const char *message,
-                     struct reason *why);
+/* A library's message that names points[i] or row[i], with the line of the file instead. Always false. */
+bool fit_input_place(const struct fit_input *input, const char *message, struct reason *why);
 
 /* Report, material file and figure. */
 bool fit_write(const struct fit_settings *settings, const struct fit_input *input, const restitute_fitter *fitter,

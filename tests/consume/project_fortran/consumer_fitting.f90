@@ -17,19 +17,19 @@ program consumer_fitting
   real(rk) :: done, x(9)
   integer :: i
   logical :: good
-  points = restitute_fit_point()
   do i = 1, size(points) ! contact times fall with speed^(-1/5)
+    call restitute_fit_point_init(points(i))
     points(i)%scene%radius1 = 0.005_rk
     points(i)%scene%mass1 = 0.004_rk
     points(i)%scene%normal_speed = 0.1_rk * i
     points(i)%contact_time = 3e-3_rk * real(i, rk)**(-0.2_rk)
   end do
-  options = restitute_fit_options()
+  call restitute_fit_options_init(options)
   options%model = RESTITUTE_FIT_ELASTIC
-  result = restitute_fit_result()
-  again = restitute_fit_result()
-  series = restitute_dma_result()
-  dma = restitute_dma_options()
+  call restitute_fit_result_init(result)
+  call restitute_fit_result_init(again)
+  call restitute_dma_result_init(series)
+  call restitute_dma_options_init(dma)
   good = same_size(c_sizeof(points(1)), points(1)%struct_size) .and. same_size(c_sizeof(options), options%struct_size) &
     .and. same_size(c_sizeof(result), result%struct_size) .and. same_size(c_sizeof(series), series%struct_size) &
     .and. same_size(c_sizeof(dma), dma%struct_size)
