@@ -197,8 +197,8 @@ RESTITUTE_API void restitute_dma_result_init(restitute_dma_result *result);
 
 /** A Prony series from storage and loss moduli.
  *
- *  Nonnegative least squares on a grid of times, all times and moduli refined together,
- *  then terms removed as long as the Bayesian information criterion falls.
+ *  The loss modulus gives a first series of two terms a decade. All times and moduli are refined together,
+ *  then terms merged or removed as long as the Bayesian information criterion falls.
  *
  *  @param n                 rows, at least 3
  *  @param frequency         Hz, > 0: omega = 2 pi f

@@ -188,21 +188,17 @@ static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
     if (c1 > 0 && c2 + r->temperature[0] - r->temperature[d->reference] > 0) r->wlf_c1 = c1, r->wlf_c2 = c2;
 }
 
-static int write_result(const struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r, double *rest,
-                        restitute_error *error)
+static int write_result(const struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r, restitute_error *error)
 {
-    rst_dma_residuals(d, rest);
     r->terms = d->terms;
     r->equilibrium_modulus = d->equilibrium;
     for (size_t k = 0; k < d->terms; k++)
         r->relaxation_time[k] = exp(d->tau[k]), r->modulus[k] = exp(d->g[k]);
     for (size_t t = 0; t < r->temperatures; t++)
         r->shift[t] = exp(d->shift[t]);
-    for (size_t i = 0; i < 2 * d->n; i++) {
-        r->rms += pow(d->noise * rest[i], 2) / (2 * (double)d->n);
-        r->worst = fmax(r->worst, fabs(d->noise * rest[i]));
-    }
-    r->rms = sqrt(r->rms);
+    r->rms = d->noise * sqrt(rst_dma_sum(d) / (2 * (double)d->n));
+    for (size_t i = 0; i < 2 * d->n; i++)
+        r->worst = fmax(r->worst, d->noise * fabs(d->r[i]));
     r->wlf_c1 = o->wlf_c1, r->wlf_c2 = o->wlf_c2;
     if (isnan(o->wlf_c1)) find_wlf(d, r);
     remark_range(d, r);
@@ -220,7 +216,7 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
 }
 
 static int fit(struct rst_dma *d, const double *temperature, const restitute_dma_options *o, restitute_dma_result *r,
-               double *rest, restitute_error *error)
+               restitute_error *error)
 {
     int status = sort_temperatures(d, temperature, o, r, error);
     if (status) return status;
@@ -230,7 +226,7 @@ static int fit(struct rst_dma *d, const double *temperature, const restitute_dma
     if (status >= 0) status = rst_dma_shorten(d);
     rst_fit_gsl_end();
     if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
-    return write_result(d, o, r, rest, error);
+    return write_result(d, o, r, error);
 }
 
 int restitute_dma_fit(size_t n, const double *frequency, const double *storage, const double *loss,
@@ -256,10 +252,10 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     if (!status) {
         const double factor = o.tension ? 1 / (2 * (1 + o.poisson_ratio)) : 1;
         d->n = n, d->noise = o.noise;
-        d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->group = group;
+        d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->r = memory + 3 * n, d->group = group;
         for (size_t i = 0; i < n; i++)
             omega[i] = 2 * pi * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];
-        status = fit(d, temperature, &o, &r, memory + 3 * n, error);
+        status = fit(d, temperature, &o, &r, error);
     }
     free(d);
     free(memory);

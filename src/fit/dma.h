@@ -11,6 +11,7 @@ struct rst_dma {
     const double *omega;
     double *storage, *loss; /* shear moduli */
     size_t *group;          /* temperature of a row */
+    double *r; /* residuals, the latest */
     double noise;
     size_t temperatures, reference;
     int free_shifts;
@@ -23,6 +24,6 @@ struct rst_dma {
 /* dma_terms.c: from shifts to a first series; refine it; make it as short as the data allow. */
 int rst_dma_begin(struct rst_dma *dma);
 int rst_dma_shorten(struct rst_dma *dma);
-void rst_dma_residuals(const struct rst_dma *dma, double *r);
+double rst_dma_sum(const struct rst_dma *dma); /* of squared residuals */
 
 #endif
