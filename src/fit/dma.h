@@ -3,7 +3,7 @@
 #ifndef RST_FIT_DMA_H
 #define RST_FIT_DMA_H
 
-#include <restitute/fit.h>
+#include "model.h"
 
 /* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then loss. */
 struct rst_dma {
@@ -13,7 +13,7 @@ struct rst_dma {
     size_t *group;          /* temperature of a row */
     double *r; /* residuals, the latest */
     double noise;
-    size_t temperatures, reference;
+    struct rst_temperatures temperature;
     int free_shifts;
     double shift[RESTITUTE_DMA_SHIFTS]; /* log a_T */
     size_t terms;

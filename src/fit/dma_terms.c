@@ -1,6 +1,7 @@
 /* The terms of a Prony series from storage and loss moduli,
  *     G'(w) = G_inf + sum g x^2/(1 + x^2),  G''(w) = sum g x/(1 + x^2),  x = w a_T tau.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@ static const double BEYOND = 1;
 /* Unknowns: log g, log tau, log G_inf if there is one, shifts but the reference's. */
 static size_t unknowns(const struct rst_dma *d)
 {
-    return 2 * d->terms + (d->equilibrium > 0) + (d->free_shifts ? d->temperatures - 1 : 0);
+    return 2 * d->terms + (d->equilibrium > 0) + (d->free_shifts ? d->temperature.count - 1 : 0);
 }
 
 static void put(struct rst_dma *d, const double *x)
@@ -26,8 +27,8 @@ static void put(struct rst_dma *d, const double *x)
     memcpy(d->g, x, d->terms * sizeof *x);
     memcpy(d->tau, x + d->terms, d->terms * sizeof *x);
     if (d->equilibrium > 0) d->equilibrium = exp(x[next++]);
-    for (size_t t = 0; d->free_shifts && t < d->temperatures; t++)
-        if (t != d->reference) d->shift[t] = x[next++];
+    for (size_t t = 0; d->free_shifts && t < d->temperature.count; t++)
+        if (t != d->temperature.reference) d->shift[t] = x[next++];
 }
 
 static void get(const struct rst_dma *d, double *x)
@@ -36,8 +37,8 @@ static void get(const struct rst_dma *d, double *x)
     memcpy(x, d->g, d->terms * sizeof *x);
     memcpy(x + d->terms, d->tau, d->terms * sizeof *x);
     if (d->equilibrium > 0) x[next++] = log(d->equilibrium);
-    for (size_t t = 0; d->free_shifts && t < d->temperatures; t++)
-        if (t != d->reference) x[next++] = d->shift[t];
+    for (size_t t = 0; d->free_shifts && t < d->temperature.count; t++)
+        if (t != d->temperature.reference) x[next++] = d->shift[t];
 }
 
 /* Residuals, and their derivatives unless j is NULL. x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of x/(1+x^2) it is
@@ -47,7 +48,7 @@ static void evaluate(const struct rst_dma *d, double *r, double *j)
     const size_t p = unknowns(d), m = d->terms, shifts = 2 * m + (d->equilibrium > 0);
     if (j) memset(j, 0, 2 * d->n * p * sizeof *j);
     for (size_t i = 0; i < d->n; i++) {
-        const size_t t = d->group[i], shift = d->free_shifts && t != d->reference ? shifts + t - (t > d->reference) : p;
+        const size_t t = d->group[i], shift = d->free_shifts && t != d->temperature.reference ? shifts + t - (t > d->temperature.reference) : p;
         const double to_storage = 1 / (d->storage[i] * d->noise), to_loss = 1 / (d->loss[i] * d->noise);
         double *a = j ? j + i * p : NULL, *b = j ? a + d->n * p : NULL, storage = d->equilibrium, loss = 0;
         if (j && d->equilibrium > 0) a[2 * m] = d->equilibrium * to_storage;
@@ -128,7 +129,7 @@ int rst_dma_begin(struct rst_dma *d)
         d->tau[k] = low - BEYOND * log(10) + step * (double)k;
         for (size_t i = 0; i < d->n; i++) {
             const double distance = fabs(log(d->omega[i]) + d->shift[d->group[i]] + d->tau[k]);
-            if (distance < nearest) nearest = distance, d->g[k] = log(2 / 3.14 * step * d->loss[i]);
+            if (distance < nearest) nearest = distance, d->g[k] = log(M_2_PI * step * d->loss[i]);
         }
     }
     return refine(d);

@@ -250,11 +250,9 @@ int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *res
     int status = check_finished(f, error);
     if (status) return status;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    if (result->struct_size != sizeof *result)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
-                          result->struct_size, sizeof *result);
     restitute_material *material;
-    status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
+    status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
+    if (!status) status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
     if (status < 0) return status;
     *result = f->result;
     result->material = material;

@@ -71,7 +71,7 @@ void rst_fit_model_make(const struct rst_fit_data *d, int kind, const double *kn
     for (size_t i = 0; i < d->n; i++)
         friction |= isnan(d->points[i].scene.friction) && !isnan(d->points[i].ex);
     m->shift = m->solid + (friction ? 1 : 0);
-    m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperatures - 1 : 0);
+    m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperature.count - 1 : 0);
     m->friction = friction ? m->solid : m->count;
     for (size_t i = 0; i < m->count && i < RESTITUTE_FIT_CONSTANTS; i++) {
         m->known[i] = known && i < m->solid ? known[i] : NAN;
@@ -86,7 +86,8 @@ void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, s
     if (i == m->friction)
         snprintf(name, RESTITUTE_FIT_NAME, "friction");
     else if (i >= m->solid)
-        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g", d->temperature[i - m->shift + 1]);
+        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g",
+                 d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
     else if (m->kind == RESTITUTE_FIT_PRONY)
         snprintf(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
                  i ? d->options.relaxation_time[i - 1] : 0);
@@ -106,15 +107,12 @@ void rst_fit_constants(const struct rst_fit_model *m, const double *logs, double
     }
 }
 
-static double shift_of(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, double t)
+/* a_T of a temperature; the fitted shifts leave out the reference. */
+static double shift_of(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, size_t t)
 {
-    if (isnan(t) || t == d->temperature[0]) return 1;
-    if (!isnan(d->options.wlf_c1))
-        return pow(10, rst_fit_wlf(d->options.wlf_c1, d->options.wlf_c2, t - d->temperature[0]));
-    size_t k = 1;
-    while (d->temperature[k] != t)
-        k++;
-    return constants[m->shift + k - 1];
+    const struct rst_temperatures *all = &d->temperature;
+    if (t == all->reference) return 1;
+    return isnan(all->c1) ? constants[m->shift + t - (t > all->reference)] : pow(10, rst_temperatures_wlf(all, t));
 }
 
 int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *c, double shift,
@@ -142,7 +140,7 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
     for (size_t g = 0; g < d->groups && status >= 0; g++) {
         const restitute_fit_point *p = &d->points[d->first[g]];
         restitute_material *own = NULL;
-        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, NULL);
+        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, d->at[d->first[g]]), &own, NULL);
         if (status >= 0 && p->scene.material) {
             status = restitute_material_pair(own, p->scene.material, &solids[g], NULL);
             restitute_material_destroy(own);

@@ -33,9 +33,16 @@ struct rst_fit_values {
     double of[RST_FIT_KINDS];
 };
 
+/* Distinct temperatures, ascending. Of the reference, and where no temperature was given, the value may be NaN. */
+struct rst_temperatures {
+    double reference_value, c1, c2; /* NaN: the first one's; no law of shifts */
+    size_t reference, count;
+    double value[RESTITUTE_DMA_SHIFTS];
+};
+
 /* Copies of the points and options, what follows from them, and points of one temperature and partner. */
 struct rst_fit_data {
-    size_t n, rows, groups, temperatures;
+    size_t n, rows, groups;
     restitute_fit_point *points;
     restitute_fit_options options;
     double *memory; /* relaxation times and known constants */
@@ -43,8 +50,8 @@ struct rst_fit_data {
     size_t needed; /* impacts, of a set of constants */
     struct rst_fit_impact *impact;
     struct rst_fit_place *place;
-    size_t *group, *first;                    /* group of a point; first point of a group */
-    double temperature[RESTITUTE_DMA_SHIFTS]; /* distinct ones, the reference first */
+    size_t *group, *first, *at; /* group of a point; first point of a group; temperature of a point */
+    struct rst_temperatures temperature;
     restitute_options solver;
     int64_t impacts; /* that were solved */
 };
@@ -53,7 +60,7 @@ struct rst_fit_data {
 struct rst_fit_model {
     int kind;
     size_t solid, count;
-    size_t friction, shift;                /* places; friction = count: none. shift: that of the second temperature */
+    size_t friction, shift;                /* places; friction = count: none. shift: the first one */
     double known[RESTITUTE_FIT_CONSTANTS]; /* NaN: fitted */
     double centre[RESTITUTE_FIT_CONSTANTS], spread[RESTITUTE_FIT_CONSTANTS]; /* of the logarithm, for the starts */
     double viscosity; /* scale of one */
@@ -69,6 +76,8 @@ void rst_fit_data_release(struct rst_fit_data *data);
 /* A value out of its range is refused by its name; NaN is. */
 int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error);
 
+int rst_fit_sized(const char *name, size_t size, size_t wanted, restitute_error *error);
+
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
 
@@ -76,9 +85,12 @@ size_t rst_fit_solid_constants(int kind, size_t terms);
 enum { RST_FIT_MODULUS1, RST_FIT_MODULUS2, RST_FIT_VISCOSITY, RST_FIT_PARTS };
 int rst_fit_part(int kind, size_t i);
 
-/* log10 a_T by the constants of Williams, Landel and Ferry. NaN: at T_r - c2 or below, where the law has its pole, or a
- * shift beyond 1e30, where no relaxation time is left. */
-double rst_fit_wlf(double c1, double c2, double difference);
+/* temperatures.c: sort what was measured at n places, of which `what` is the name for messages; NaN: at the reference. */
+int rst_temperatures_sort(size_t n, const double *measured, const char *what, struct rst_temperatures *temperatures,
+                          size_t *at, restitute_error *error);
+
+/* log10 a_T by the constants of Williams, Landel and Ferry. */
+double rst_temperatures_wlf(const struct rst_temperatures *temperatures, size_t which);
 
 /* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of theirs. */
 void rst_fit_model_make(const struct rst_fit_data *data, int kind, const double *known, struct rst_fit_model *model);
