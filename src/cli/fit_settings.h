@@ -9,22 +9,23 @@
 #include "problem.h"
 
 enum fit_text {
-    FIT_INPUT,
-    FIT_DMA,
+    /* of impacts alone */
     FIT_PARTNER,
     FIT_MODEL,
     FIT_TERMS,
     FIT_KNOWN,
     FIT_LOSS,
     FIT_CONFIDENCE,
-    FIT_REFERENCE,
-    FIT_WLF,
-    FIT_NOISE,
     FIT_STARTS,
     FIT_SEED,
     FIT_THREADS,
+    /* of both kinds */
+    FIT_INPUT,
+    FIT_DMA,
+    FIT_REFERENCE,
+    FIT_WLF,
+    FIT_NOISE,
     FIT_NAME,
-    FIT_FORMAT,
     FIT_OUTPUT,
     FIT_FIGURE,
     FIT_TEXTS
@@ -34,13 +35,15 @@ struct fit_settings {
     char *text[FIT_TEXTS];    /* as given; NULL: not given */
     char *field[FIELD_COUNT]; /* of the scene, likewise */
     struct values values;     /* of the scene, for all rows */
-    bool tension, json;
+    bool tension;
     restitute_fit_options options;
     double terms[20], known[RESTITUTE_FIT_CONSTANTS]; /* arrays of the options */
     restitute_dma_options dma;
     int argument_count;
     const char *const *arguments;
 };
+
+extern const char *const fit_models[]; /* names, from RESTITUTE_FIT_ELASTIC on */
 
 /* STOP: help was printed, FAILED: a complaint. To be released in any case. */
 enum reading fit_options_read(int count, char **arguments, struct fit_settings *settings);
