@@ -2,6 +2,7 @@
  * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md, 2). So where
  * many points measure no e_x, a few impacts evenly spaced in log T are solved, and the points lie between these.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -64,8 +65,8 @@ static void set_between(struct rst_fit_place *place, size_t first, double low)
 }
 
 /* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds whose time was
- * measured, have their own. */
-static void plan_group(struct rst_fit_data *d, size_t group)
+ * measured, have their own. These come in the order of T: equal speeds at several angles share their normal motion then. */
+static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order)
 {
     const size_t first = d->needed;
     double low = INFINITY, high = 0;
@@ -77,7 +78,8 @@ static void plan_group(struct rst_fit_data *d, size_t group)
     if (2 * nodes > members) nodes = 0;
     for (size_t k = 0; k < nodes; k++)
         add_impact(d, some, low * exp(STEP * ((double)k - 2)));
-    for (size_t i = 0; i < d->n; i++) {
+    for (size_t k = 0; k < d->n; k++) {
+        const size_t i = order[k];
         if (d->group[i] != group) continue;
         if (nodes && may_lie_between(&d->points[i])) {
             set_between(&d->place[i], first, low);
@@ -92,11 +94,14 @@ int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
 {
     d->impact = malloc(d->n * sizeof *d->impact);
     d->place = malloc(d->n * sizeof *d->place);
-    if (!d->impact || !d->place)
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
-    const int status = find_times(d, error);
+    size_t *order = calloc(d->n, sizeof *order);
+    const int status = d->impact && d->place && order
+                           ? find_times(d, error)
+                           : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
+    if (status >= 0) gsl_sort_index(order, &d->place->time, sizeof *d->place / sizeof(double), d->n);
     for (size_t g = 0; g < d->groups && status >= 0; g++)
-        plan_group(d, g);
+        plan_group(d, g, order);
+    free(order);
     return status;
 }
 
