@@ -120,6 +120,7 @@ static int prepare(restitute_fitter *f, restitute_error *error)
         f->weight[i] = 1;
     f->search.model = model;
     f->turns = (size_t)f->data.options.starts + 4;
+    rst_fit_thin(&f->data, 1);
     const int status = check_model(f, error);
     if (status) return status;
     if (!f->weight || rst_fit_search_create(&f->data, &model, f->weight, (size_t)f->data.options.starts, &f->search))
@@ -159,6 +160,7 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
 static int settle(restitute_fitter *f)
 {
     double change = 1;
+    rst_fit_thin(&f->data, 0);
     int status = rst_fit_again(&f->search);
     for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0 && change > 1e-4; round++) {
         status = rst_fit_reweigh(&f->search, f->weight, &change);

@@ -38,6 +38,7 @@ struct bridge {
     double *origin;        /* unknowns are counted from the start: the first trust region is 0.3 then */
     double *x, *f;         /* latest point, its residuals */
     double *at, *f_at, *j; /* likewise of the latest Jacobian */
+    double start;          /* sum of squares at the beginning of a round */
     int known, rejected, status;
 };
 
@@ -105,7 +106,7 @@ static int iterate(gsl_multifit_nlinear_workspace *w, struct bridge *b, double *
     b->known = b->rejected = 0;
     gsl_vector_const_view start = gsl_vector_const_view_array(x, least->unknowns);
     int status = gsl_multifit_nlinear_init(&start.vector, &fdf, w), still = 0;
-    *sum = square(gsl_multifit_nlinear_residual(w));
+    *sum = b->start = square(gsl_multifit_nlinear_residual(w));
     *converged = 0;
     for (int i = 0; i < least->most && !status && !*converged; i++) {
         status = gsl_multifit_nlinear_iterate(w);
@@ -127,15 +128,13 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
                                          : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
-    double *memory = malloc((n * p + 2 * n + 3 * p) * sizeof *memory), last;
+    double *memory = malloc((n * p + 2 * n + 3 * p) * sizeof *memory);
     struct bridge b = {.least = least, .j = memory};
     int status = w && memory ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY, round = 0;
     if (memory) b.f = b.j + n * p, b.f_at = b.f + n, b.x = b.f_at + n, b.at = b.x + p, b.origin = b.at + p;
-    *sum = INFINITY;
     while (status >= 0) {
-        last = *sum;
         status = iterate(w, &b, x, sum, converged);
-        if (++round >= least->rounds || *sum < least->exact || last - *sum <= least->settled * *sum) break;
+        if (++round >= least->rounds || *sum < least->exact || b.start - *sum <= least->settled * *sum) break;
     }
     if (w) gsl_multifit_nlinear_free(w);
     free(memory);

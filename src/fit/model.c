@@ -192,12 +192,21 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
 int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
                   struct rst_fit_values *values)
 {
-    restitute_result *results = malloc(sets * d->needed * sizeof *results);
+    struct rst_fit_impact *impacts = malloc(d->needed * sizeof *impacts);
+    restitute_result *solved = malloc(sets * d->needed * sizeof *solved), *all = calloc(d->needed, sizeof *all);
+    size_t n = 0;
+    for (size_t k = 0; impacts && k < d->needed; k++)
+        if (!rst_fit_passed_over(d, k)) impacts[n++] = d->impact[k];
     const int status =
-        results ? solve(d, m, sets, constants, d->needed, d->impact, results) : RESTITUTE_ERROR_MEMORY;
-    for (size_t s = 0; s < sets && status >= 0; s++)
-        rst_fit_values(d, results + s * d->needed, values + s * d->n);
-    free(results);
+        impacts && solved && all ? solve(d, m, sets, constants, n, impacts, solved) : RESTITUTE_ERROR_MEMORY;
+    for (size_t s = 0; s < sets && status >= 0; s++) {
+        for (size_t k = 0, next = s * n; k < d->needed; k++)
+            if (!rst_fit_passed_over(d, k)) all[k] = solved[next++];
+        rst_fit_values(d, all, values + s * d->n);
+    }
+    free(impacts);
+    free(solved);
+    free(all);
     return status;
 }
 
@@ -212,9 +221,11 @@ int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, 
     return status;
 }
 
-double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values)
+double rst_fit_residual(const struct rst_fit_data *d, size_t row, const struct rst_fit_values *values)
 {
-    const double value = values->of[row->kind];
-    if (isnan(values->of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
-    return (value - row->measured) / row->sigma;
+    const struct rst_fit_row *r = &d->row[row];
+    const double value = values[r->point].of[r->kind];
+    if (rst_fit_passed_over(d, d->place[r->point].first)) return 0;
+    if (isnan(values[r->point].of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    return (value - r->measured) / r->sigma;
 }

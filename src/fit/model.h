@@ -18,6 +18,7 @@ struct rst_fit_row {
 struct rst_fit_impact {
     restitute_scene scene;
     size_t group;
+    int own; /* of one point */
     double time;
 };
 
@@ -49,6 +50,7 @@ struct rst_fit_data {
     struct rst_fit_row *row;
     size_t needed; /* impacts, of a set of constants */
     struct rst_fit_impact *impact;
+    size_t stride; /* every how manyth of the own impacts is solved; rows of the others have no residual */
     struct rst_fit_place *place;
     size_t *group, *first, *at; /* group of a point; first point of a group; temperature of a point */
     struct rst_temperatures temperature;
@@ -111,11 +113,15 @@ int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, 
 int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
                          restitute_result *results);
 
-/* Weighted residual of a row. */
-double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values);
+/* Residual of a row, in its standard deviations; 0 if its impact was passed over. */
+double rst_fit_residual(const struct rst_fit_data *data, size_t row, const struct rst_fit_values *values);
 
 /* plan.c: the impacts that are needed, and from them the values of the points. */
 int rst_fit_plan(struct rst_fit_data *data, restitute_error *error);
+int rst_fit_passed_over(const struct rst_fit_data *data, size_t impact);
+
+/* For the search of starts: about a hundred of the own impacts, or all of them. */
+void rst_fit_thin(struct rst_fit_data *data, int thin);
 void rst_fit_values(const struct rst_fit_data *data, const restitute_result *solved, struct rst_fit_values *values);
 
 #endif

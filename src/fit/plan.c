@@ -14,6 +14,9 @@
  * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
 static const double STEP = 0.1;
 
+/* Own impacts that are enough to find the valley of a few constants; half of it may miss one, twice only costs. */
+enum { ENOUGH = 100 };
+
 /* A contact time has no bound where e falls to 0, so that no polynomial follows it there. */
 static const double LEAST_EZ = 0.3;
 
@@ -42,11 +45,11 @@ static int find_times(struct rst_fit_data *d, restitute_error *error)
     return status;
 }
 
-static void add_impact(struct rst_fit_data *d, size_t point, double time)
+static void add_impact(struct rst_fit_data *d, size_t point, double time, int own)
 {
     const restitute_fit_point *p = &d->points[point];
     struct rst_fit_impact *impact = &d->impact[d->needed++];
-    *impact = (struct rst_fit_impact){p->scene, d->group[point], time};
+    *impact = (struct rst_fit_impact){p->scene, d->group[point], own, time};
     impact->scene.normal_speed *= pow(time / d->place[point].time, -5); /* T ~ v^(-1/5) */
     if (isnan(p->ex)) impact->scene.friction = 0;                       /* saves the tangential problem */
 }
@@ -77,7 +80,7 @@ static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order
     size_t nodes = members ? (size_t)(log(high / low) / STEP) + RST_FIT_STENCIL : 0;
     if (2 * nodes > members) nodes = 0;
     for (size_t k = 0; k < nodes; k++)
-        add_impact(d, some, low * exp(STEP * ((double)k - 2)));
+        add_impact(d, some, low * exp(STEP * ((double)k - 2)), 0);
     for (size_t k = 0; k < d->n; k++) {
         const size_t i = order[k];
         if (d->group[i] != group) continue;
@@ -86,7 +89,7 @@ static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order
             continue;
         }
         d->place[i].first = d->needed, d->place[i].count = 1, d->place[i].weight[0] = 1;
-        add_impact(d, i, d->place[i].time);
+        add_impact(d, i, d->place[i].time, 1);
     }
 }
 
@@ -103,6 +106,20 @@ int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
         plan_group(d, g, order);
     free(order);
     return status;
+}
+
+/* By the golden section: every stride-th could be one angle of several at each speed. */
+int rst_fit_passed_over(const struct rst_fit_data *d, size_t impact)
+{
+    return d->impact[impact].own && fmod(0.6180339887498949 * (double)impact, 1) * (double)d->stride >= 1;
+}
+
+void rst_fit_thin(struct rst_fit_data *d, int thin)
+{
+    size_t own = 0;
+    for (size_t k = 0; k < d->needed; k++)
+        own += d->impact[k].own != 0;
+    d->stride = thin && own > ENOUGH ? own / ENOUGH : 1;
 }
 
 void rst_fit_values(const struct rst_fit_data *d, const restitute_result *solved, struct rst_fit_values *values)

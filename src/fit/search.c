@@ -45,8 +45,7 @@ void rst_fit_search_release(struct rst_fit_search *s)
 
 static double residual(const struct rst_fit_search *s, size_t row, size_t set)
 {
-    const struct rst_fit_row *r = &s->data->row[row];
-    return (s->weight ? sqrt(s->weight[row]) : 1) * rst_fit_residual(r, &s->values[set * s->data->n + r->point]);
+    return (s->weight ? sqrt(s->weight[row]) : 1) * rst_fit_residual(s->data, row, s->values + set * s->data->n);
 }
 
 static int residuals(void *own, const double *x, double *r)
