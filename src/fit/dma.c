@@ -56,79 +56,61 @@ static int check_options(const restitute_dma_options *o, restitute_error *error)
     return status ? status : rst_fit_outside("options.noise", o->noise, 1e-4, 0.5, error);
 }
 
-/* Log of a modulus at omega between the rows of a temperature; NaN outside of them. No logarithm in the loop: it is
- * passed for every row and every trial shift. */
-static double curve(const struct rst_dma *d, size_t t, const double *modulus, double omega)
+/* Curves of neighbouring temperatures laid over each other, from the reference outwards: every row of t on the row of s whose
+ * moduli are most alike, their mean distance weighted by how alike. A start for the refinement. */
+static void overlay(struct rst_dma *d, size_t s, size_t t)
 {
-    size_t below = d->n, above = d->n;
+    double sum = 0, weights = 0;
     for (size_t i = 0; i < d->n; i++) {
-        if (d->group[i] != t) continue;
-        if (d->omega[i] <= omega && (below == d->n || d->omega[i] > d->omega[below])) below = i;
-        if (d->omega[i] >= omega && (above == d->n || d->omega[i] < d->omega[above])) above = i;
+        double least = INFINITY, move = 0;
+        for (size_t j = 0; j < d->n && d->group[i] == t; j++) {
+            const double a = log(d->storage[i] / d->storage[j]), b = log(d->loss[i] / d->loss[j]), unlike = a * a + b * b;
+            if (d->group[j] == s && unlike < least) least = unlike, move = log(d->omega[j] / d->omega[i]);
+        }
+        const double weight = 1 / (least + d->noise * d->noise);
+        sum += weight * move, weights += weight;
     }
-    if (below == d->n || above == d->n) return NAN;
-    if (!(d->omega[above] > d->omega[below])) return log(modulus[below]);
-    return log(modulus[below]) + log(modulus[above] / modulus[below]) * log(omega / d->omega[below]) /
-                                     log(d->omega[above] / d->omega[below]);
+    d->shift[t] = d->shift[s] + sum / weights;
 }
 
-/* Mean squared difference of the curves of t, moved by `shift`, and of s where both are; too few: infinity. */
-static double mismatch(const struct rst_dma *d, size_t s, size_t t, double shift)
+static double reduced(const struct rst_dma *d, size_t row)
 {
-    double sum = 0;
-    int count = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        if (d->group[i] != t) continue;
-        const double omega = d->omega[i] * exp(shift), a = curve(d, s, d->storage, omega) - log(d->storage[i]),
-                     b = curve(d, s, d->loss, omega) - log(d->loss[i]);
-        if (!isnan(a) && !isnan(b)) sum += a * a + b * b, count++;
-    }
-    return count >= 3 ? sum / count : INFINITY;
+    return d->omega[row] * exp(d->shift[d->group[row]]);
 }
 
-/* Curves of neighbouring temperatures laid over each other, from the reference outwards: a start for the refinement. */
-static int overlay(struct rst_dma *d, size_t s, size_t t)
+static void first_shifts(struct rst_dma *d)
 {
-    double best = INFINITY, range = 0;
-    for (size_t i = 0; i < d->n; i++)
-        range = fmax(range, fabs(log(d->omega[i] / d->omega[0])));
-    for (int i = -400; i <= 400; i++) {
-        const double move = 2 * range * i / 400, value = mismatch(d, s, t, move);
-        if (value < best) best = value, d->shift[t] = d->shift[s] + move;
-    }
-    return !isinf(best);
-}
-
-static void first_shifts(struct rst_dma *d, restitute_dma_result *r)
-{
-    int laid = 1;
     const struct rst_temperatures *all = &d->temperature;
     d->free_shifts = all->count > 1 && isnan(all->c1);
     for (size_t t = 0; all->count > 1 && !isnan(all->c1) && t < all->count; t++)
         d->shift[t] = log(10) * rst_temperatures_wlf(all, t);
     for (size_t t = all->reference + 1; d->free_shifts && t < all->count; t++)
-        laid &= overlay(d, t - 1, t);
+        overlay(d, t - 1, t);
     for (size_t t = all->reference; d->free_shifts && t-- > 0;)
-        laid &= overlay(d, t + 1, t);
-    if (laid) return;
-    r->flags |= RESTITUTE_FIT_UNDETERMINED;
-    strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
+        overlay(d, t + 1, t);
 }
 
-/* A term's loss peak is 1.14 decades wide at half height: rows within one decade cannot place it. */
+/* What cannot be known from these rows. A term's loss peak is 1.14 decades wide at half height: rows within one decade
+ * cannot place it. */
 static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
 {
-    double low = INFINITY, high = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        const double reduced = d->omega[i] * exp(d->shift[d->group[i]]);
-        low = fmin(low, reduced), high = fmax(high, reduced);
+    double low = INFINITY, high = 0, first[RESTITUTE_DMA_SHIFTS], last[RESTITUTE_DMA_SHIFTS];
+    int laid = 1;
+    for (size_t t = 0; t < d->temperature.count; t++) {
+        first[t] = INFINITY, last[t] = 0;
+        for (size_t i = 0; i < d->n; i++)
+            if (d->group[i] == t) first[t] = fmin(first[t], reduced(d, i)), last[t] = fmax(last[t], reduced(d, i));
+        low = fmin(low, first[t]), high = fmax(high, last[t]);
+        laid &= t == 0 || !d->free_shifts || fmax(first[t - 1], first[t]) <= fmin(last[t - 1], last[t]);
     }
-    if (high >= 10 * low) return;
+    if (!laid || high < 10 * low) r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    if (!laid) strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
     const size_t used = strlen(r->remarks);
-    r->flags |= RESTITUTE_FIT_UNDETERMINED;
-    snprintf(r->remarks + used, sizeof r->remarks - used,
-             "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or more\n",
-             high / low);
+    if (high < 10 * low)
+        snprintf(r->remarks + used, sizeof r->remarks - used,
+                 "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
+                 "more\n",
+                 high / low);
 }
 
 /* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted so that errors of log10 a count alike. */
@@ -190,7 +172,7 @@ static int fit(struct rst_dma *d, const double *temperature, const restitute_dma
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it",
                             o->reference_temperature);
     if (status) return status;
-    first_shifts(d, r);
+    first_shifts(d);
     rst_fit_gsl_begin();
     status = rst_dma_begin(d);
     if (status >= 0) status = rst_dma_shorten(d);
