@@ -2,7 +2,7 @@
 !> A Fortran user's program: a modulus from the contact times of an elastic ball, in one call and in pieces, and a series of
 !> one term from its moduli. Exit status 0 if all is what it should be.
 program consumer_fitting
-  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_sizeof
   use restitute
   use restitute_fitting
   implicit none (type, external)
@@ -12,7 +12,7 @@ program consumer_fitting
   type(restitute_fit_result) :: result, again
   type(restitute_dma_options) :: dma
   type(restitute_dma_result) :: series
-  type(restitute_fitter) :: fitter
+  type(c_ptr) :: fitter
   type(restitute_error) :: error
   real(rk) :: done, x(9)
   integer :: i
