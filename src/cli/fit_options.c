@@ -94,14 +94,11 @@ static int constant_place(const restitute_fit_options *o, const char *name)
                                            [RESTITUTE_FIT_STANDARD_SOLID] = {"modulus1", "modulus2", "viscosity"},
                                            [RESTITUTE_FIT_MAXWELL] = {"modulus", "viscosity"},
                                            [RESTITUTE_FIT_PRONY] = {"equilibrium"}};
-    char term[16];
+    int term;
+    char more;
     for (int i = 0; i < 4 && names[o->model][i]; i++)
         if (strcmp(names[o->model][i], name) == 0) return i;
-    for (int k = 1; k <= (int)o->terms; k++) {
-        snprintf(term, sizeof term, "term%d", k);
-        if (strcmp(term, name) == 0) return k;
-    }
-    return -1;
+    return sscanf(name, "term%d%c", &term, &more) == 1 && term >= 1 && term <= (int)o->terms ? term : -1;
 }
 
 static bool read_known(struct fit_settings *s, struct reason *why)

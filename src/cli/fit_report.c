@@ -102,13 +102,13 @@ static void text_report(FILE *stream, const struct fit_settings *s, const struct
     fprintf(stream, "%s: %s\n\n", input->source, model_of(s));
     for (size_t i = 0; i < r->count; i++) {
         const double low = r->constant[i].low, high = r->constant[i].high;
-        fprintf(stream, "  %-26s %-13.6g ", r->constant[i].name, r->constant[i].value);
+        fprintf(stream, "  %-26s %-13.6g", r->constant[i].name, r->constant[i].value);
         if (isinf(high))
-            fputs("not determined", stream);
+            fputs(" not determined", stream);
         else if (low < high)
-            fprintf(stream, "%.6g to %.6g", low, high);
+            fprintf(stream, " %.6g to %.6g", low, high);
         else if (!isnan(low))
-            fputs("known", stream);
+            fputs(" known", stream);
         fputc('\n', stream);
     }
     for (size_t i = 1; i < json_array_size(correlation); i++) {

@@ -67,6 +67,7 @@ static int try_shorter_series(restitute_fitter *f)
 /* Solids with a constant more or less. A spring that is new begins as strong as the other. */
 static int try_rivals(restitute_fitter *f)
 {
+    static const int parts[] = {0, 1, 5, 7, 6}; /* of a kind, bits: modulus1, modulus2, viscosity */
     const struct rst_fit_model *m = &f->search.model;
     double part[RST_FIT_PARTS], known[RST_FIT_PARTS], ours[RESTITUTE_FIT_CONSTANTS];
     int status = RESTITUTE_OK;
@@ -78,16 +79,12 @@ static int try_rivals(restitute_fitter *f)
     for (size_t i = 0; i < m->solid; i++)
         part[rst_fit_part(m->kind, i)] = ours[i], known[rst_fit_part(m->kind, i)] = m->known[i];
     for (int kind = RESTITUTE_FIT_ELASTIC; kind <= RESTITUTE_FIT_MAXWELL && status >= 0; kind++) {
-        const size_t solid = rst_fit_solid_constants(kind, 0);
+        const int differ = parts[kind] ^ parts[m->kind], which = differ == 1 ? 0 : differ == 2 ? 1 : 2;
         double theirs[RST_FIT_PARTS], from[RST_FIT_PARTS];
-        size_t shared = 0, fixed = 0;
-        for (size_t i = 0; i < solid; i++)
+        if (differ != 1 << which || !isnan(known[which])) continue; /* one that is known cannot be left out */
+        for (size_t i = 0; i < rst_fit_solid_constants(kind, 0); i++)
             theirs[i] = known[rst_fit_part(kind, i)], from[i] = part[rst_fit_part(kind, i)];
-        for (size_t i = 0; i < solid; i++)
-            for (size_t k = 0; k < m->solid; k++)
-                if (rst_fit_part(kind, i) == rst_fit_part(m->kind, k)) shared++, fixed += !isnan(m->known[k]);
-        const size_t ours_known = m->count - m->free; /* one that is known cannot be left out */
-        if (m->solid + solid == 2 * shared + 1 && fixed == ours_known) status = try_rival(f, kind, theirs, from);
+        status = try_rival(f, kind, theirs, from);
     }
     return status;
 }

@@ -29,10 +29,9 @@ void restitute_fit_result_init(restitute_fit_result *result)
 
 size_t rst_fit_solid_constants(int kind, size_t terms)
 {
-    return kind == RESTITUTE_FIT_ELASTIC          ? 1
-           : kind == RESTITUTE_FIT_STANDARD_SOLID ? 3
-           : kind == RESTITUTE_FIT_PRONY          ? 1 + terms
-                                                  : 2;
+    static const size_t counts[] = {[RESTITUTE_FIT_ELASTIC] = 1, [RESTITUTE_FIT_KELVIN_VOIGT] = 2,
+                                    [RESTITUTE_FIT_STANDARD_SOLID] = 3, [RESTITUTE_FIT_MAXWELL] = 2};
+    return kind == RESTITUTE_FIT_PRONY ? 1 + terms : counts[kind];
 }
 
 int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error)
