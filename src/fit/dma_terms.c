@@ -48,7 +48,8 @@ static void evaluate(const struct rst_dma *d, double *r, double *j)
     const size_t p = unknowns(d), m = d->terms, shifts = 2 * m + (d->equilibrium > 0);
     if (j) memset(j, 0, 2 * d->n * p * sizeof *j);
     for (size_t i = 0; i < d->n; i++) {
-        const size_t t = d->group[i], shift = d->free_shifts && t != d->temperature.reference ? shifts + t - (t > d->temperature.reference) : p;
+        const size_t t = d->group[i], other = d->temperature.reference;
+        const size_t shift = d->free_shifts && t != other ? shifts + t - (t > other) : p;
         const double to_storage = 1 / (d->storage[i] * d->noise), to_loss = 1 / (d->loss[i] * d->noise);
         double *a = j ? j + i * p : NULL, *b = j ? a + d->n * p : NULL, storage = d->equilibrium, loss = 0;
         if (j && d->equilibrium > 0) a[2 * m] = d->equilibrium * to_storage;

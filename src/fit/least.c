@@ -134,7 +134,10 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     if (memory) b.f = b.j + n * p, b.f_at = b.f + n, b.x = b.f_at + n, b.at = b.x + p, b.origin = b.at + p;
     while (status >= 0) {
         status = iterate(w, &b, x, sum, converged);
-        if (++round >= least->rounds || *sum < least->exact || b.start - *sum <= least->settled * *sum) break;
+        const int settled = *sum < least->exact || b.start - *sum <= least->settled * *sum;
+        if (!settled && ++round < least->rounds) continue;
+        if (least->rounds > 1) *converged = settled;
+        break;
     }
     if (w) gsl_multifit_nlinear_free(w);
     free(memory);
