@@ -1,22 +1,27 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The component fit of restitute for Fortran: all that fit.h declares but restitute_fitter_values, under the same
-!> names. fit.h is the manual.
-!> Arrays know their size, optional arguments are optional; names and remarks come as Fortran texts.
+!> names. fit.h is the manual. Every struct is prepared by its _init.
+!> Arrays know their size, optional arguments are optional; names and remarks come as Fortran texts. A fitter is a
+!> type(c_ptr).
 !>
 !>     use restitute
 !>     use restitute_fitting
 !>     type(restitute_fit_point) :: points(20)
 !>     type(restitute_fit_result) :: result
-!>     points = restitute_fit_point()          ! then points(i)%scene and points(i)%ez
-!>     result = restitute_fit_result()
+!>     call restitute_fit_result_init(result)
+!>     do i = 1, 20
+!>       call restitute_fit_point_init(points(i))   ! then points(i)%scene and points(i)%ez
+!>     end do
 !>     status = restitute_fit(points, result, error=error)
 module restitute_fitting
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
   use restitute, only: restitute_error, restitute_material, restitute_scene
   implicit none (type, external)
   private
-  public :: restitute_fit_point, restitute_fit_options, restitute_fit_result, restitute_fitter
+  public :: restitute_fit_point, restitute_fit_options, restitute_fit_result
   public :: restitute_dma_options, restitute_dma_result
+  public :: restitute_fit_point_init, restitute_fit_options_init, restitute_fit_result_init
+  public :: restitute_dma_options_init, restitute_dma_result_init
   public :: restitute_fit, restitute_dma_fit, restitute_fit_name, restitute_fit_remarks, restitute_fit_arrays
   public :: restitute_fitter_create, restitute_fitter_run, restitute_fitter_result, restitute_fitter_destroy
 
@@ -87,53 +92,32 @@ module restitute_fitting
     type(restitute_material) :: material
   end type restitute_dma_result
 
-  !> A fit in pieces.
-  type, bind(c) :: restitute_fitter
-    type(c_ptr) :: address = c_null_ptr
-  end type restitute_fitter
-
-  interface restitute_fit_point
-    module procedure new_point
-  end interface restitute_fit_point
-  interface restitute_fit_options
-    module procedure new_options
-  end interface restitute_fit_options
-  interface restitute_fit_result
-    module procedure new_result
-  end interface restitute_fit_result
-  interface restitute_dma_options
-    module procedure new_dma_options
-  end interface restitute_dma_options
-  interface restitute_dma_result
-    module procedure new_dma_result
-  end interface restitute_dma_result
-
   interface
-    subroutine c_point_init(point) bind(c, name="restitute_fit_point_init")
+    subroutine restitute_fit_point_init(point) bind(c)
       import :: restitute_fit_point
       implicit none (type, external)
       type(restitute_fit_point), intent(inout) :: point
-    end subroutine c_point_init
-    subroutine c_options_init(options) bind(c, name="restitute_fit_options_init")
+    end subroutine restitute_fit_point_init
+    subroutine restitute_fit_options_init(options) bind(c)
       import :: restitute_fit_options
       implicit none (type, external)
       type(restitute_fit_options), intent(inout) :: options
-    end subroutine c_options_init
-    subroutine c_result_init(result) bind(c, name="restitute_fit_result_init")
+    end subroutine restitute_fit_options_init
+    subroutine restitute_fit_result_init(result) bind(c)
       import :: restitute_fit_result
       implicit none (type, external)
       type(restitute_fit_result), intent(inout) :: result
-    end subroutine c_result_init
-    subroutine c_dma_options_init(options) bind(c, name="restitute_dma_options_init")
+    end subroutine restitute_fit_result_init
+    subroutine restitute_dma_options_init(options) bind(c)
       import :: restitute_dma_options
       implicit none (type, external)
       type(restitute_dma_options), intent(inout) :: options
-    end subroutine c_dma_options_init
-    subroutine c_dma_result_init(result) bind(c, name="restitute_dma_result_init")
+    end subroutine restitute_dma_options_init
+    subroutine restitute_dma_result_init(result) bind(c)
       import :: restitute_dma_result
       implicit none (type, external)
       type(restitute_dma_result), intent(inout) :: result
-    end subroutine c_dma_result_init
+    end subroutine restitute_dma_result_init
     function c_fit(n, points, options, result, error) result(status) bind(c, name="restitute_fit")
       import :: c_int, c_size_t, restitute_error, restitute_fit_options, restitute_fit_point, restitute_fit_result
       implicit none (type, external)
@@ -145,36 +129,36 @@ module restitute_fitting
       integer(c_int) :: status
     end function c_fit
     function c_create(n, points, options, fitter, error) result(status) bind(c, name="restitute_fitter_create")
-      import :: c_int, c_size_t, restitute_error, restitute_fit_options, restitute_fit_point, restitute_fitter
+      import :: c_int, c_ptr, c_size_t, restitute_error, restitute_fit_options, restitute_fit_point
       implicit none (type, external)
       integer(c_size_t), intent(in), value :: n
       type(restitute_fit_point), intent(in) :: points(*)
       type(restitute_fit_options), intent(in), optional :: options
-      type(restitute_fitter), intent(inout) :: fitter
+      type(c_ptr), intent(inout) :: fitter
       type(restitute_error), intent(inout), optional :: error
       integer(c_int) :: status
     end function c_create
-    function c_run(fitter, done, error) result(status) bind(c, name="restitute_fitter_run")
+    function restitute_fitter_run(fitter, done, error) result(status) bind(c)
       import :: c_double, c_int, c_ptr, restitute_error
       implicit none (type, external)
       type(c_ptr), intent(in), value :: fitter
       real(c_double), intent(inout) :: done
       type(restitute_error), intent(inout), optional :: error
       integer(c_int) :: status
-    end function c_run
-    function c_result(fitter, result, error) result(status) bind(c, name="restitute_fitter_result")
+    end function restitute_fitter_run
+    function restitute_fitter_result(fitter, result, error) result(status) bind(c)
       import :: c_int, c_ptr, restitute_error, restitute_fit_result
       implicit none (type, external)
       type(c_ptr), intent(in), value :: fitter
       type(restitute_fit_result), intent(inout) :: result
       type(restitute_error), intent(inout), optional :: error
       integer(c_int) :: status
-    end function c_result
-    subroutine c_destroy(fitter) bind(c, name="restitute_fitter_destroy")
+    end function restitute_fitter_result
+    subroutine restitute_fitter_destroy(fitter) bind(c)
       import :: c_ptr
       implicit none (type, external)
       type(c_ptr), intent(in), value :: fitter
-    end subroutine c_destroy
+    end subroutine restitute_fitter_destroy
     function c_dma_fit(n, frequency, storage, loss, temperature, options, result, error) result(status) &
       bind(c, name="restitute_dma_fit")
       import :: c_double, c_int, c_size_t, restitute_dma_options, restitute_dma_result, restitute_error
@@ -190,31 +174,6 @@ module restitute_fitting
   end interface
 
 contains
-
-  impure elemental function new_point() result(point)
-    type(restitute_fit_point) :: point
-    call c_point_init(point)
-  end function new_point
-
-  function new_options() result(options)
-    type(restitute_fit_options) :: options
-    call c_options_init(options)
-  end function new_options
-
-  function new_result() result(made)
-    type(restitute_fit_result) :: made
-    call c_result_init(made)
-  end function new_result
-
-  function new_dma_options() result(options)
-    type(restitute_dma_options) :: options
-    call c_dma_options_init(options)
-  end function new_dma_options
-
-  function new_dma_result() result(made)
-    type(restitute_dma_result) :: made
-    call c_dma_result_init(made)
-  end function new_dma_result
 
   !> Relaxation times and known constants of the options: targets that live until the fit is called.
   subroutine restitute_fit_arrays(options, relaxation_time, known)
@@ -240,34 +199,13 @@ contains
 
   function restitute_fitter_create(points, fitter, options, error) result(status)
     type(restitute_fit_point), intent(in) :: points(:)
-    type(restitute_fitter), intent(inout) :: fitter
+    type(c_ptr), intent(out) :: fitter
     type(restitute_fit_options), intent(in), optional :: options
     type(restitute_error), intent(inout), optional :: error
     integer(c_int) :: status
+    fitter = c_null_ptr
     status = c_create(size(points, kind=c_size_t), points, options, fitter, error)
   end function restitute_fitter_create
-
-  function restitute_fitter_run(fitter, done, error) result(status)
-    type(restitute_fitter), intent(in) :: fitter
-    real(c_double), intent(inout) :: done
-    type(restitute_error), intent(inout), optional :: error
-    integer(c_int) :: status
-    status = c_run(fitter%address, done, error)
-  end function restitute_fitter_run
-
-  function restitute_fitter_result(fitter, result, error) result(status)
-    type(restitute_fitter), intent(in) :: fitter
-    type(restitute_fit_result), intent(inout) :: result
-    type(restitute_error), intent(inout), optional :: error
-    integer(c_int) :: status
-    status = c_result(fitter%address, result, error)
-  end function restitute_fitter_result
-
-  subroutine restitute_fitter_destroy(fitter)
-    type(restitute_fitter), intent(inout) :: fitter
-    call c_destroy(fitter%address)
-    fitter%address = c_null_ptr
-  end subroutine restitute_fitter_destroy
 
   !> storage and loss as long as frequency; the shortest decides.
   function restitute_dma_fit(frequency, storage, loss, result, temperature, options, error) result(status)

@@ -18,10 +18,11 @@
  *  e_x; the constants are reported as not determined, and the remarks say which of them may change together.
  *
  *  How. Nonlinear least squares in the logarithms of the constants (GSL's trust region), from several starts that are
- *  chosen by a quasi-random scan. The forward model is the method `sync` (@ref restitute_solve_scenes); many points
- *  without e_x are interpolated between impacts evenly spaced in log T, within 1e-5. Intervals are
- *  those of the linearised problem with Student's t. Without standard deviations all values of e count alike, contact
- *  times by their relative error, and the noise is estimated from the residuals. Equal input gives equal bits.
+ *  chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule. The forward model is the method
+ *  `sync` (@ref restitute_solve_scenes); many points without e_x are interpolated between impacts evenly spaced in log T,
+ *  within 1e-5. Intervals are those of the linearised problem with Student's t. Without standard deviations all values of
+ *  e count alike, contact times by their relative error, and the noise is estimated from the residuals. Equal input gives
+ *  equal bits.
  *
  *  The rules of restitute.h hold. GSL has one error handler for the process, and its own ends the program:
  *  it is switched off while a call of this component runs and restored afterwards. GSL may also raise floating-point
@@ -197,8 +198,8 @@ RESTITUTE_API void restitute_dma_result_init(restitute_dma_result *result);
 
 /** A Prony series from storage and loss moduli.
  *
- *  Nonnegative least squares on a grid of times, all times and moduli refined together,
- *  then terms removed as long as the Bayesian information criterion falls.
+ *  The loss modulus gives a first series of two terms a decade. All times and moduli are refined together,
+ *  then terms merged or removed as long as the Bayesian information criterion falls.
  *
  *  @param n                 rows, at least 3
  *  @param frequency         Hz, > 0: omega = 2 pi f

@@ -62,56 +62,46 @@ static bool run(restitute_fitter *fitter, struct reason *why)
     return status ? refuse(why, "%s", error.message) : !stopped;
 }
 
-static void remark(const char *remarks)
+/* Remarks are printed; those that a caller in a script must not overlook make another exit status. */
+static int finish(bool done, int flags, const char *remarks, const struct reason *why)
 {
+    if (!done && stopped && !why->text[0]) return EXIT_INTERRUPTED;
+    if (!done) return complain("%s", why->text);
     for (const char *line = remarks, *end; (end = strchr(line, '\n')); line = end + 1)
         complain("remark: %.*s", (int)(end - line), line);
-}
-
-/* What a caller in a script must not overlook. */
-static int exit_of(int flags, const char *remarks)
-{
-    remark(remarks);
     return flags & (RESTITUTE_FIT_UNDETERMINED | RESTITUTE_FIT_MISFIT | RESTITUTE_FIT_UNFINISHED) ? EXIT_SOME_FAILED
                                                                                                   : EXIT_DONE;
 }
 
 static int fit_points(const struct fit_settings *s, const struct fit_input *input)
 {
-    restitute_fitter *fitter;
+    restitute_fitter *fitter = NULL;
     restitute_fit_result result;
     restitute_error error;
     struct reason why = {""};
     restitute_fit_result_init(&result);
-    if (restitute_fitter_create(input->n, input->points, &s->options, &fitter, &error) < 0) {
-        fit_input_place(s, input, error.message, &why);
-        return complain("%s", why.text);
-    }
-    bool done = run(fitter, &why);
-    if (done && restitute_fitter_result(fitter, &result, &error) < 0) done = refuse(&why, "%s", error.message);
-    done = done && fit_write(s, input, fitter, &result, &why);
+    const bool done = (restitute_fitter_create(input->n, input->points, &s->options, &fitter, &error) >= 0 ||
+                       fit_input_place(input, error.message, &why)) &&
+                      run(fitter, &why) &&
+                      (restitute_fitter_result(fitter, &result, &error) >= 0 || refuse(&why, "%s", error.message)) &&
+                      fit_write(s, input, fitter, &result, &why);
     restitute_fitter_destroy(fitter);
     restitute_material_destroy(result.material);
-    if (!done && stopped && !why.text[0]) return EXIT_INTERRUPTED;
-    return done ? exit_of(result.flags, result.remarks) : complain("%s", why.text);
+    return finish(done, result.flags, result.remarks, &why);
 }
 
 static int fit_curve(const struct fit_settings *s, const struct fit_input *input)
 {
-    restitute_dma_result *result = allocate(1, sizeof *result);
+    restitute_dma_result result;
     restitute_error error;
-    struct reason why;
-    restitute_dma_result_init(result);
-    bool done = restitute_dma_fit(input->n, input->frequency, input->storage, input->loss, input->temperature, &s->dma,
-                                  result, &error) >= 0;
-    if (!done)
-        fit_input_place(s, input, error.message, &why);
-    else
-        done = fit_write_dma(s, input, result, &why);
-    const int status = done ? exit_of(result->flags, result->remarks) : complain("%s", why.text);
-    restitute_material_destroy(result->material);
-    free(result);
-    return status;
+    struct reason why = {""};
+    restitute_dma_result_init(&result);
+    const bool done = (restitute_dma_fit(input->n, input->frequency, input->storage, input->loss, input->temperature,
+                                         &s->dma, &result, &error) >= 0 ||
+                       fit_input_place(input, error.message, &why)) &&
+                      fit_write_dma(s, input, &result, &why);
+    restitute_material_destroy(result.material);
+    return finish(done, result.flags, result.remarks, &why);
 }
 
 int fit_main(int count, char **arguments)

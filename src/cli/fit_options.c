@@ -11,6 +11,8 @@
 
 enum { CODE_TENSION = CODE_HELP + 1 };
 
+const char *const fit_models[] = {"elastic", "kelvin_voigt", "standard_solid", "maxwell", "prony", NULL};
+
 #define TEXT(which, name, argument, help) OPTION((name), CODE_TEXT + (which), (argument), (help))
 
 static const struct poptOption own_options[] = {
@@ -33,7 +35,6 @@ static const struct poptOption own_options[] = {
     TEXT(FIT_SEED, "seed", "N", "of the scan for starts; default 1"),
     TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default 1, all processors from 200 rows on"),
     TEXT(FIT_NAME, "name", "TEXT", "name in the material file; default the input's"),
-    TEXT(FIT_FORMAT, "format", "text|json", "of the report on standard output; default text"),
     TEXT(FIT_OUTPUT, "output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json"),
     TEXT(FIT_FIGURE, "figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs gnuplot"),
     OPTION_HELP,
@@ -75,14 +76,13 @@ static bool word(const char *option, const char *text, const char *const *words,
 static bool read_terms(struct fit_settings *s, struct reason *why)
 {
     char *list = s->text[FIT_TERMS] ? copy_of(s->text[FIT_TERMS]) : NULL, *rest = NULL;
-    bool good = true;
+    bool good = (s->options.model == RESTITUTE_FIT_PRONY) == (list != NULL) ||
+                refuse(why, "--terms and --model prony belong together");
     for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item && good; item = strtok_r(NULL, ",", &rest))
         good = s->options.terms < 20
                    ? option_number("terms", item, 1e-30, 1e30, false, &s->terms[s->options.terms++], why)
                    : refuse(why, "--terms: more than 20 relaxation times");
     free(list);
-    if (good && (s->options.model == RESTITUTE_FIT_PRONY) != (s->options.terms > 0))
-        return refuse(why, "--terms and --model prony belong together");
     return good;
 }
 
@@ -94,14 +94,11 @@ static int constant_place(const restitute_fit_options *o, const char *name)
                                            [RESTITUTE_FIT_STANDARD_SOLID] = {"modulus1", "modulus2", "viscosity"},
                                            [RESTITUTE_FIT_MAXWELL] = {"modulus", "viscosity"},
                                            [RESTITUTE_FIT_PRONY] = {"equilibrium"}};
-    char term[16];
+    int term;
+    char more;
     for (int i = 0; i < 4 && names[o->model][i]; i++)
         if (strcmp(names[o->model][i], name) == 0) return i;
-    for (int k = 1; k <= (int)o->terms; k++) {
-        snprintf(term, sizeof term, "term%d", k);
-        if (strcmp(term, name) == 0) return k;
-    }
-    return -1;
+    return sscanf(name, "term%d%c", &term, &more) == 1 && term >= 1 && term <= (int)o->terms ? term : -1;
 }
 
 static bool read_known(struct fit_settings *s, struct reason *why)
@@ -150,14 +147,11 @@ static const char *text_name(int code)
 /* Options of the other kind of input would be passed over without a word. */
 static bool check_kind(const struct fit_settings *s, struct reason *why)
 {
-    static const enum fit_text of_impacts[] = {FIT_PARTNER,    FIT_MODEL,  FIT_TERMS, FIT_KNOWN,  FIT_LOSS,
-                                               FIT_CONFIDENCE, FIT_STARTS, FIT_SEED,  FIT_THREADS};
     if (!s->text[FIT_INPUT] == !s->text[FIT_DMA])
         return refuse(why, "give --input, measured impacts, or --dma, a curve of moduli; see --help");
     if (!s->text[FIT_DMA] && (s->tension || s->text[FIT_NOISE])) return refuse(why, "--tension, --noise: need --dma");
-    for (size_t i = 0; s->text[FIT_DMA] && i < sizeof of_impacts / sizeof *of_impacts; i++)
-        if (s->text[of_impacts[i]])
-            return refuse(why, "--%s: not with --dma", text_name(CODE_TEXT + (int)of_impacts[i]));
+    for (int i = FIT_PARTNER; s->text[FIT_DMA] && i <= FIT_THREADS; i++)
+        if (s->text[i]) return refuse(why, "--%s: not with --dma", text_name(CODE_TEXT + i));
     for (enum field field = 0; s->text[FIT_DMA] && field < FIELD_COUNT; field++)
         if (s->values.given[field] && field != FIELD_POISSON)
             return refuse(why, "--%s: not with --dma", field_rules[field].option);
@@ -167,16 +161,13 @@ static bool check_kind(const struct fit_settings *s, struct reason *why)
 /* Texts into the options of the library. */
 static bool take_texts(struct fit_settings *s, struct reason *why)
 {
-    static const char *const models[] = {"elastic", "kelvin_voigt", "standard_solid", "maxwell", "prony", NULL};
-    static const char *const losses[] = {"squares", "huber", "cauchy", NULL}, *const formats[] = {"text", "json", NULL};
+    static const char *const losses[] = {"squares", "huber", "cauchy", NULL};
     restitute_fit_options *o = &s->options;
     double starts = o->starts, seed = (double)o->seed, threads = -1;
-    int json = 0;
     const bool good =
-        word("model", s->text[FIT_MODEL], models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
+        word("model", s->text[FIT_MODEL], fit_models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
         word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
-        word("format", s->text[FIT_FORMAT], formats, 0, &json, why) && read_terms(s, why) && read_known(s, why) &&
-        read_wlf(s, why) &&
+        read_terms(s, why) && read_known(s, why) && read_wlf(s, why) &&
         option_number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, false, &o->confidence, why) &&
         option_number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, false, &o->reference_temperature,
                       why) &&
@@ -188,7 +179,7 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     o->relaxation_time = s->terms, o->starts = (int)starts, o->seed = (uint64_t)seed, o->threads = (int)threads;
     if (s->values.given[FIELD_POISSON]) o->poisson_ratio = s->dma.poisson_ratio = s->values.number[FIELD_POISSON];
     s->dma.reference_temperature = o->reference_temperature, s->dma.wlf_c1 = o->wlf_c1, s->dma.wlf_c2 = o->wlf_c2;
-    s->dma.tension = s->tension, s->json = json;
+    s->dma.tension = s->tension;
     return !s->text[FIT_PARTNER] || partner_read(s->text[FIT_PARTNER], "--partner", &s->values, why);
 }
 

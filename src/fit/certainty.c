@@ -54,51 +54,38 @@ static double weigh(int loss, double u, double *psi, double *slope)
     return w;
 }
 
-/* Residuals without the weights. */
-static int plain_residuals(struct rst_fit_search *s, double *r)
-{
-    const int status = rst_fit_residuals(s, r);
-    for (size_t i = 0; i < s->data->rows; i++)
-        r[i] /= sqrt(s->weight[i]);
-    return status;
-}
-
 int rst_fit_reweigh(struct rst_fit_search *s, double *weight, double *change)
 {
     const size_t rows = s->data->rows;
-    double *r = malloc(2 * rows * sizeof *r), psi, slope;
-    const int status = r ? plain_residuals(s, r) : RESTITUTE_ERROR_MEMORY;
+    double *sorted = malloc(rows * sizeof *sorted), psi, slope;
+    const int status = sorted ? rst_fit_linearise(s, NULL) : RESTITUTE_ERROR_MEMORY;
     *change = 0;
-    if (status < 0) {
-        free(r);
-        return status;
+    if (status >= 0) {
+        const double scale = s->data->options.noise_known ? 1 : robust_scale(s->data, s->r, s->model.free, sorted);
+        for (size_t i = 0; i < rows; i++) {
+            const double w = fmax(1e-6, weigh(s->data->options.loss, s->r[i] / scale, &psi, &slope));
+            *change = fmax(*change, fabs(w - weight[i]));
+            weight[i] = w;
+        }
     }
-    const double scale = s->data->options.noise_known ? 1 : robust_scale(s->data, r, s->model.free, r + rows);
-    for (size_t i = 0; i < rows; i++) {
-        const double w = fmax(1e-6, weigh(s->data->options.loss, r[i] / scale, &psi, &slope));
-        *change = fmax(*change, fabs(w - weight[i]));
-        weight[i] = w;
-    }
-    free(r);
+    free(sorted);
     return status;
 }
 
 /* Variance of a residual. With a robust loss that of Huber's M-estimate: scale^2 sum psi^2/dof over mean(psi')^2. */
-static int find_noise(struct rst_fit_search *s, struct rst_fit_certainty *c, double *r)
+static void find_noise(const struct rst_fit_search *s, struct rst_fit_certainty *c, double *sorted)
 {
     const struct rst_fit_data *d = s->data;
     double sum = 0, slopes = 0, psi, slope;
-    const int status = plain_residuals(s, r);
-    const double scale = d->options.loss ? robust_scale(d, r, s->model.free, r + d->rows) : 1;
-    for (size_t i = 0; i < d->rows && status >= 0; i++) {
-        weigh(d->options.loss, r[i] / scale, &psi, &slope);
+    const double scale = d->options.loss ? robust_scale(d, s->r, s->model.free, sorted) : 1;
+    for (size_t i = 0; i < d->rows; i++) {
+        weigh(d->options.loss, s->r[i] / scale, &psi, &slope);
         sum += psi * psi, slopes += slope / (double)d->rows;
     }
     c->dof = d->rows > c->rank ? d->rows - c->rank : 0;
     const double found = scale * sqrt(sum / (double)c->dof) / fmax(slopes, 0.1);
     c->noise = d->options.noise_known ? 1 : c->dof ? fmax(found, SOLVED * unit(d)) : NAN;
     c->judged = fmax(isnan(c->noise) ? 0 : c->noise, PRACTICAL * unit(d));
-    return status;
 }
 
 /* Directions beyond the first `rank` are not determined, nor is a constant that has a part in them. */
@@ -121,20 +108,18 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
 int rst_fit_certainty(struct rst_fit_search *s, struct rst_fit_certainty *c)
 {
     const size_t rows = s->data->rows, p = s->model.free;
-    double *memory = malloc((rows * p + 2 * rows) * sizeof *memory);
+    double *j = malloc((rows * p + rows) * sizeof *j), *sorted = j + rows * p;
     *c = (struct rst_fit_certainty){.rank = p};
-    if (!memory) return RESTITUTE_ERROR_MEMORY;
-    int status = rst_fit_jacobian(s, memory);
-    for (size_t i = 0; i < rows; i++) /* the linearised problem is that of all data: weights are for the estimate */
-        for (size_t k = 0; k < p; k++)
-            memory[i * p + k] /= sqrt(s->weight[i]);
-    if (status >= 0 && p) status = rst_fit_singular(rows, p, memory, c->values, c->vector);
-    if (status >= 0) status = find_noise(s, c, memory + rows * p);
-    c->rank = 0;
-    while (c->rank < p && c->judged < LOOSE * c->values[c->rank])
-        c->rank++;
-    if (status >= 0) status = find_noise(s, c, memory + rows * p); /* with the degrees of freedom of that rank */
-    if (status >= 0) set_variance(s, c);
-    free(memory);
+    int status = j ? rst_fit_linearise(s, j) : RESTITUTE_ERROR_MEMORY;
+    if (status >= 0 && p) status = rst_fit_singular(rows, p, j, c->values, c->vector);
+    if (status >= 0) {
+        find_noise(s, c, sorted);
+        c->rank = 0;
+        while (c->rank < p && c->judged < LOOSE * c->values[c->rank])
+            c->rank++;
+        find_noise(s, c, sorted); /* with the degrees of freedom of that rank */
+        set_variance(s, c);
+    }
+    free(j);
     return status;
 }

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "dma.h"
 
+#include <gsl/gsl_fit.h>
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +11,6 @@
 #include "least.h"
 #include "model.h"
 #include "report.h"
-
-static const double pi = 3.14159265358979323846;
 
 void restitute_dma_options_init(restitute_dma_options *options)
 {
@@ -43,168 +43,105 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
             const int status = rst_fit_outside(name, arrays[k][i], 1e-30, 1e30, error);
             if (status) return status;
         }
-        if (temperature && !isfinite(temperature[i]))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: temperature must be finite", i);
+        if (temperature && isnan(temperature[i]))
+            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: temperature is missing", i);
     }
     return RESTITUTE_OK;
 }
 
 static int check_options(const restitute_dma_options *o, restitute_error *error)
 {
-    if (o->struct_size != sizeof *o)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
-                          sizeof *o);
-    if (isnan(o->wlf_c1) != isnan(o->wlf_c2))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.wlf_c1, wlf_c2: must be both given or both NaN");
-    const int status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
+    int status = rst_fit_sized("options", o->struct_size, sizeof *o, error);
+    if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
     return status ? status : rst_fit_outside("options.noise", o->noise, 1e-4, 0.5, error);
 }
 
-static int ascending(const void *a, const void *b)
+/* Curves of neighbouring temperatures laid over each other, from the reference outwards: every row of t on the row of s whose
+ * moduli are most alike, their mean distance weighted by how alike. A start for the refinement. */
+static void overlay(struct rst_dma *d, size_t s, size_t t)
 {
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* Distinct temperatures ascending, and which a row has. */
-static int sort_temperatures(struct rst_dma *d, const double *temperature, const restitute_dma_options *o,
-                             restitute_dma_result *r, restitute_error *error)
-{
-    const double wanted = isnan(o->reference_temperature) && temperature ? temperature[0] : o->reference_temperature;
-    d->temperatures = 1;
-    if (!temperature) return RESTITUTE_OK;
-    for (size_t i = 0, k; i < d->n; i++) {
-        for (k = 0; k < r->temperatures && r->temperature[k] != temperature[i];)
-            k++;
-        if (k == RESTITUTE_DMA_SHIFTS)
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "row[%zu]: more than %d temperatures", i,
-                              RESTITUTE_DMA_SHIFTS);
-        if (k == r->temperatures) r->temperature[r->temperatures++] = temperature[i];
-    }
-    qsort(r->temperature, r->temperatures, sizeof *r->temperature, ascending);
-    for (size_t i = 0; i < d->n; i++)
-        while (r->temperature[d->group[i]] != temperature[i])
-            d->group[i]++;
-    d->temperatures = r->temperatures;
-    while (d->reference < d->temperatures && r->temperature[d->reference] != wanted)
-        d->reference++;
-    if (d->reference == d->temperatures)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it", wanted);
-    for (size_t i = 0; !isnan(o->wlf_c1) && i < d->n; i++)
-        if (isnan(rst_fit_wlf(o->wlf_c1, o->wlf_c2, temperature[i] - wanted)))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                              "row[%zu]: temperature = %g: must be above the pole of WLF, %g, with a_T in [1e-30, 1e30]",
-                              i, temperature[i], wanted - o->wlf_c2);
-    return RESTITUTE_OK;
-}
-
-/* Log of a modulus at omega between the rows of a temperature; NaN outside of them. No logarithm in the loop: it is
- * passed for every row and every trial shift. */
-static double curve(const struct rst_dma *d, size_t t, const double *modulus, double omega)
-{
-    size_t below = d->n, above = d->n;
+    double sum = 0, weights = 0;
     for (size_t i = 0; i < d->n; i++) {
-        if (d->group[i] != t) continue;
-        if (d->omega[i] <= omega && (below == d->n || d->omega[i] > d->omega[below])) below = i;
-        if (d->omega[i] >= omega && (above == d->n || d->omega[i] < d->omega[above])) above = i;
+        double least = INFINITY, move = 0;
+        for (size_t j = 0; j < d->n && d->group[i] == t; j++) {
+            const double a = log(d->storage[i] / d->storage[j]), b = log(d->loss[i] / d->loss[j]), unlike = a * a + b * b;
+            if (d->group[j] == s && unlike < least) least = unlike, move = log(d->omega[j] / d->omega[i]);
+        }
+        const double weight = 1 / (least + d->noise * d->noise);
+        sum += weight * move, weights += weight;
     }
-    if (below == d->n || above == d->n) return NAN;
-    if (!(d->omega[above] > d->omega[below])) return log(modulus[below]);
-    return log(modulus[below]) + log(modulus[above] / modulus[below]) * log(omega / d->omega[below]) /
-                                     log(d->omega[above] / d->omega[below]);
+    d->shift[t] = d->shift[s] + sum / weights;
 }
 
-/* Mean squared difference of the curves of t, moved by `shift`, and of s where both are; too few: infinity. */
-static double mismatch(const struct rst_dma *d, size_t s, size_t t, double shift)
+static double reduced(const struct rst_dma *d, size_t row)
 {
-    double sum = 0;
-    int count = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        if (d->group[i] != t) continue;
-        const double omega = d->omega[i] * exp(shift), a = curve(d, s, d->storage, omega) - log(d->storage[i]),
-                     b = curve(d, s, d->loss, omega) - log(d->loss[i]);
-        if (!isnan(a) && !isnan(b)) sum += a * a + b * b, count++;
-    }
-    return count >= 3 ? sum / count : INFINITY;
+    return d->omega[row] * exp(d->shift[d->group[row]]);
 }
 
-/* Curves of neighbouring temperatures laid over each other, from the reference outwards: a start for the refinement. */
-static int overlay(struct rst_dma *d, size_t s, size_t t)
+static void first_shifts(struct rst_dma *d)
 {
-    double best = INFINITY, range = 0;
-    for (size_t i = 0; i < d->n; i++)
-        range = fmax(range, fabs(log(d->omega[i] / d->omega[0])));
-    for (int i = -400; i <= 400; i++) {
-        const double move = 2 * range * i / 400, value = mismatch(d, s, t, move);
-        if (value < best) best = value, d->shift[t] = d->shift[s] + move;
-    }
-    return !isinf(best);
+    const struct rst_temperatures *all = &d->temperature;
+    d->free_shifts = all->count > 1 && isnan(all->c1);
+    for (size_t t = 0; all->count > 1 && !isnan(all->c1) && t < all->count; t++)
+        d->shift[t] = log(10) * rst_temperatures_wlf(all, t);
+    for (size_t t = all->reference + 1; d->free_shifts && t < all->count; t++)
+        overlay(d, t - 1, t);
+    for (size_t t = all->reference; d->free_shifts && t-- > 0;)
+        overlay(d, t + 1, t);
 }
 
-static void first_shifts(struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r)
-{
-    int laid = 1;
-    d->free_shifts = d->temperatures > 1 && isnan(o->wlf_c1);
-    for (size_t t = 0; !isnan(o->wlf_c1) && t < d->temperatures; t++)
-        d->shift[t] = log(10) * rst_fit_wlf(o->wlf_c1, o->wlf_c2, r->temperature[t] - r->temperature[d->reference]);
-    for (size_t t = d->reference + 1; d->free_shifts && t < d->temperatures; t++)
-        laid &= overlay(d, t - 1, t);
-    for (size_t t = d->reference; d->free_shifts && t-- > 0;)
-        laid &= overlay(d, t + 1, t);
-    if (laid) return;
-    r->flags |= RESTITUTE_FIT_UNDETERMINED;
-    strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
-}
-
-/* A term's loss peak is 1.14 decades wide at half height: rows within one decade cannot place it. */
+/* What cannot be known from these rows. A term's loss peak is 1.14 decades wide at half height: rows within one decade
+ * cannot place it. */
 static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
 {
-    double low = INFINITY, high = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        const double reduced = d->omega[i] * exp(d->shift[d->group[i]]);
-        low = fmin(low, reduced), high = fmax(high, reduced);
+    double low = INFINITY, high = 0, first[RESTITUTE_DMA_SHIFTS], last[RESTITUTE_DMA_SHIFTS];
+    int laid = 1;
+    for (size_t t = 0; t < d->temperature.count; t++) {
+        first[t] = INFINITY, last[t] = 0;
+        for (size_t i = 0; i < d->n; i++)
+            if (d->group[i] == t) first[t] = fmin(first[t], reduced(d, i)), last[t] = fmax(last[t], reduced(d, i));
+        low = fmin(low, first[t]), high = fmax(high, last[t]);
+        laid &= t == 0 || !d->free_shifts || fmax(first[t - 1], first[t]) <= fmin(last[t - 1], last[t]);
     }
-    if (high >= 10 * low) return;
+    if (!laid || high < 10 * low) r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    if (!laid) strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
     const size_t used = strlen(r->remarks);
-    r->flags |= RESTITUTE_FIT_UNDETERMINED;
-    snprintf(r->remarks + used, sizeof r->remarks - used,
-             "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or more\n",
-             high / low);
+    if (high < 10 * low)
+        snprintf(r->remarks + used, sizeof r->remarks - used,
+                 "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
+                 "more\n",
+                 high / low);
 }
 
-/* c1, c2 of log10 a (c2 + dT) = -c1 dT by linear least squares over the temperatures but the reference. */
-static void find_wlf(const struct rst_dma *d, restitute_dma_result *r)
+/* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted so that errors of log10 a count alike. */
+static void find_wlf(const struct rst_temperatures *all, restitute_dma_result *r)
 {
-    double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
+    double x[RESTITUTE_DMA_SHIFTS], y[RESTITUTE_DMA_SHIFTS], w[RESTITUTE_DMA_SHIFTS], c0, c1, ignored;
+    size_t n = 0;
     r->wlf_c1 = r->wlf_c2 = NAN;
-    for (size_t t = 0; t < d->temperatures && r->temperatures; t++) {
-        const double difference = r->temperature[t] - r->temperature[d->reference], a = d->shift[t] / log(10);
-        aa += a * a, ab += a * difference, bb += difference * difference;
-        ay -= a * a * difference, by -= a * difference * difference;
+    for (size_t t = 0; t < r->temperatures; t++) {
+        const double a = log10(r->shift[t]);
+        if (t == all->reference || !(fabs(a) > 0)) continue;
+        x[n] = all->value[t] - all->reference_value, y[n] = x[n] / a, w[n] = pow(a, 4) / (x[n] * x[n]), n++;
     }
-    const double determinant = aa * bb - ab * ab, c2 = (ay * bb - by * ab) / determinant,
-                 c1 = (aa * by - ab * ay) / determinant;
-    if (d->temperatures < 3 || !(determinant > 1e-12 * aa * bb)) return;
-    if (c1 > 0 && c2 + r->temperature[0] - r->temperature[d->reference] > 0) r->wlf_c1 = c1, r->wlf_c2 = c2;
+    if (n < 2) return;
+    gsl_fit_wlinear(x, 1, w, 1, y, 1, n, &c0, &c1, &ignored, &ignored, &ignored, &ignored);
+    if (c1 < 0 && c0 / c1 + all->value[0] - all->reference_value > 0) r->wlf_c1 = -1 / c1, r->wlf_c2 = c0 / c1;
 }
 
-static int write_result(const struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r, double *rest,
-                        restitute_error *error)
+static int write_result(const struct rst_dma *d, const restitute_dma_options *o, restitute_dma_result *r, restitute_error *error)
 {
-    rst_dma_residuals(d, rest);
     r->terms = d->terms;
     r->equilibrium_modulus = d->equilibrium;
     for (size_t k = 0; k < d->terms; k++)
         r->relaxation_time[k] = exp(d->tau[k]), r->modulus[k] = exp(d->g[k]);
     for (size_t t = 0; t < r->temperatures; t++)
-        r->shift[t] = exp(d->shift[t]);
-    for (size_t i = 0; i < 2 * d->n; i++) {
-        r->rms += pow(d->noise * rest[i], 2) / (2 * (double)d->n);
-        r->worst = fmax(r->worst, fabs(d->noise * rest[i]));
-    }
-    r->rms = sqrt(r->rms);
+        r->shift[t] = exp(d->shift[t]), r->temperature[t] = d->temperature.value[t];
+    r->rms = d->noise * sqrt(rst_dma_sum(d) / (2 * (double)d->n));
+    for (size_t i = 0; i < 2 * d->n; i++)
+        r->worst = fmax(r->worst, d->noise * fabs(d->r[i]));
     r->wlf_c1 = o->wlf_c1, r->wlf_c2 = o->wlf_c2;
-    if (isnan(o->wlf_c1)) find_wlf(d, r);
+    if (isnan(o->wlf_c1)) find_wlf(&d->temperature, r);
     remark_range(d, r);
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
@@ -220,17 +157,28 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
 }
 
 static int fit(struct rst_dma *d, const double *temperature, const restitute_dma_options *o, restitute_dma_result *r,
-               double *rest, restitute_error *error)
+               restitute_error *error)
 {
-    int status = sort_temperatures(d, temperature, o, r, error);
+    int status = RESTITUTE_OK;
+    d->temperature = (struct rst_temperatures){.reference_value = o->reference_temperature, o->wlf_c1, o->wlf_c2, 0, 1, {0}};
+    if (temperature) {
+        status = rst_temperatures_sort(d->n, temperature, "row", &d->temperature, d->group, error);
+        r->temperatures = d->temperature.count;
+    }
+    size_t i = 0;
+    while (temperature && !status && i < d->n && d->group[i] != d->temperature.reference)
+        i++;
+    if (!status && i == d->n)
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.reference_temperature = %g: no row has it",
+                            o->reference_temperature);
     if (status) return status;
-    first_shifts(d, o, r);
+    first_shifts(d);
     rst_fit_gsl_begin();
     status = rst_dma_begin(d);
     if (status >= 0) status = rst_dma_shorten(d);
     rst_fit_gsl_end();
     if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
-    return write_result(d, o, r, rest, error);
+    return write_result(d, o, r, error);
 }
 
 int restitute_dma_fit(size_t n, const double *frequency, const double *storage, const double *loss,
@@ -243,10 +191,8 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     restitute_dma_result_init(&r);
     if (options) o = *options;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    if (result->struct_size != sizeof r)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
-                          result->struct_size, sizeof r);
-    int status = check_options(&o, error);
+    int status = rst_fit_sized("result", result->struct_size, sizeof r, error);
+    if (!status) status = check_options(&o, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;
     struct rst_dma *d = calloc(1, sizeof *d);
@@ -256,10 +202,10 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     if (!status) {
         const double factor = o.tension ? 1 / (2 * (1 + o.poisson_ratio)) : 1;
         d->n = n, d->noise = o.noise;
-        d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->group = group;
+        d->omega = omega, d->storage = memory + n, d->loss = memory + 2 * n, d->r = memory + 3 * n, d->group = group;
         for (size_t i = 0; i < n; i++)
-            omega[i] = 2 * pi * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];
-        status = fit(d, temperature, &o, &r, memory + 3 * n, error);
+            omega[i] = 2 * M_PI * frequency[i], d->storage[i] = factor * storage[i], d->loss[i] = factor * loss[i];
+        status = fit(d, temperature, &o, &r, error);
     }
     free(d);
     free(memory);

@@ -3,7 +3,7 @@
 #ifndef RST_FIT_DMA_H
 #define RST_FIT_DMA_H
 
-#include <restitute/fit.h>
+#include "model.h"
 
 /* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then loss. */
 struct rst_dma {
@@ -11,8 +11,9 @@ struct rst_dma {
     const double *omega;
     double *storage, *loss; /* shear moduli */
     size_t *group;          /* temperature of a row */
+    double *r; /* residuals, the latest */
     double noise;
-    size_t temperatures, reference;
+    struct rst_temperatures temperature;
     int free_shifts;
     double shift[RESTITUTE_DMA_SHIFTS]; /* log a_T */
     size_t terms;
@@ -23,6 +24,6 @@ struct rst_dma {
 /* dma_terms.c: from shifts to a first series; refine it; make it as short as the data allow. */
 int rst_dma_begin(struct rst_dma *dma);
 int rst_dma_shorten(struct rst_dma *dma);
-void rst_dma_residuals(const struct rst_dma *dma, double *r);
+double rst_dma_sum(const struct rst_dma *dma); /* of squared residuals */
 
 #endif

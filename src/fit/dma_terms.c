@@ -1,6 +1,7 @@
 /* The terms of a Prony series from storage and loss moduli,
  *     G'(w) = G_inf + sum g x^2/(1 + x^2),  G''(w) = sum g x/(1 + x^2),  x = w a_T tau.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,45 +9,16 @@
 #include "dma.h"
 #include "least.h"
 
-/* PER_DECADE: terms of the first fit; the end has about one a decade. TURNS of that fit, which is only a start. BEYOND:
- * decades before and behind the window of 1/w, where terms still are seen. ITERATIONS of one refinement. TRIES: pairs that
- * are merged on trial, the cheapest first, before a series counts as short enough. */
-enum { PER_DECADE = 2, TURNS = 500, ITERATIONS = 40, TRIES = 3 };
+/* PER_DECADE: terms of the first series; the end has about one a decade. BEYOND: decades before and behind the window of
+ * 1/w, where terms still are seen. STEPS of one refinement. TRIES: shorter series that are refined, the cheapest first,
+ * before one counts as short enough. */
+enum { PER_DECADE = 2, STEPS = 40, TRIES = 3 };
 static const double BEYOND = 1;
-
-static double at(const struct rst_dma *d, size_t row, double log_tau)
-{
-    return d->omega[row] * exp(d->shift[d->group[row]] + log_tau);
-}
-
-/* Parts of a term of g = 1 in both moduli of a row, in units of the residuals. */
-static void part(const struct rst_dma *d, size_t row, double log_tau, double *storage, double *loss)
-{
-    const double x = at(d, row, log_tau), y = 1 / (1 + x * x);
-    *storage = isinf(x * x) ? 1 : x * x * y;
-    *loss = isinf(x * x) ? 1 / x : x * y;
-    *storage /= d->storage[row] * d->noise;
-    *loss /= d->loss[row] * d->noise;
-}
-
-void rst_dma_residuals(const struct rst_dma *d, double *r)
-{
-    for (size_t i = 0; i < d->n; i++) {
-        r[i] = (d->equilibrium / d->storage[i] - 1) / d->noise;
-        r[d->n + i] = -1 / d->noise;
-        for (size_t k = 0; k < d->terms; k++) {
-            double storage, loss;
-            part(d, i, d->tau[k], &storage, &loss);
-            r[i] += exp(d->g[k]) * storage;
-            r[d->n + i] += exp(d->g[k]) * loss;
-        }
-    }
-}
 
 /* Unknowns: log g, log tau, log G_inf if there is one, shifts but the reference's. */
 static size_t unknowns(const struct rst_dma *d)
 {
-    return 2 * d->terms + (d->equilibrium > 0) + (d->free_shifts ? d->temperatures - 1 : 0);
+    return 2 * d->terms + (d->equilibrium > 0) + (d->free_shifts ? d->temperature.count - 1 : 0);
 }
 
 static void put(struct rst_dma *d, const double *x)
@@ -55,8 +27,8 @@ static void put(struct rst_dma *d, const double *x)
     memcpy(d->g, x, d->terms * sizeof *x);
     memcpy(d->tau, x + d->terms, d->terms * sizeof *x);
     if (d->equilibrium > 0) d->equilibrium = exp(x[next++]);
-    for (size_t t = 0; d->free_shifts && t < d->temperatures; t++)
-        if (t != d->reference) d->shift[t] = x[next++];
+    for (size_t t = 0; d->free_shifts && t < d->temperature.count; t++)
+        if (t != d->temperature.reference) d->shift[t] = x[next++];
 }
 
 static void get(const struct rst_dma *d, double *x)
@@ -65,38 +37,59 @@ static void get(const struct rst_dma *d, double *x)
     memcpy(x, d->g, d->terms * sizeof *x);
     memcpy(x + d->terms, d->tau, d->terms * sizeof *x);
     if (d->equilibrium > 0) x[next++] = log(d->equilibrium);
-    for (size_t t = 0; d->free_shifts && t < d->temperatures; t++)
-        if (t != d->reference) x[next++] = d->shift[t];
+    for (size_t t = 0; d->free_shifts && t < d->temperature.count; t++)
+        if (t != d->temperature.reference) x[next++] = d->shift[t];
+}
+
+/* Residuals, and their derivatives unless j is NULL. x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of x/(1+x^2) it is
+ * x (1-x^2)/(1+x^2)^2; tau and a_T act by x alone. */
+static void evaluate(const struct rst_dma *d, double *r, double *j)
+{
+    const size_t p = unknowns(d), m = d->terms, shifts = 2 * m + (d->equilibrium > 0);
+    if (j) memset(j, 0, 2 * d->n * p * sizeof *j);
+    for (size_t i = 0; i < d->n; i++) {
+        const size_t t = d->group[i], other = d->temperature.reference;
+        const size_t shift = d->free_shifts && t != other ? shifts + t - (t > other) : p;
+        const double to_storage = 1 / (d->storage[i] * d->noise), to_loss = 1 / (d->loss[i] * d->noise);
+        double *a = j ? j + i * p : NULL, *b = j ? a + d->n * p : NULL, storage = d->equilibrium, loss = 0;
+        if (j && d->equilibrium > 0) a[2 * m] = d->equilibrium * to_storage;
+        for (size_t k = 0; k < m; k++) {
+            const double x = d->omega[i] * exp(d->shift[t] + d->tau[k]), y = 1 / (1 + x * x), g = exp(d->g[k]);
+            const double of_storage = isinf(x * x) ? g : g * x * x * y, of_loss = isinf(x * x) ? g / x : g * x * y;
+            storage += of_storage, loss += of_loss;
+            if (!j) continue;
+            a[k] = of_storage * to_storage, b[k] = of_loss * to_loss;
+            a[m + k] = a[k] * 2 * y, b[m + k] = b[k] * (2 * y - 1);
+            if (shift < p) a[shift] += a[m + k], b[shift] += b[m + k];
+        }
+        r[i] = storage * to_storage - 1 / d->noise;
+        r[d->n + i] = loss * to_loss - 1 / d->noise;
+    }
 }
 
 static int residuals(void *own, const double *x, double *r)
 {
     put(own, x);
-    rst_dma_residuals(own, r);
+    evaluate(own, r, NULL);
     return RESTITUTE_OK;
 }
 
-/* x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of x/(1+x^2) it is x (1-x^2)/(1+x^2)^2; tau and a_T act by x alone. */
-static int jacobian(void *own, const double *x, double *j)
+static int jacobian(void *own, const double *x, const double *r, double *j)
 {
     struct rst_dma *d = own;
-    const size_t p = unknowns(d), m = d->terms;
+    (void)r;
     put(d, x);
-    memset(j, 0, 2 * d->n * p * sizeof *j);
-    for (size_t i = 0; i < d->n; i++) {
-        double *a = j + i * p, *b = j + (d->n + i) * p;
-        const size_t t = d->group[i], shifts = 2 * m + (d->equilibrium > 0);
-        const size_t own_shift = d->free_shifts && t != d->reference ? shifts + t - (t > d->reference) : p;
-        if (d->equilibrium > 0) a[2 * m] = d->equilibrium / (d->storage[i] * d->noise);
-        for (size_t k = 0; k < m; k++) {
-            const double z = at(d, i, d->tau[k]), y = isinf(z * z) ? 0 : 1 / (1 + z * z), g = exp(d->g[k]);
-            part(d, i, d->tau[k], &a[k], &b[k]);
-            a[k] *= g, b[k] *= g;
-            a[m + k] = a[k] * 2 * y, b[m + k] = b[k] * (2 * y - 1);
-            if (own_shift < p) a[own_shift] += a[m + k], b[own_shift] += b[m + k];
-        }
-    }
+    evaluate(d, d->r, j);
     return RESTITUTE_OK;
+}
+
+double rst_dma_sum(const struct rst_dma *d)
+{
+    double sum = 0;
+    evaluate(d, d->r, NULL);
+    for (size_t i = 0; i < 2 * d->n; i++)
+        sum += d->r[i] * d->r[i];
+    return sum;
 }
 
 static int refine(struct rst_dma *d)
@@ -106,7 +99,7 @@ static int refine(struct rst_dma *d)
                                     .residuals = residuals,
                                     .jacobian = jacobian,
                                     .own = d,
-                                    .most = ITERATIONS,
+                                    .most = STEPS,
                                     .exact = 1e-12,
                                     .settled = 1e-4,
                                     .full_rank = 1};
@@ -119,81 +112,28 @@ static int refine(struct rst_dma *d)
     return status;
 }
 
-/* Terms i and i + 1 as one, of their sum, at the mean of their logarithms by weight. */
-static void merge(struct rst_dma *d, size_t i)
-{
-    const double a = exp(d->g[i]), b = exp(d->g[i + 1]);
-    d->tau[i] = (a * d->tau[i] + b * d->tau[i + 1]) / (a + b);
-    d->g[i] = log(a + b);
-    d->terms--;
-    memmove(d->tau + i + 1, d->tau + i + 2, (d->terms - i - 1) * sizeof *d->tau);
-    memmove(d->g + i + 1, d->g + i + 2, (d->terms - i - 1) * sizeof *d->g);
-}
-
-static void take_grid(struct rst_dma *d, const double *x, size_t grid, double first, double step)
-{
-    d->terms = 0;
-    for (size_t k = 0; k < grid; k++) {
-        if (!(x[k] > 0)) continue;
-        if (d->terms == RESTITUTE_DMA_TERMS) merge(d, d->terms - 2);
-        d->g[d->terms] = log(x[k]), d->tau[d->terms++] = first + step * (double)k;
-    }
-}
-
-/* A^T A and A^T b of the moduli on the grid, equilibrium last; both halves of a row. `work`: 2 x columns. */
-static void normal_equations(const struct rst_dma *d, size_t columns, double first, double step, double *aa, double *ab,
-                             double *work)
-{
-    double *storage = work, *loss = work + columns;
-    for (size_t i = 0; i < d->n; i++) {
-        for (size_t k = 0; k < columns; k++)
-            part(d, i, first + step * (double)k, &storage[k], &loss[k]);
-        storage[columns - 1] = 1 / (d->storage[i] * d->noise), loss[columns - 1] = 0;
-        for (size_t k = 0; k < columns; k++) {
-            ab[k] += (storage[k] + loss[k]) / d->noise;
-            for (size_t l = 0; l < columns; l++)
-                aa[k * columns + l] += storage[k] * storage[l] + loss[k] * loss[l];
-        }
-    }
-}
-
-/* Moduli on a grid of times by x_k (A^T b)_k/(A^T A x)_k, as Lee and Seung do: A and b are positive, so x stays so, and the
- * sum of squares never rises. */
+/* The spectrum is about 2/pi of the loss modulus at 1/tau: that, at evenly spaced times, is the first series. */
 int rst_dma_begin(struct rst_dma *d)
 {
     double low = INFINITY, high = -INFINITY;
+    d->equilibrium = INFINITY;
     for (size_t i = 0; i < d->n; i++) {
-        const double time = -log(at(d, i, 0));
+        const double time = -log(d->omega[i]) - d->shift[d->group[i]];
         low = fmin(low, time), high = fmax(high, time);
+        d->equilibrium = fmin(d->equilibrium, 0.5 * d->storage[i]);
     }
-    low -= BEYOND * log(10), high += BEYOND * log(10);
-    const double step = log(10) / PER_DECADE;
-    const size_t grid = (size_t)((high - low) / step) + 2, columns = grid + 1;
-    double *aa = calloc(columns * columns + 4 * columns, sizeof *aa), *ab = aa + columns * columns, *x = ab + columns;
-    if (!aa) return RESTITUTE_ERROR_MEMORY;
-    normal_equations(d, columns, low, step, aa, ab, x + columns);
-    for (size_t k = 0; k < columns; k++)
-        x[k] = ab[k] / aa[k * columns + k];
-    for (int turn = 0; turn < TURNS; turn++)
-        for (size_t k = 0; k < columns; k++) {
-            double sum = 0;
-            for (size_t l = 0; l < columns; l++)
-                sum += aa[k * columns + l] * x[l];
-            x[k] *= sum > 0 ? ab[k] / sum : 0;
+    const double range = high - low + 2 * BEYOND * log(10);
+    d->terms = (size_t)fmin(2 + range / log(10) * PER_DECADE, RESTITUTE_DMA_TERMS);
+    const double step = range / (double)(d->terms - 1);
+    for (size_t k = 0; k < d->terms; k++) {
+        double nearest = INFINITY;
+        d->tau[k] = low - BEYOND * log(10) + step * (double)k;
+        for (size_t i = 0; i < d->n; i++) {
+            const double distance = fabs(log(d->omega[i]) + d->shift[d->group[i]] + d->tau[k]);
+            if (distance < nearest) nearest = distance, d->g[k] = log(M_2_PI * step * d->loss[i]);
         }
-    d->equilibrium = x[grid];
-    take_grid(d, x, grid, low, step);
-    free(aa);
+    }
     return refine(d);
-}
-
-static double square(const struct rst_dma *d, double *r)
-{
-    double sum = 0;
-    rst_dma_residuals(d, r);
-    for (size_t i = 0; i < 2 * d->n; i++)
-        sum += r[i] * r[i];
-    return sum;
 }
 
 static void sort_terms(struct rst_dma *d)
@@ -206,24 +146,32 @@ static void sort_terms(struct rst_dma *d)
         }
 }
 
-/* Without term i, or with it merged into the next; the last one without the equilibrium modulus. */
+static void remove_term(struct rst_dma *d, size_t i)
+{
+    d->terms--;
+    memmove(d->tau + i, d->tau + i + 1, (d->terms - i) * sizeof *d->tau);
+    memmove(d->g + i, d->g + i + 1, (d->terms - i) * sizeof *d->g);
+}
+
+/* Without term i, or with it merged into the next, of their sum at their mean time; the last without equilibrium modulus. */
 static void make_candidate(const struct rst_dma *d, size_t which, struct rst_dma *candidate)
 {
     const size_t i = which / 2;
     *candidate = *d;
     if (i == d->terms)
         candidate->equilibrium = 0;
-    else if (which % 2 == 0 && i + 1 < d->terms)
-        merge(candidate, i);
-    else if (d->terms > 1) {
-        candidate->terms--;
-        memmove(candidate->g + i, d->g + i + 1, (candidate->terms - i) * sizeof *d->g);
-        memmove(candidate->tau + i, d->tau + i + 1, (candidate->terms - i) * sizeof *d->tau);
+    else {
+        if (which % 2 == 0 && i + 1 < d->terms) {
+            const double a = exp(d->g[i]), b = exp(d->g[i + 1]);
+            candidate->tau[i + 1] = (a * d->tau[i] + b * d->tau[i + 1]) / (a + b);
+            candidate->g[i + 1] = log(a + b);
+        }
+        remove_term(candidate, i);
     }
 }
 
 /* The cheapest shorter series, refined, if it is worth it: unknowns less against chi^2 (Bayesian information). */
-static int shorten_once(struct rst_dma *d, double *r, int *shorter)
+static int shorten_once(struct rst_dma *d, int *shorter)
 {
     struct rst_dma candidate;
     double cost[2 * RESTITUTE_DMA_TERMS + 1];
@@ -231,12 +179,13 @@ static int shorten_once(struct rst_dma *d, double *r, int *shorter)
     *shorter = 0;
     for (size_t w = 0; w < count; w++) {
         make_candidate(d, w, &candidate);
-        cost[w] = square(&candidate, r);
+        cost[w] = candidate.terms ? rst_dma_sum(&candidate) : INFINITY;
     }
     for (int t = 0; t < TRIES && !*shorter; t++) {
         size_t best = 0;
         for (size_t w = 1; w < count; w++)
             if (cost[w] < cost[best]) best = w;
+        if (isinf(cost[best])) return RESTITUTE_OK; /* no other is left */
         cost[best] = INFINITY;
         make_candidate(d, best, &candidate);
         const int status = refine(&candidate);
@@ -250,13 +199,11 @@ static int shorten_once(struct rst_dma *d, double *r, int *shorter)
 
 int rst_dma_shorten(struct rst_dma *d)
 {
-    double *r = malloc(2 * d->n * sizeof *r);
-    int status = r ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY;
+    int status = RESTITUTE_OK;
     for (int shorter = 1; shorter && (d->terms > 1 || d->equilibrium > 0) && status >= 0;) {
         sort_terms(d);
-        status = shorten_once(d, r, &shorter);
+        status = shorten_once(d, &shorter);
     }
     sort_terms(d);
-    free(r);
     return status;
 }

@@ -6,85 +6,87 @@
 #include <string.h>
 
 #include "least.h"
-#include "remarks.h"
 #include "report.h"
+#include "search.h"
 
-/* Rounds of robust weights, and starts of a rival, which only has to show that it can fit. */
-enum { ROUNDS = 30, RIVAL_STARTS = 2, MOST_RIVALS = 2 };
-
-struct rst_fit_rival {
-    struct rst_fit_model model;
-    double start[RIVAL_STARTS][RESTITUTE_FIT_CONSTANTS]; /* logarithms of its free constants */
-};
+/* Rounds of robust weights. */
+enum { ROUNDS = 30 };
 
 struct restitute_fitter {
     struct rst_fit_data data;
     struct rst_fit_search search;
     double *weight;
     struct rst_fit_certainty certainty;
-    size_t rivals;
-    struct rst_fit_rival rival[MOST_RIVALS];
-    double start[RESTITUTE_FIT_CONSTANTS]; /* our constants, for them */
-    size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the remarks */
+    size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the result */
     restitute_fit_result result;
 };
 
-/* A model of the kind with these known constants; not if it has as many free ones. Its two starts come from ours. */
-static void add_rival(restitute_fitter *f, int kind, const double *known, const double *start, double second)
+/* A model that could have made the data too, fitted from our constants: one fit, from the best of three viscosities. `from`
+ * are its constants, as far as those of the solid go. */
+static int try_rival(restitute_fitter *f, int kind, const double *known, const double *from)
 {
-    struct rst_fit_rival *r = &f->rival[f->rivals];
     const struct rst_fit_model *m = &f->search.model;
-    rst_fit_model_make(&f->data, kind, known, &r->model);
-    if (r->model.free == m->free || r->model.free > f->data.rows) return;
-    if (r->model.free > m->free && f->certainty.judged > f->certainty.noise) return; /* nothing is left to explain */
-    for (size_t k = 0; k < r->model.free; k++) {
-        const size_t i = r->model.index[k]; /* friction and shifts stand behind the constants of the solid */
-        const double value = i < r->model.solid ? start[i] : f->start[i + m->solid - r->model.solid];
-        r->start[0][k] = r->start[1][k] = log(value);
-        if (i + 1 == r->model.solid) r->start[1][k] += log(second);
+    struct rst_fit_model model;
+    struct rst_fit_search rival;
+    double ours[RESTITUTE_FIT_CONSTANTS], logs[3 * RESTITUTE_FIT_CONSTANTS];
+    rst_fit_constants(m, f->search.logs, ours);
+    rst_fit_model_make(&f->data, kind, known, &model);
+    if (model.free == m->free || model.free > f->data.rows) return RESTITUTE_OK;
+    if (model.free > m->free && f->certainty.judged > f->certainty.noise) return RESTITUTE_OK; /* nothing left to explain */
+    for (size_t k = 0; k < 3 * model.free; k++) {
+        const size_t i = model.index[k % model.free];
+        logs[k] = log(i < model.solid ? from[i] : ours[i + m->solid - model.solid]); /* friction, shifts */
+        if (i + 1 == model.solid) logs[k] += log(10) * ((double)(k / model.free) - 1);
     }
-    f->rivals++;
+    int status = rst_fit_search_create(&f->data, &model, f->weight, 1, &rival);
+    if (status) return status;
+    if (model.free) status = rst_fit_choose(&rival, 3, logs);
+    if (status >= 0) status = model.free ? rst_fit_local(&rival, 0) : rst_fit_again(&rival);
+    if (status >= 0) rst_fit_remark_rival(&f->search, &f->certainty, &rival, &f->result);
+    rst_fit_search_release(&rival);
+    return status;
 }
 
 /* The series without the term of the largest part in the worst direction. */
-static void add_shorter_series(restitute_fitter *f)
+static int try_shorter_series(restitute_fitter *f)
 {
     const struct rst_fit_model *m = &f->search.model;
     const double *v = f->certainty.vector + (m->free - 1) * m->free;
-    double known[RESTITUTE_FIT_CONSTANTS];
+    double known[RESTITUTE_FIT_CONSTANTS], ours[RESTITUTE_FIT_CONSTANTS];
     size_t worst = 0;
+    if (m->free < 2) return RESTITUTE_OK;
     memcpy(known, m->known, sizeof known);
+    rst_fit_constants(m, f->search.logs, ours);
     for (size_t k = 1; k < m->free; k++)
         if (m->index[k] < m->solid && fabs(v[k]) > fabs(v[worst])) worst = k;
-    if (m->free < 2 || m->index[worst] >= m->solid) return;
+    if (m->index[worst] >= m->solid) return RESTITUTE_OK;
     known[m->index[worst]] = 0;
-    add_rival(f, RESTITUTE_FIT_PRONY, known, f->start, 1);
+    return try_rival(f, RESTITUTE_FIT_PRONY, known, ours);
 }
 
-/* Who else could have made the data: nested models, from our constants. A second spring begins as strong as the first. */
-static void add_rivals(restitute_fitter *f)
+/* Solids with a constant more or less. A spring that is new begins as strong as the other. */
+static int try_rivals(restitute_fitter *f)
 {
-    const double *k = f->search.model.known, *c = f->start;
-    const int kind = f->search.model.kind;
-    rst_fit_constants(&f->search.model, f->search.logs, f->start);
-    if (f->search.model.free == 0) add_rival(f, kind, NULL, f->start, 1); /* are the known constants right? */
-    if (kind == RESTITUTE_FIT_STANDARD_SOLID) {
-        const double kv[] = {k[0], k[2]}, kv_start[] = {c[0], c[2]}, maxwell[] = {k[1], k[2]},
-                     maxwell_start[] = {c[0] + c[1], c[2]};
-        if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, kv, kv_start, 0.1);
-        if (isnan(k[0])) add_rival(f, RESTITUTE_FIT_MAXWELL, maxwell, maxwell_start, 10);
-    } else if (kind == RESTITUTE_FIT_KELVIN_VOIGT || kind == RESTITUTE_FIT_MAXWELL) {
-        const int maxwell = kind == RESTITUTE_FIT_MAXWELL;
-        const double known[] = {maxwell ? NAN : k[0], maxwell ? k[0] : NAN, k[1]}, start[] = {c[0], c[0], c[1]};
-        if (isnan(k[1])) add_rival(f, RESTITUTE_FIT_ELASTIC, k, c, 1);
-        add_rival(f, RESTITUTE_FIT_STANDARD_SOLID, known, start, 10);
-    } else if (kind == RESTITUTE_FIT_ELASTIC) {
-        struct rst_fit_model damped; /* for the scale of a viscosity */
-        rst_fit_model_make(&f->data, RESTITUTE_FIT_KELVIN_VOIGT, NULL, &damped);
-        const double known[] = {k[0], NAN}, start[] = {c[0], exp(damped.centre[1])};
-        add_rival(f, RESTITUTE_FIT_KELVIN_VOIGT, known, start, 0.1);
-    } else
-        add_shorter_series(f);
+    static const int parts[] = {0, 1, 5, 7, 6}; /* of a kind, bits: modulus1, modulus2, viscosity */
+    const struct rst_fit_model *m = &f->search.model;
+    double part[RST_FIT_PARTS], known[RST_FIT_PARTS], ours[RESTITUTE_FIT_CONSTANTS];
+    int status = RESTITUTE_OK;
+    rst_fit_constants(m, f->search.logs, ours);
+    if (m->free == 0) return try_rival(f, m->kind, NULL, ours); /* are the known constants right? */
+    if (m->kind == RESTITUTE_FIT_PRONY) return try_shorter_series(f);
+    for (int i = 0; i < RST_FIT_PARTS; i++)
+        part[i] = i == RST_FIT_VISCOSITY ? m->viscosity : ours[0], known[i] = NAN;
+    for (size_t i = 0; i < m->solid; i++)
+        part[rst_fit_part(m->kind, i)] = ours[i], known[rst_fit_part(m->kind, i)] = m->known[i];
+    for (int kind = RESTITUTE_FIT_ELASTIC; kind <= RESTITUTE_FIT_MAXWELL && status >= 0; kind++) {
+        const int differ = parts[kind] ^ parts[m->kind], which = differ == 1 ? 0 : differ == 2 ? 1 : 2;
+        double theirs[RST_FIT_PARTS], from[RST_FIT_PARTS];
+        if (differ != 1 << which || !isnan(known[which])) continue; /* one that is known cannot be left out */
+        for (size_t i = 0; i < rst_fit_solid_constants(kind, 0); i++)
+            theirs[i] = known[rst_fit_part(kind, i)], from[i] = part[rst_fit_part(kind, i)];
+        status = try_rival(f, kind, theirs, from);
+    }
+    return status;
 }
 
 static int check_model(const restitute_fitter *f, restitute_error *error)
@@ -114,7 +116,8 @@ static int prepare(restitute_fitter *f, restitute_error *error)
     for (size_t i = 0; f->weight && i < f->data.rows; i++)
         f->weight[i] = 1;
     f->search.model = model;
-    f->turns = (size_t)f->data.options.starts + 3 + MOST_RIVALS;
+    f->turns = (size_t)f->data.options.starts + 4;
+    rst_fit_thin(&f->data, 1);
     const int status = check_model(f, error);
     if (status) return status;
     if (!f->weight || rst_fit_search_create(&f->data, &model, f->weight, (size_t)f->data.options.starts, &f->search))
@@ -150,34 +153,17 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
     free(fitter);
 }
 
-/* Robust weights until they settle, then the intervals and who may be a rival. */
+/* Robust weights until they settle, then what they determine. */
 static int settle(restitute_fitter *f)
 {
     double change = 1;
+    rst_fit_thin(&f->data, 0);
     int status = rst_fit_again(&f->search);
     for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0 && change > 1e-4; round++) {
         status = rst_fit_reweigh(&f->search, f->weight, &change);
         if (status >= 0) status = rst_fit_again(&f->search);
     }
-    if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
-    if (status >= 0) add_rivals(f);
-    return status;
-}
-
-static int try_rival(restitute_fitter *f, size_t index)
-{
-    struct rst_fit_search rival;
-    if (index >= f->rivals) return RESTITUTE_OK;
-    int status = rst_fit_search_create(&f->data, &f->rival[index].model, f->weight, RIVAL_STARTS, &rival);
-    if (status) return status;
-    for (size_t i = 0; i < RIVAL_STARTS && status >= 0; i++) {
-        memcpy(rival.start + i * rival.model.free, f->rival[index].start[i], rival.model.free * sizeof(double));
-        status = rst_fit_local(&rival, i);
-    }
-    if (rival.model.free == 0) status = rst_fit_again(&rival);
-    if (status >= 0) rst_fit_remark_rival(&f->search, &f->certainty, &rival, &f->result);
-    rst_fit_search_release(&rival);
-    return status;
+    return status < 0 ? status : rst_fit_certainty(&f->search, &f->certainty);
 }
 
 /* Half the width of an interval in standard deviations. */
@@ -223,11 +209,7 @@ static int finish(restitute_fitter *f)
     r->rms = sqrt(f->search.sum / (double)f->data.rows);
     r->noise = f->data.options.noise_known ? (c->dof ? sqrt(f->search.sum / (double)c->dof) : NAN) : c->noise;
     r->condition = p ? c->values[0] / c->values[p - 1] : 1;
-    if (!f->search.converged)
-        rst_fit_remark(r, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
-    rst_fit_remark_directions(&f->search, c, r);
-    int status = rst_fit_remark_pattern(&f->search, c, r);
-    if (status >= 0) status = rst_fit_remark_limits(&f->search, r);
+    const int status = rst_fit_remarks(&f->search, c, r);
     r->impacts = f->data.impacts;
     return status;
 }
@@ -244,8 +226,8 @@ int restitute_fitter_run(restitute_fitter *f, double *done, restitute_error *err
         status = rst_fit_local(&f->search, turn - 1);
     else if (turn == starts + 1)
         status = settle(f);
-    else if (turn <= starts + 1 + MOST_RIVALS)
-        status = try_rival(f, turn - starts - 2);
+    else if (turn == starts + 2)
+        status = try_rivals(f);
     else if (turn < f->turns)
         status = finish(f);
     rst_fit_gsl_end();
@@ -267,11 +249,9 @@ int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *res
     int status = check_finished(f, error);
     if (status) return status;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    if (result->struct_size != sizeof *result)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "result.struct_size = %zu: must be %zu",
-                          result->struct_size, sizeof *result);
     restitute_material *material;
-    status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
+    status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
+    if (!status) status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
     if (status < 0) return status;
     *result = f->result;
     result->material = material;

@@ -30,23 +30,60 @@ void rst_fit_gsl_end(void)
     pthread_mutex_unlock(&lock);
 }
 
+/* Trial steps in a row that find nothing better, after which a round ends: the trust region is 1/32 of what it was. */
+enum { REJECTED = 5 };
+
 struct bridge {
     const struct rst_least *least;
-    int status;
+    double *origin;        /* unknowns are counted from the start: the first trust region is 0.3 then */
+    double *x, *f;         /* latest point, its residuals */
+    double *at, *f_at, *j; /* likewise of the latest Jacobian */
+    double start;          /* sum of squares at the beginning of a round */
+    int known, rejected, status;
 };
 
 /* Vectors and matrices of a workspace have no gaps. */
 static int residuals(const gsl_vector *x, void *own, gsl_vector *f)
 {
     struct bridge *b = own;
-    b->status = b->least->residuals(b->least->own, x->data, f->data);
+    if (b->least->rounds && b->rejected++ == REJECTED) return GSL_EBADFUNC;
+    for (size_t k = 0; k < x->size; k++)
+        b->x[k] = b->origin[k] + x->data[k];
+    b->status = b->least->residuals(b->least->own, b->x, f->data);
+    memcpy(b->f, f->data, f->size * sizeof *b->f);
     return b->status < 0 ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
+/* Broyden's update: the least change of the Jacobian that explains the latest step. */
+static void update(struct bridge *b)
+{
+    const size_t p = b->least->unknowns;
+    double square = 0;
+    for (size_t k = 0; k < p; k++)
+        b->at[k] = b->x[k] - b->at[k], square += b->at[k] * b->at[k];
+    for (size_t i = 0; i < b->least->rows && square > 0; i++) {
+        double missed = b->f[i] - b->f_at[i];
+        for (size_t k = 0; k < p; k++)
+            missed -= b->j[i * p + k] * b->at[k];
+        for (size_t k = 0; k < p; k++)
+            b->j[i * p + k] += missed / square * b->at[k];
+    }
+}
+
+/* GSL asks for it at the latest point alone. */
 static int jacobian(const gsl_vector *x, void *own, gsl_matrix *matrix)
 {
     struct bridge *b = own;
-    b->status = b->least->jacobian(b->least->own, x->data, matrix->data);
+    const size_t n = b->least->rows, p = x->size;
+    b->rejected = 0;
+    if (b->known && b->least->rounds)
+        update(b);
+    else
+        b->status = b->least->jacobian(b->least->own, b->x, b->f, b->j);
+    b->known = 1;
+    memcpy(b->at, b->x, p * sizeof *b->x);
+    memcpy(b->f_at, b->f, n * sizeof *b->f);
+    memcpy(matrix->data, b->j, n * p * sizeof *b->j);
     return b->status < 0 ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
@@ -58,27 +95,29 @@ static double square(const gsl_vector *f)
     return sum;
 }
 
-/* A step that finds nothing better is the end too: GSL calls it no progress. The sum decides, not the step: along a
- * valley whose floor is flat the constants would wander for ever. */
+/* A round from x on, with a Jacobian of its own. A step that finds nothing better is its end: GSL calls it no progress. The
+ * sum decides, not the step: along a valley whose floor is flat the constants would wander for ever. */
 static int iterate(gsl_multifit_nlinear_workspace *w, struct bridge *b, double *x, double *sum, int *converged)
 {
-    gsl_multifit_nlinear_fdf fdf = {
-        .f = residuals, .df = jacobian, .n = b->least->rows, .p = b->least->unknowns, .params = b};
-    gsl_vector_const_view start = gsl_vector_const_view_array(x, b->least->unknowns);
+    const struct rst_least *least = b->least;
+    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = jacobian, .n = least->rows, .p = least->unknowns, .params = b};
+    memcpy(b->origin, x, least->unknowns * sizeof *x);
+    memset(x, 0, least->unknowns * sizeof *x);
+    b->known = b->rejected = 0;
+    gsl_vector_const_view start = gsl_vector_const_view_array(x, least->unknowns);
     int status = gsl_multifit_nlinear_init(&start.vector, &fdf, w), still = 0;
-    *sum = square(gsl_multifit_nlinear_residual(w));
+    *sum = b->start = square(gsl_multifit_nlinear_residual(w));
     *converged = 0;
-    for (int i = 0; i < b->least->most && !status && !*converged; i++) {
+    for (int i = 0; i < least->most && !status && !*converged; i++) {
         status = gsl_multifit_nlinear_iterate(w);
         const double now = square(gsl_multifit_nlinear_residual(w));
-        still = *sum - now <= b->least->settled * *sum ? still + 1 : 0;
+        still = *sum - now <= least->settled * *sum ? still + 1 : 0;
         *sum = now;
-        *converged = status == GSL_ENOPROG || still == 2 || now < b->least->exact;
+        *converged = status == GSL_ENOPROG || status == GSL_EBADFUNC || still == 2 || now < least->exact;
     }
-    if (b->status < 0 || status == GSL_ENOMEM) return b->status < 0 ? b->status : RESTITUTE_ERROR_MEMORY;
-    for (size_t i = 0; i < b->least->unknowns; i++)
-        x[i] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
-    return RESTITUTE_OK;
+    for (size_t i = 0; i < least->unknowns; i++)
+        x[i] = b->origin[i] + gsl_vector_get(gsl_multifit_nlinear_position(w), i);
+    return b->status < 0 ? b->status : status == GSL_ENOMEM ? RESTITUTE_ERROR_MEMORY : RESTITUTE_OK;
 }
 
 int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int *converged)
@@ -89,10 +128,19 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
                                          : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
-    if (!w) return RESTITUTE_ERROR_MEMORY;
-    struct bridge bridge = {least, 0};
-    const int status = iterate(w, &bridge, x, sum, converged);
-    gsl_multifit_nlinear_free(w);
+    double *memory = malloc((n * p + 2 * n + 3 * p) * sizeof *memory);
+    struct bridge b = {.least = least, .j = memory};
+    int status = w && memory ? RESTITUTE_OK : RESTITUTE_ERROR_MEMORY, round = 0;
+    if (memory) b.f = b.j + n * p, b.f_at = b.f + n, b.x = b.f_at + n, b.at = b.x + p, b.origin = b.at + p;
+    while (status >= 0) {
+        status = iterate(w, &b, x, sum, converged);
+        const int settled = *sum < least->exact || b.start - *sum <= least->settled * *sum;
+        if (!settled && ++round < least->rounds) continue;
+        if (least->rounds > 1) *converged = settled;
+        break;
+    }
+    if (w) gsl_multifit_nlinear_free(w);
+    free(memory);
     return status;
 }
 

@@ -5,13 +5,14 @@
 
 #include <stddef.h>
 
-/* Residuals r(x) and their derivatives, row by row; both return a restitute_status. */
+/* Residuals r(x) and their derivatives, row by row; both return a restitute_status. `r` of the Jacobian are those at x. */
 struct rst_least {
     size_t rows, unknowns;
     int (*residuals)(void *own, const double *x, double *r);
-    int (*jacobian)(void *own, const double *x, double *j);
+    int (*jacobian)(void *own, const double *x, const double *r, double *j);
     void *own;
     int most;       /* iterations */
+    int rounds;     /* 0: every Jacobian is computed. Else the first of a round is, and updated from step to step */
     double exact;   /* a sum of squares below this is the end */
     double settled; /* so is one that two steps in a row lower by less than this part */
     int full_rank;  /* the Jacobian has it: the fast way will do */

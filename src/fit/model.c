@@ -35,18 +35,29 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     *time = exp(times) * pow(softness / *modulus, 0.4);
 }
 
+int rst_fit_part(int kind, size_t i)
+{
+    static const signed char parts[][RST_FIT_PARTS] = {[RESTITUTE_FIT_ELASTIC] = {RST_FIT_MODULUS1},
+                                                       [RESTITUTE_FIT_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
+                                                       [RESTITUTE_FIT_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2,
+                                                                                         RST_FIT_VISCOSITY},
+                                                       [RESTITUTE_FIT_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
+    return parts[kind][i];
+}
+
 /* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
  * shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow to solve; the local fits may go there. */
 static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
 {
     double modulus, time;
     find_scales(d, m, &modulus, &time);
+    m->viscosity = modulus * time;
     for (size_t i = 0; i < m->count; i++) {
         m->centre[i] = i < m->solid ? log(modulus) : 0;
         m->spread[i] = i < m->solid ? log(300) : log(10);
     }
     if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC) {
-        m->centre[m->solid - 1] = log(modulus * time);
+        m->centre[m->solid - 1] = log(m->viscosity);
         m->spread[m->solid - 1] = log(30);
     }
     if (!m->scaled) m->spread[0] = 0; /* any scale would do */
@@ -60,7 +71,7 @@ void rst_fit_model_make(const struct rst_fit_data *d, int kind, const double *kn
     for (size_t i = 0; i < d->n; i++)
         friction |= isnan(d->points[i].scene.friction) && !isnan(d->points[i].ex);
     m->shift = m->solid + (friction ? 1 : 0);
-    m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperatures - 1 : 0);
+    m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperature.count - 1 : 0);
     m->friction = friction ? m->solid : m->count;
     for (size_t i = 0; i < m->count && i < RESTITUTE_FIT_CONSTANTS; i++) {
         m->known[i] = known && i < m->solid ? known[i] : NAN;
@@ -75,7 +86,8 @@ void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, s
     if (i == m->friction)
         snprintf(name, RESTITUTE_FIT_NAME, "friction");
     else if (i >= m->solid)
-        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g", d->temperature[i - m->shift + 1]);
+        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g",
+                 d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
     else if (m->kind == RESTITUTE_FIT_PRONY)
         snprintf(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
                  i ? d->options.relaxation_time[i - 1] : 0);
@@ -95,15 +107,12 @@ void rst_fit_constants(const struct rst_fit_model *m, const double *logs, double
     }
 }
 
-static double shift_of(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, double t)
+/* a_T of a temperature; the fitted shifts leave out the reference. */
+static double shift_of(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *constants, size_t t)
 {
-    if (isnan(t) || t == d->temperature[0]) return 1;
-    if (!isnan(d->options.wlf_c1))
-        return pow(10, rst_fit_wlf(d->options.wlf_c1, d->options.wlf_c2, t - d->temperature[0]));
-    size_t k = 1;
-    while (d->temperature[k] != t)
-        k++;
-    return constants[m->shift + k - 1];
+    const struct rst_temperatures *all = &d->temperature;
+    if (t == all->reference) return 1;
+    return isnan(all->c1) ? constants[m->shift + t - (t > all->reference)] : pow(10, rst_temperatures_wlf(all, t));
 }
 
 int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, const double *c, double shift,
@@ -131,7 +140,7 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
     for (size_t g = 0; g < d->groups && status >= 0; g++) {
         const restitute_fit_point *p = &d->points[d->first[g]];
         restitute_material *own = NULL;
-        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, p->temperature), &own, NULL);
+        status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, d->at[d->first[g]]), &own, NULL);
         if (status >= 0 && p->scene.material) {
             status = restitute_material_pair(own, p->scene.material, &solids[g], NULL);
             restitute_material_destroy(own);
@@ -183,12 +192,21 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
 int rst_fit_solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants,
                   struct rst_fit_values *values)
 {
-    restitute_result *results = malloc(sets * d->needed * sizeof *results);
+    struct rst_fit_impact *impacts = malloc(d->needed * sizeof *impacts);
+    restitute_result *solved = malloc(sets * d->needed * sizeof *solved), *all = calloc(d->needed, sizeof *all);
+    size_t n = 0;
+    for (size_t k = 0; impacts && k < d->needed; k++)
+        if (!rst_fit_passed_over(d, k)) impacts[n++] = d->impact[k];
     const int status =
-        results ? solve(d, m, sets, constants, d->needed, d->impact, results) : RESTITUTE_ERROR_MEMORY;
-    for (size_t s = 0; s < sets && status >= 0; s++)
-        rst_fit_values(d, results + s * d->needed, values + s * d->n);
-    free(results);
+        impacts && solved && all ? solve(d, m, sets, constants, n, impacts, solved) : RESTITUTE_ERROR_MEMORY;
+    for (size_t s = 0; s < sets && status >= 0; s++) {
+        for (size_t k = 0, next = s * n; k < d->needed; k++)
+            if (!rst_fit_passed_over(d, k)) all[k] = solved[next++];
+        rst_fit_values(d, all, values + s * d->n);
+    }
+    free(impacts);
+    free(solved);
+    free(all);
     return status;
 }
 
@@ -203,9 +221,11 @@ int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, 
     return status;
 }
 
-double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values)
+double rst_fit_residual(const struct rst_fit_data *d, size_t row, const struct rst_fit_values *values)
 {
-    const double value = values->of[row->kind];
-    if (isnan(values->of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
-    return (value - row->measured) / row->sigma;
+    const struct rst_fit_row *r = &d->row[row];
+    const double value = values[r->point].of[r->kind];
+    if (rst_fit_passed_over(d, d->place[r->point].first)) return 0;
+    if (isnan(values[r->point].of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    return (value - r->measured) / r->sigma;
 }

@@ -18,6 +18,7 @@ struct rst_fit_row {
 struct rst_fit_impact {
     restitute_scene scene;
     size_t group;
+    int own; /* of one point */
     double time;
 };
 
@@ -33,18 +34,26 @@ struct rst_fit_values {
     double of[RST_FIT_KINDS];
 };
 
+/* Distinct temperatures, ascending. Of the reference, and where no temperature was given, the value may be NaN. */
+struct rst_temperatures {
+    double reference_value, c1, c2; /* NaN: the first one's; no law of shifts */
+    size_t reference, count;
+    double value[RESTITUTE_DMA_SHIFTS];
+};
+
 /* Copies of the points and options, what follows from them, and points of one temperature and partner. */
 struct rst_fit_data {
-    size_t n, rows, groups, temperatures;
+    size_t n, rows, groups;
     restitute_fit_point *points;
     restitute_fit_options options;
     double *memory; /* relaxation times and known constants */
     struct rst_fit_row *row;
     size_t needed; /* impacts, of a set of constants */
     struct rst_fit_impact *impact;
+    size_t stride; /* every how manyth of the own impacts is solved; rows of the others have no residual */
     struct rst_fit_place *place;
-    size_t *group, *first;                    /* group of a point; first point of a group */
-    double temperature[RESTITUTE_DMA_SHIFTS]; /* distinct ones, the reference first */
+    size_t *group, *first, *at; /* group of a point; first point of a group; temperature of a point */
+    struct rst_temperatures temperature;
     restitute_options solver;
     int64_t impacts; /* that were solved */
 };
@@ -53,10 +62,11 @@ struct rst_fit_data {
 struct rst_fit_model {
     int kind;
     size_t solid, count;
-    size_t friction, shift;                /* places; friction = count: none. shift: that of the second temperature */
+    size_t friction, shift;                /* places; friction = count: none. shift: the first one */
     double known[RESTITUTE_FIT_CONSTANTS]; /* NaN: fitted */
     double centre[RESTITUTE_FIT_CONSTANTS], spread[RESTITUTE_FIT_CONSTANTS]; /* of the logarithm, for the starts */
-    int scaled; /* contact times or a known constant set a scale; else 1 MPa is assumed */
+    double viscosity; /* scale of one */
+    int scaled;       /* contact times or a known constant set a scale; else 1 MPa is assumed */
     size_t free, index[RESTITUTE_FIT_CONSTANTS]; /* which are fitted */
 };
 
@@ -68,12 +78,21 @@ void rst_fit_data_release(struct rst_fit_data *data);
 /* A value out of its range is refused by its name; NaN is. */
 int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error);
 
+int rst_fit_sized(const char *name, size_t size, size_t wanted, restitute_error *error);
+
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
 
-/* log10 a_T by the constants of Williams, Landel and Ferry. NaN: at T_r - c2 or below, where the law has its pole, or a
- * shift beyond 1e30, where no relaxation time is left. */
-double rst_fit_wlf(double c1, double c2, double difference);
+/* Which part of a standard solid constant i of an elastic, Kelvin-Voigt, standard solid or Maxwell body is. */
+enum { RST_FIT_MODULUS1, RST_FIT_MODULUS2, RST_FIT_VISCOSITY, RST_FIT_PARTS };
+int rst_fit_part(int kind, size_t i);
+
+/* temperatures.c: sort what was measured at n places, of which `what` is the name for messages; NaN: at the reference. */
+int rst_temperatures_sort(size_t n, const double *measured, const char *what, struct rst_temperatures *temperatures,
+                          size_t *at, restitute_error *error);
+
+/* log10 a_T by the constants of Williams, Landel and Ferry. */
+double rst_temperatures_wlf(const struct rst_temperatures *temperatures, size_t which);
 
 /* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of theirs. */
 void rst_fit_model_make(const struct rst_fit_data *data, int kind, const double *known, struct rst_fit_model *model);
@@ -94,11 +113,15 @@ int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, 
 int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
                          restitute_result *results);
 
-/* Weighted residual of a row. */
-double rst_fit_residual(const struct rst_fit_row *row, const struct rst_fit_values *values);
+/* Residual of a row, in its standard deviations; 0 if its impact was passed over. */
+double rst_fit_residual(const struct rst_fit_data *data, size_t row, const struct rst_fit_values *values);
 
 /* plan.c: the impacts that are needed, and from them the values of the points. */
 int rst_fit_plan(struct rst_fit_data *data, restitute_error *error);
+int rst_fit_passed_over(const struct rst_fit_data *data, size_t impact);
+
+/* For the search of starts: about a hundred of the own impacts, or all of them. */
+void rst_fit_thin(struct rst_fit_data *data, int thin);
 void rst_fit_values(const struct rst_fit_data *data, const restitute_result *solved, struct rst_fit_values *values);
 
 #endif

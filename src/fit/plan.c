@@ -2,6 +2,7 @@
  * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md, 2). So where
  * many points measure no e_x, a few impacts evenly spaced in log T are solved, and the points lie between these.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,6 +13,9 @@
  * its sixth derivative is about 6!/(pi/2)^6 = 50, so the error is 0.005 x 50 STEP^6 = 2e-7, as that of the impacts.
  * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
 static const double STEP = 0.1;
+
+/* Own impacts that are enough to find the valley of a few constants; half of it may miss one, twice only costs. */
+enum { ENOUGH = 100 };
 
 /* A contact time has no bound where e falls to 0, so that no polynomial follows it there. */
 static const double LEAST_EZ = 0.3;
@@ -41,11 +45,11 @@ static int find_times(struct rst_fit_data *d, restitute_error *error)
     return status;
 }
 
-static void add_impact(struct rst_fit_data *d, size_t point, double time)
+static void add_impact(struct rst_fit_data *d, size_t point, double time, int own)
 {
     const restitute_fit_point *p = &d->points[point];
     struct rst_fit_impact *impact = &d->impact[d->needed++];
-    *impact = (struct rst_fit_impact){p->scene, d->group[point], time};
+    *impact = (struct rst_fit_impact){p->scene, d->group[point], own, time};
     impact->scene.normal_speed *= pow(time / d->place[point].time, -5); /* T ~ v^(-1/5) */
     if (isnan(p->ex)) impact->scene.friction = 0;                       /* saves the tangential problem */
 }
@@ -64,8 +68,8 @@ static void set_between(struct rst_fit_place *place, size_t first, double low)
 }
 
 /* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds whose time was
- * measured, have their own. */
-static void plan_group(struct rst_fit_data *d, size_t group)
+ * measured, have their own. These come in the order of T: equal speeds at several angles share their normal motion then. */
+static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order)
 {
     const size_t first = d->needed;
     double low = INFINITY, high = 0;
@@ -76,15 +80,16 @@ static void plan_group(struct rst_fit_data *d, size_t group)
     size_t nodes = members ? (size_t)(log(high / low) / STEP) + RST_FIT_STENCIL : 0;
     if (2 * nodes > members) nodes = 0;
     for (size_t k = 0; k < nodes; k++)
-        add_impact(d, some, low * exp(STEP * ((double)k - 2)));
-    for (size_t i = 0; i < d->n; i++) {
+        add_impact(d, some, low * exp(STEP * ((double)k - 2)), 0);
+    for (size_t k = 0; k < d->n; k++) {
+        const size_t i = order[k];
         if (d->group[i] != group) continue;
         if (nodes && may_lie_between(&d->points[i])) {
             set_between(&d->place[i], first, low);
             continue;
         }
         d->place[i].first = d->needed, d->place[i].count = 1, d->place[i].weight[0] = 1;
-        add_impact(d, i, d->place[i].time);
+        add_impact(d, i, d->place[i].time, 1);
     }
 }
 
@@ -92,12 +97,29 @@ int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
 {
     d->impact = malloc(d->n * sizeof *d->impact);
     d->place = malloc(d->n * sizeof *d->place);
-    if (!d->impact || !d->place)
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
-    const int status = find_times(d, error);
+    size_t *order = calloc(d->n, sizeof *order);
+    const int status = d->impact && d->place && order
+                           ? find_times(d, error)
+                           : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
+    if (status >= 0) gsl_sort_index(order, &d->place->time, sizeof *d->place / sizeof(double), d->n);
     for (size_t g = 0; g < d->groups && status >= 0; g++)
-        plan_group(d, g);
+        plan_group(d, g, order);
+    free(order);
     return status;
+}
+
+/* By the golden section: every stride-th could be one angle of several at each speed. */
+int rst_fit_passed_over(const struct rst_fit_data *d, size_t impact)
+{
+    return d->impact[impact].own && fmod(0.6180339887498949 * (double)impact, 1) * (double)d->stride >= 1;
+}
+
+void rst_fit_thin(struct rst_fit_data *d, int thin)
+{
+    size_t own = 0;
+    for (size_t k = 0; k < d->needed; k++)
+        own += d->impact[k].own != 0;
+    d->stride = thin && own > ENOUGH ? own / ENOUGH : 1;
 }
 
 void rst_fit_values(const struct rst_fit_data *d, const restitute_result *solved, struct rst_fit_values *values)

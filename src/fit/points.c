@@ -6,33 +6,20 @@
 #include "model.h"
 #include "report.h"
 
-void restitute_fit_point_init(restitute_fit_point *point)
+void restitute_fit_point_init(restitute_fit_point *p)
 {
-    if (!point) return;
-    *point = (restitute_fit_point){.struct_size = sizeof *point,
-                                   .temperature = NAN,
-                                   .ez = NAN,
-                                   .ex = NAN,
-                                   .contact_time = NAN,
-                                   .sigma_ez = NAN,
-                                   .sigma_ex = NAN,
-                                   .sigma_contact_time = NAN};
-    restitute_scene_init(&point->scene);
+    if (!p) return;
+    *p = (restitute_fit_point){.struct_size = sizeof *p};
+    p->temperature = p->ez = p->ex = p->contact_time = p->sigma_ez = p->sigma_ex = p->sigma_contact_time = NAN;
+    restitute_scene_init(&p->scene);
 }
 
-void restitute_fit_options_init(restitute_fit_options *options)
+void restitute_fit_options_init(restitute_fit_options *o)
 {
-    if (!options) return;
-    *options = (restitute_fit_options){.struct_size = sizeof *options,
-                                       .model = RESTITUTE_FIT_STANDARD_SOLID,
-                                       .poisson_ratio = 0.5,
-                                       .confidence = 0.95,
-                                       .reference_temperature = NAN,
-                                       .wlf_c1 = NAN,
-                                       .wlf_c2 = NAN,
-                                       .starts = 4,
-                                       .seed = 1,
-                                       .threads = 1};
+    if (!o) return;
+    *o = (restitute_fit_options){.struct_size = sizeof *o, .model = RESTITUTE_FIT_STANDARD_SOLID};
+    o->poisson_ratio = 0.5, o->confidence = 0.95, o->starts = 4, o->seed = 1, o->threads = 1;
+    o->reference_temperature = o->wlf_c1 = o->wlf_c2 = NAN;
 }
 
 void restitute_fit_result_init(restitute_fit_result *result)
@@ -42,22 +29,23 @@ void restitute_fit_result_init(restitute_fit_result *result)
 
 size_t rst_fit_solid_constants(int kind, size_t terms)
 {
-    return kind == RESTITUTE_FIT_ELASTIC          ? 1
-           : kind == RESTITUTE_FIT_STANDARD_SOLID ? 3
-           : kind == RESTITUTE_FIT_PRONY          ? 1 + terms
-                                                  : 2;
-}
-
-double rst_fit_wlf(double c1, double c2, double difference)
-{
-    const double shift = -c1 * difference / (c2 + difference);
-    return c2 + difference > 0 && fabs(shift) <= 30 ? shift : NAN;
+    static const size_t counts[] = {[RESTITUTE_FIT_ELASTIC] = 1, [RESTITUTE_FIT_KELVIN_VOIGT] = 2,
+                                    [RESTITUTE_FIT_STANDARD_SOLID] = 3, [RESTITUTE_FIT_MAXWELL] = 2};
+    return kind == RESTITUTE_FIT_PRONY ? 1 + terms : counts[kind];
 }
 
 int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error)
 {
     if (value >= low && value <= high) return RESTITUTE_OK;
+    if (isnan(value))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is missing: must be in [%g, %g]", name, low, high);
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
+}
+
+int rst_fit_sized(const char *name, size_t size, size_t wanted, restitute_error *error)
+{
+    if (size == wanted) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "%s.struct_size = %zu: must be %zu", name, size, wanted);
 }
 
 static int check_known(const restitute_fit_options *o, restitute_error *error)
@@ -83,17 +71,13 @@ static int check_known(const restitute_fit_options *o, restitute_error *error)
 
 static int check_options(const restitute_fit_options *o, restitute_error *error)
 {
-    if (o->struct_size != sizeof *o)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = %zu: must be %zu", o->struct_size,
-                          sizeof *o);
-    int status = rst_fit_outside("options.model", o->model, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_PRONY, error);
+    int status = rst_fit_sized("options", o->struct_size, sizeof *o, error);
+    if (!status) status = rst_fit_outside("options.model", o->model, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_PRONY, error);
     if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
     if (!status) status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_SQUARES, RESTITUTE_FIT_CAUCHY, error);
     if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
     if (!status) status = rst_fit_outside("options.starts", o->starts, 1, 100, error);
     if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
-    if (!status && isnan(o->wlf_c1) != isnan(o->wlf_c2))
-        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.wlf_c1, wlf_c2: must be both given or both NaN");
     if (!status && o->model == RESTITUTE_FIT_PRONY) {
         status = rst_fit_outside("options.terms", (double)o->terms, 1, 20, error);
         if (!status && !o->relaxation_time)
@@ -116,9 +100,8 @@ static int check_point(size_t i, const restitute_fit_point *p, int noise_known, 
     static const double low[] = {0, -1, 1e-100}, high[] = {1, 1, 1e100};
     char name[64];
     int values = 0;
-    if (p->struct_size != sizeof *p)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "points[%zu].struct_size = %zu: must be %zu", i,
-                          p->struct_size, sizeof *p);
+    snprintf(name, sizeof name, "points[%zu]", i);
+    if (rst_fit_sized(name, p->struct_size, sizeof *p, error)) return RESTITUTE_ERROR_STRUCT_SIZE;
     for (enum rst_fit_kind kind = 0; kind < RST_FIT_KINDS; kind++) {
         double sigma;
         const double value = measured(p, kind, &sigma);
@@ -132,9 +115,6 @@ static int check_point(size_t i, const restitute_fit_point *p, int noise_known, 
     }
     if (values == 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: ez, ex or contact_time must be measured", i);
-    if (isinf(p->temperature))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu].temperature = %g: must be finite", i,
-                          p->temperature);
     if (p->scene.material && p->scene.deformable == RESTITUTE_BOTH_BODIES_DEFORM)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: a partner's material with BOTH_BODIES_DEFORM",
                           i);
@@ -154,39 +134,26 @@ static void make_rows(struct rst_fit_data *d)
         }
 }
 
-/* Distinct temperatures, the reference first; points of one temperature and partner share a solid. */
+/* Points of one temperature and partner share a solid. */
 static int make_groups(struct rst_fit_data *d, restitute_error *error)
 {
-    double *t = d->temperature;
-    t[0] = isnan(d->options.reference_temperature) ? d->points[0].temperature : d->options.reference_temperature;
-    d->temperatures = 1;
-    for (size_t i = 0; i < d->n; i++) {
-        size_t k = 0, g = 0;
-        restitute_fit_point *p = &d->points[i];
-        if (isnan(p->temperature)) p->temperature = t[0];
-        if (isnan(t[0]) && !isnan(p->temperature))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                              "points[%zu].temperature = %g: the first point or options.reference_temperature must "
-                              "have one too",
-                              i, p->temperature);
-        while (k < d->temperatures && t[k] != p->temperature && !isnan(p->temperature))
-            k++;
-        if (k == RESTITUTE_DMA_SHIFTS)
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "points[%zu]: more than %d temperatures", i,
-                              RESTITUTE_DMA_SHIFTS);
-        if (k == d->temperatures) t[d->temperatures++] = p->temperature;
-        if (!isnan(d->options.wlf_c1) && !isnan(t[k]) &&
-            isnan(rst_fit_wlf(d->options.wlf_c1, d->options.wlf_c2, t[k] - t[0])))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                              "points[%zu].temperature = %g: must be above the pole of WLF, %g, with a_T in [1e-30, 1e30]",
-                              i, t[k], t[0] - d->options.wlf_c2);
-        while (g < d->groups && (d->points[d->first[g]].scene.material != p->scene.material ||
-                                 (d->points[d->first[g]].temperature != p->temperature && !isnan(p->temperature))))
+    const restitute_fit_options *o = &d->options;
+    double *temperature = malloc(d->n * sizeof *temperature);
+    if (!temperature) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
+    for (size_t i = 0; i < d->n; i++)
+        temperature[i] = d->points[i].temperature;
+    d->temperature = (struct rst_temperatures){.reference_value = o->reference_temperature, o->wlf_c1, o->wlf_c2};
+    const int status = rst_temperatures_sort(d->n, temperature, "points", &d->temperature, d->at, error);
+    free(temperature);
+    for (size_t i = 0; i < d->n && !status; i++) {
+        size_t g = 0;
+        while (g < d->groups && (d->points[d->first[g]].scene.material != d->points[i].scene.material ||
+                                 d->at[d->first[g]] != d->at[i]))
             g++;
         if (g == d->groups) d->first[d->groups++] = i;
         d->group[i] = g;
     }
-    return RESTITUTE_OK;
+    return status;
 }
 
 static int copy(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
@@ -198,10 +165,10 @@ static int copy(size_t n, const restitute_fit_point *points, const restitute_fit
     d->options = *options;
     d->points = malloc(n * sizeof *d->points);
     d->row = malloc(RST_FIT_KINDS * n * sizeof *d->row);
-    d->group = malloc(2 * n * sizeof *d->group);
+    d->group = calloc(3 * n, sizeof *d->group);
     d->memory = malloc((terms + known + 1) * sizeof *d->memory);
     if (!d->points || !d->row || !d->group || !d->memory) return RESTITUTE_ERROR_MEMORY;
-    d->first = d->group + n;
+    d->first = d->group + n, d->at = d->first + n;
     memcpy(d->points, points, n * sizeof *points);
     if (terms) memcpy(d->memory, options->relaxation_time, terms * sizeof *d->memory);
     if (known) memcpy(d->memory + terms, options->known, known * sizeof *d->memory);

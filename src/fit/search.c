@@ -10,15 +10,15 @@
 
 #include "least.h"
 
-/* SCAN sets are solved for the starts: 64 find the valley of three constants; more cost more than a further start.
- * STEP is that of differences in the logarithm: at 1e-3 truncation and the solver's 1e-6 both stay near 1e-3 of them.
- * ROUGH and FINE: iterations of a fit from a start and of the last one from the best. Most need five. Two starts that end
- * with sums alike within ALIKE have found the same valley: the others are left out. */
-enum { SCAN = 64, ROUGH = 8, FINE = 40 };
-static const double STEP = 1e-3, ALIKE = 1e-2;
+/* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. STEPS of a local
+ * fit and ROUNDS of the last one; most need eight and two. Starts whose sums are alike within ALIKE have found the same
+ * valley: the others are left out. */
+enum { SCAN = 16, MOST_SCAN = 64, STEPS = 20, ROUNDS = 8 };
+static const double ALIKE = 1e-2;
 
-/* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. */
-static const double COARSE = 1e-4, PRECISE = 1e-6;
+/* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends when its sum changes by
+ * less than the last part: 1e-5 of 20 squares is 0.015 standard deviations of a constant. */
+static const double COARSE[] = {1e-4, 1e-3}, PRECISE[] = {1e-6, 1e-5};
 
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
                           size_t starts, struct rst_fit_search *s)
@@ -28,7 +28,8 @@ int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model 
     s->start = calloc(starts * model->free + 1, sizeof *s->start);
     s->sets = calloc(sets * model->count, sizeof *s->sets);
     s->values = calloc(sets * data->n, sizeof *s->values);
-    if (s->start && s->sets && s->values) return RESTITUTE_OK;
+    s->r = calloc(data->rows, sizeof *s->r);
+    if (s->start && s->sets && s->values && s->r) return RESTITUTE_OK;
     rst_fit_search_release(s);
     return RESTITUTE_ERROR_MEMORY;
 }
@@ -38,13 +39,13 @@ void rst_fit_search_release(struct rst_fit_search *s)
     free(s->start);
     free(s->sets);
     free(s->values);
+    free(s->r);
     *s = (struct rst_fit_search){0};
 }
 
-static double weighted(const struct rst_fit_search *s, size_t row, size_t set)
+static double residual(const struct rst_fit_search *s, size_t row, size_t set)
 {
-    const struct rst_fit_row *r = &s->data->row[row];
-    return sqrt(s->weight[row]) * rst_fit_residual(r, &s->values[set * s->data->n + r->point]);
+    return (s->weight ? sqrt(s->weight[row]) : 1) * rst_fit_residual(s->data, row, s->values + set * s->data->n);
 }
 
 static int residuals(void *own, const double *x, double *r)
@@ -53,89 +54,97 @@ static int residuals(void *own, const double *x, double *r)
     rst_fit_constants(&s->model, x, s->sets);
     const int status = rst_fit_solve(s->data, &s->model, 1, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
-        r[i] = weighted(s, i, 0);
+        r[i] = residual(s, i, 0);
     return status;
 }
 
-static int jacobian(void *own, const double *x, double *j)
+/* Differences: their truncation grows with the step, the impacts' own error falls; both are the step's size here. */
+static int jacobian(void *own, const double *x, const double *r, double *j)
 {
     struct rst_fit_search *s = own;
     const size_t p = s->model.free;
+    const double step = sqrt(s->data->solver.tolerance);
     double moved[RESTITUTE_FIT_CONSTANTS];
-    for (size_t k = 0; k <= p; k++) { /* the last set is x itself */
+    for (size_t k = 0; k < p; k++) {
         memcpy(moved, x, p * sizeof *x);
-        if (k < p) moved[k] += STEP;
+        moved[k] += step;
         rst_fit_constants(&s->model, moved, s->sets + k * s->model.count);
     }
-    const int status = rst_fit_solve(s->data, &s->model, p + 1, s->sets, s->values);
+    const int status = rst_fit_solve(s->data, &s->model, p, s->sets, s->values);
     for (size_t i = 0; i < s->data->rows; i++)
         for (size_t k = 0; k < p; k++) {
-            const double rise = weighted(s, i, k) - weighted(s, i, p);
-            j[i * p + k] = fabs(rise) < 100 ? rise / STEP : 0; /* one of them was not solved */
+            const double rise = residual(s, i, k) - r[i];
+            j[i * p + k] = fabs(rise) < 100 ? rise / step : 0; /* one of them was not solved */
         }
     return status;
 }
 
-/* The SCAN points as sums of squares and constants; the sequence is shifted by the seed, modulo 1. */
-static int solve_scan(struct rst_fit_search *s, gsl_qrng *sequence, double *sums, double *logs)
+static int solve_sum(struct rst_fit_search *s, const double *x, double *sum)
+{
+    const int status = residuals(s, x, s->r);
+    *sum = 0;
+    for (size_t i = 0; i < s->data->rows; i++)
+        *sum += s->r[i] * s->r[i];
+    return status;
+}
+
+int rst_fit_choose(struct rst_fit_search *s, size_t sets, const double *logs)
+{
+    const size_t p = s->model.free;
+    double sums[MOST_SCAN];
+    size_t order[MOST_SCAN];
+    int status = RESTITUTE_OK;
+    s->data->solver.tolerance = COARSE[0];
+    for (size_t i = 0; i < sets && status >= 0; i++)
+        status = solve_sum(s, logs + i * p, &sums[i]);
+    if (status < 0) return status;
+    gsl_sort_index(order, sums, 1, sets);
+    for (size_t i = 0; i < s->starts; i++)
+        memcpy(s->start + i * p, logs + order[i % sets] * p, p * sizeof *logs);
+    return status;
+}
+
+/* The sequence is shifted by the seed, modulo 1. */
+int rst_fit_scan(struct rst_fit_search *s)
 {
     const struct rst_fit_model *m = &s->model;
+    const size_t p = m->free, sets = SCAN * p < MOST_SCAN ? SCAN * p : MOST_SCAN;
     uint64_t state = s->data->options.seed;
-    double at[RESTITUTE_FIT_CONSTANTS], offset[RESTITUTE_FIT_CONSTANTS];
-    int status = RESTITUTE_OK;
-    for (size_t k = 0; k < m->free; k++) {
+    double at[RESTITUTE_FIT_CONSTANTS], offset[RESTITUTE_FIT_CONSTANTS], logs[MOST_SCAN * RESTITUTE_FIT_CONSTANTS];
+    if (p == 0) return RESTITUTE_OK;
+    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)p);
+    if (!sequence) return RESTITUTE_ERROR_MEMORY;
+    for (size_t k = 0; k < p; k++) {
         state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         offset[k] = (double)(state >> 11) * 0x1p-53;
     }
-    for (size_t i = 0; i < SCAN && status >= 0; i++) {
-        double *x = logs + i * m->free;
+    for (size_t i = 0; i < sets; i++) {
         gsl_qrng_get(sequence, at);
-        for (size_t k = 0; k < m->free; k++)
-            x[k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
-        rst_fit_constants(m, x, s->sets);
-        status = rst_fit_solve(s->data, m, 1, s->sets, s->values);
-        for (size_t r = 0; r < s->data->rows; r++)
-            sums[i] += pow(weighted(s, r, 0), 2);
+        for (size_t k = 0; k < p; k++)
+            logs[i * p + k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
     }
-    return status;
-}
-
-int rst_fit_scan(struct rst_fit_search *s)
-{
-    const size_t p = s->model.free;
-    if (p == 0) return RESTITUTE_OK;
-    double *sums = calloc(SCAN + SCAN * p, sizeof *sums);
-    size_t order[SCAN];
-    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)p);
-    s->data->solver.tolerance = COARSE;
-    int status = sums && sequence ? solve_scan(s, sequence, sums, sums + SCAN) : RESTITUTE_ERROR_MEMORY;
-    if (status >= 0) {
-        gsl_sort_index(order, sums, 1, SCAN);
-        for (size_t i = 0; i < s->starts; i++)
-            memcpy(s->start + i * p, sums + SCAN + order[i % SCAN] * p, p * sizeof *sums);
-    }
-    if (sequence) gsl_qrng_free(sequence);
-    free(sums);
-    return status;
+    gsl_qrng_free(sequence);
+    return rst_fit_choose(s, sets, logs);
 }
 
 /* A fit from x; kept if it is better than what is there. */
-static int fit_from(struct rst_fit_search *s, double *x, int most, double tolerance, double settled)
+static int fit_from(struct rst_fit_search *s, double *x, int rounds, const double level[2])
 {
     const struct rst_least least = {.rows = s->data->rows,
                                     .unknowns = s->model.free,
                                     .residuals = residuals,
                                     .jacobian = jacobian,
                                     .own = s,
-                                    .most = most,
-                                    .exact = 0.01 * (double)s->data->rows * tolerance * tolerance,
-                                    .settled = settled};
+                                    .most = STEPS,
+                                    .rounds = rounds,
+                                    .exact = 0.01 * (double)s->data->rows * level[0] * level[0],
+                                    .settled = level[1]};
     double sum = INFINITY;
     int converged = 0;
-    s->data->solver.tolerance = tolerance;
+    s->data->solver.tolerance = level[0];
     const int status = rst_fit_minimise(&least, x, &sum, &converged);
     if (status < 0) return status;
-    s->agreed = converged && fabs(sum - s->sum) <= ALIKE * sum + least.exact;
+    s->agreed = sum < least.exact || (converged && fabs(sum - s->sum) <= ALIKE * sum);
     if (sum < s->sum) {
         s->sum = sum;
         s->converged = converged;
@@ -147,30 +156,24 @@ static int fit_from(struct rst_fit_search *s, double *x, int most, double tolera
 int rst_fit_local(struct rst_fit_search *s, size_t start)
 {
     if (s->agreed || s->model.free == 0) return RESTITUTE_OK;
-    return fit_from(s, s->start + start * s->model.free, ROUGH, COARSE, 1e-3);
+    return fit_from(s, s->start + start * s->model.free, 1, COARSE);
 }
 
 int rst_fit_again(struct rst_fit_search *s)
 {
-    double x[RESTITUTE_FIT_CONSTANTS], *r;
+    double x[RESTITUTE_FIT_CONSTANTS];
     memcpy(x, s->logs, sizeof x);
-    s->sum = INFINITY;
-    if (s->model.free) return fit_from(s, x, FINE, PRECISE, 1e-5);
-    int status = RESTITUTE_ERROR_MEMORY; /* nothing to fit: the sum alone */
-    if ((r = malloc(s->data->rows * sizeof *r))) status = residuals(s, x, r);
-    s->sum = 0, s->converged = 1;
-    for (size_t i = 0; r && i < s->data->rows; i++)
-        s->sum += r[i] * r[i];
-    free(r);
+    s->sum = INFINITY, s->converged = 1;
+    s->data->solver.tolerance = PRECISE[0];
+    return s->model.free ? fit_from(s, x, ROUNDS, PRECISE) : solve_sum(s, x, &s->sum);
+}
+
+int rst_fit_linearise(struct rst_fit_search *s, double *j)
+{
+    const double *weight = s->weight;
+    s->weight = NULL;
+    int status = residuals(s, s->logs, s->r);
+    if (status >= 0 && j && s->model.free) status = jacobian(s, s->logs, s->r, j);
+    s->weight = weight;
     return status;
-}
-
-int rst_fit_residuals(struct rst_fit_search *s, double *r)
-{
-    return residuals(s, s->logs, r);
-}
-
-int rst_fit_jacobian(struct rst_fit_search *s, double *j)
-{
-    return jacobian(s, s->logs, j);
 }

@@ -1,4 +1,4 @@
-/* Searching the constants of one model, and what the residuals say about them.
+/* Searching the constants of one model, what the residuals say about them, and that in plain words.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_FIT_SEARCH_H
 #define RST_FIT_SEARCH_H
@@ -9,31 +9,32 @@
 struct rst_fit_search {
     struct rst_fit_data *data;
     struct rst_fit_model model;
-    const double *weight; /* of the rows, for the robust losses */
+    const double *weight; /* of the rows, for the robust losses; NULL: 1 */
     size_t starts;
     double *start; /* starts x free, the best of the scan */
     double *sets;  /* constants of the sets that are solved together */
     struct rst_fit_values *values;
+    double *r;                            /* residuals at the best, without the weights */
     double logs[RESTITUTE_FIT_CONSTANTS]; /* the best */
-    double sum;                           /* of its squared residuals; infinite before the first start */
+    double sum;                           /* of its weighted squared residuals; infinite before the first start */
     int converged;
-    int agreed; /* two starts came to the same sum */
+    int agreed; /* two starts came to the same sum, or one to the impacts' precision */
 };
 
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
                           size_t starts, struct rst_fit_search *search);
 void rst_fit_search_release(struct rst_fit_search *search);
 
-/* Solve quasi-random sets of constants and keep the best as starts; then a local fit from one of them. */
+/* Solve sets of logarithms, and keep the best as starts; the quasi-random ones; then a local fit from a start. */
+int rst_fit_choose(struct rst_fit_search *search, size_t sets, const double *logs);
 int rst_fit_scan(struct rst_fit_search *search);
 int rst_fit_local(struct rst_fit_search *search, size_t start);
 
 /* Again from the best, precisely: at the end, and after the weights changed. */
 int rst_fit_again(struct rst_fit_search *search);
 
-/* Weighted residuals at the best, and their derivatives by the logarithms: rows x free. */
-int rst_fit_residuals(struct rst_fit_search *search, double *r);
-int rst_fit_jacobian(struct rst_fit_search *search, double *j);
+/* Residuals at the best; and their derivatives by the logarithms, rows x free, unless j is NULL. No weights. */
+int rst_fit_linearise(struct rst_fit_search *search, double *j);
 
 /* What the linearised problem says. Directions are those of the logarithms of the fitted constants. */
 struct rst_fit_certainty {
@@ -50,5 +51,13 @@ int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *c
 
 /* Weights of a robust loss from residuals at the best, and the largest change of a weight. */
 int rst_fit_reweigh(struct rst_fit_search *search, double *weight, double *change);
+
+/* Remarks: what the data leave open, a pattern in the residuals, limits of the contact model. */
+int rst_fit_remarks(struct rst_fit_search *search, const struct rst_fit_certainty *certainty,
+                    restitute_fit_result *result);
+
+/* The model beside a rival: as good with fewer constants, or worse than one with more. */
+void rst_fit_remark_rival(const struct rst_fit_search *search, const struct rst_fit_certainty *certainty,
+                          const struct rst_fit_search *rival, restitute_fit_result *result);
 
 #endif

@@ -235,6 +235,29 @@ static void many_points_are_interpolated(void **state)
     }
 }
 
+/* With e_x every point has its own impact; the starts are found from a hundred of these. Four angles at each speed. */
+static void many_angles(void **state)
+{
+    enum { MANY = 200 };
+    static restitute_fit_point points[MANY];
+    restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    (void)state;
+    for (size_t k = 0; k < 4; k++)
+        drops(MANY / 4, 0.01, 1, points + k * MANY / 4);
+    for (size_t i = 0; i < MANY; i++) {
+        points[i].scene.friction = NAN;
+        points[i].scene.tangential_speed = (0.3 + 0.5 * (double)(4 * i / MANY)) * points[i].scene.normal_speed;
+    }
+    measure(solid, MANY, points, 0, 1, 1, 1);
+    restitute_fit_result r = fitted(MANY, points, &options);
+    CHECK_NEAR(r.value[0] / 1e6, 1, 1e-4, "G1");
+    CHECK_NEAR(r.value[3], 0.3, 1e-4, "friction");
+    CHECK(r.impacts < 150 * MANY, "%d impacts", (int)r.impacts);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(solid);
+}
+
 /* A contact has no end where e falls to 0, so that no polynomial follows its time there: e begins below 0.01. */
 static void times_of_slow_rebounds_are_not_interpolated(void **state)
 {
@@ -402,6 +425,7 @@ int main(void)
                                        cmocka_unit_test(a_wrong_model_is_called_wrong),
                                        cmocka_unit_test(robust_losses_bear_outliers),
                                        cmocka_unit_test(many_points_are_interpolated),
+                                       cmocka_unit_test(many_angles),
                                        cmocka_unit_test(times_of_slow_rebounds_are_not_interpolated),
                                        cmocka_unit_test(spheres_partners_and_friction),
                                        cmocka_unit_test(temperatures),

@@ -22,10 +22,9 @@ solid="--modulus1 1e6 --modulus2 3e6 --viscosity 300"
 expect 0 pair $solid $ball --friction 0 --grid speed=0.001:1:12:log --method sync --tolerance 1e-7 --output made.csv
 awk -F, 'NR == 1 { print "speed_m_s,ez,contact_time_s" } NR > 1 { print $1 "," $2 "," $4 }' made.csv >drop.csv
 head -n 1 made.csv | grep -q '^speed_m_s,ez,ex,contact_time,' || fail "columns of pair have changed"
-expect 0 fit --input drop.csv $ball --output solid.json --format json
+expect 0 fit --input drop.csv $ball --output solid.json
 near "$(sed -n 's/.*"modulus2_pa": \([0-9.]*\).*/\1/p' solid.json)" 3e6 300
-has out '"name": "modulus2_pa"' '"correlation"' '"remarks"'
-has solid.json.meta.json '"fit"' '"low"' 'drop.csv'
+has solid.json.meta.json '"fit"' '"name": "modulus2_pa"' '"low"' '"correlation"' '"remarks"' 'drop.csv'
 expect 0 pair --material solid.json $ball --friction 0 --velocity 0.1 --method sync --tolerance 1e-6 --format csv
 ez=$(value out ez)
 expect 0 pair $solid $ball --friction 0 --velocity 0.1 --method sync --tolerance 1e-6 --format csv
@@ -93,13 +92,13 @@ bad 'column speed_m_s (or drop_height_m) is missing' ez 0.4 0.5 0.6
 bad 'unknown column "speed"; known are' speed,ez 1,0.4 2,0.4 3,0.4
 bad '2 measured values are fewer than the 3 constants' speed_m_s,ez 1,0.4 2,0.4
 bad 'contact times or known constants call for a modulus' speed_m_s,ez,contact_time_s 1,0.5,1e-90 2,0.4,1e-90
-bad 'row 2): nothing is measured' speed_m_s,ez 1,0.4 2, 3,0.4
+bad 'row 2): ez, ex or contact_time must be measured' speed_m_s,ez 1,0.4 2, 3,0.4
 bad 'row 1): rebound_height_m = 2' drop_height_m,rebound_height_m 1,2 2,1 2,1
 bad 'row 1): column radius1_m and option' speed_m_s,ez,radius1_m 1,0.4,1 2,0.4,1 3,0.3,1
 printf 'frequency_Hz,storage_Pa\n1,2\n' >bad.csv
 refused 'column loss_Pa is missing' fit --dma bad.csv
 printf 'frequency_Hz,storage_Pa,loss_Pa\n1,2,3\n2,3,-4\n3,4,5\n' >bad.csv
-refused 'line 3 (row 2): loss_Pa = -4' fit --dma bad.csv
+refused 'line 3 (row 2): loss = -4' fit --dma bad.csv
 refused 'give --input' fit
 refused '--model: not with --dma' fit --dma curve.csv --model elastic
 refused '--radius: not with --dma' fit --dma curve.csv --radius 1

@@ -186,6 +186,15 @@ static void master_curve(void **state)
     r = fit_curve(&c, c.temperature, &options);
     CHECK(r.flags & RESTITUTE_FIT_MISFIT, "rms %g", r.rms);
     restitute_material_destroy(r.material);
+    struct curve gap = {0}; /* a decade each, six decades apart */
+    read_series(&gap);
+    for (int i = 0; i < 12; i++) {
+        gap.temperature[gap.n] = i < 6 ? 25 : -60;
+        add_row(&gap, pow(10, 0.2 * (i % 6)), i < 6 ? 1 : 2e6, 0, &seed);
+    }
+    r = fit_curve(&gap, gap.temperature, NULL);
+    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && strstr(r.remarks, "do not overlap"), "%s", r.remarks);
+    restitute_material_destroy(r.material);
 }
 
 /* Three rows carry six unknowns, of which the grid of the first fit has more. */

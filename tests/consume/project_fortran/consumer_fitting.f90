@@ -2,7 +2,7 @@
 !> A Fortran user's program: a modulus from the contact times of an elastic ball, in one call and in pieces, and a series of
 !> one term from its moduli. Exit status 0 if all is what it should be.
 program consumer_fitting
-  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_sizeof
   use restitute
   use restitute_fitting
   implicit none (type, external)
@@ -12,24 +12,24 @@ program consumer_fitting
   type(restitute_fit_result) :: result, again
   type(restitute_dma_options) :: dma
   type(restitute_dma_result) :: series
-  type(restitute_fitter) :: fitter
+  type(c_ptr) :: fitter
   type(restitute_error) :: error
   real(rk) :: done, x(9)
   integer :: i
   logical :: good
-  points = restitute_fit_point()
   do i = 1, size(points) ! contact times fall with speed^(-1/5)
+    call restitute_fit_point_init(points(i))
     points(i)%scene%radius1 = 0.005_rk
     points(i)%scene%mass1 = 0.004_rk
     points(i)%scene%normal_speed = 0.1_rk * i
     points(i)%contact_time = 3e-3_rk * real(i, rk)**(-0.2_rk)
   end do
-  options = restitute_fit_options()
+  call restitute_fit_options_init(options)
   options%model = RESTITUTE_FIT_ELASTIC
-  result = restitute_fit_result()
-  again = restitute_fit_result()
-  series = restitute_dma_result()
-  dma = restitute_dma_options()
+  call restitute_fit_result_init(result)
+  call restitute_fit_result_init(again)
+  call restitute_dma_result_init(series)
+  call restitute_dma_options_init(dma)
   good = same_size(c_sizeof(points(1)), points(1)%struct_size) .and. same_size(c_sizeof(options), options%struct_size) &
     .and. same_size(c_sizeof(result), result%struct_size) .and. same_size(c_sizeof(series), series%struct_size) &
     .and. same_size(c_sizeof(dma), dma%struct_size)
