@@ -24,6 +24,8 @@ static const double rst_part_of_axis = 0.4;
 static const double rst_margin = 1.7;
 /* Cells that miss more than this part of the worst are compared again at other places. */
 static const double rst_look_again = 0.85;
+/* So many places of a check are those where the table's own values say that cubics fit worst. */
+enum { rst_doubtful = 4 };
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
@@ -31,6 +33,8 @@ static const double rst_narrowest = 0x1p-10;
 enum { rst_probes = 5 };
 /* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
 enum { rst_finest = 4 };
+/* So many middles of these tell what they leave. */
+enum { rst_last_probes = 3 };
 /* What refinement leaves of the impacts for the checks. */
 static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
@@ -43,6 +47,7 @@ struct rst_column {
     int64_t cells[2];
     double *g[2];    /* [cells + 1] */
     double solver;   /* largest estimated error of ex */
+    double by_psi;   /* what its cubics miss, if it has the most cells; else 0 */
     int64_t impacts; /* that it took */
     /* of the cell above: */
     double missed;   /* by how much its parent missed this or the next column */
@@ -101,23 +106,28 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
 /* Slope at i of cells + 1 even values, by i. */
 double rst_even_slope(const double *f, int64_t cells, int64_t i);
 
-/* What gives values at x in [0, 1] of a panel, how well cubics are to meet them, and the most cells. */
+/* What gives values at x in [0, 1] of a panel, how well e_x of the cubics is to meet them, and the most cells. */
 struct rst_places {
     int (*solve)(void *of, double x, double *g);
     void *of;
+    double share; /* psi = 1 + share y where g = psi e_x - y e_z; else 0 */
     double enough;
     int64_t most;
+    double missed; /* by the last cubics: above enough if there are the most cells */
 };
 
 /* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled
  * by polynomials of degree 7. */
-int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places);
+int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places);
 
 /* Halve the cells once, all by polynomials. */
 int rst_panel_fill(double **g, int64_t *cells);
 
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);
+
+/* What finer cells of speed cannot mend between columns i and i + 1, as a stated error. */
+double rst_left_by_psi(const struct rst_builder *b, int64_t i);
 
 /* The table of the columns (make.c). */
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error);

@@ -78,27 +78,44 @@ static int64_t most_doubtful(const struct middle *m, int64_t n)
 /* At the ends of a panel slopes and polynomials are one-sided, and tell less of what they miss. */
 static const double one_sided = 10;
 
-/* Solve middles until those most in doubt are met by the cubics. Where cubic and polynomial differ the cell is in doubt; of a
- * kink both miss much more, so that this alone tells too little. */
-static int probe(const double *f, int64_t n, struct middle *m, const struct rst_places *of, int *missed)
+/* How much cubic and polynomial differ in cell i and beside it. With a kink in its middle they meet there, but not beside it. */
+static double doubt(const double *f, int64_t n, int64_t i)
+{
+    double sum = 0;
+    for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
+        sum += fabs(middle_of(f, n, k) - cubic_of(f, n, k));
+    return sum;
+}
+
+/* psi in the middle of cell i of n, if g is psi e_x there. */
+static double weight(const struct rst_places *of, int64_t i, int64_t n)
+{
+    return 1 + of->share * rst_panel_y(((double)i + 0.5) / (double)n);
+}
+
+/* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
+ * than they differ, so that doubt alone tells too little. */
+static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of)
 {
     int good = 0, status = RESTITUTE_OK;
-    *missed = 0;
+    of->missed = 0;
     for (int64_t i = 0; i < n; i++) {
         m[i].value = middle_of(f, n, i);
-        m[i].mark = fabs(m[i].value - cubic_of(f, n, i)) * (i == 0 || i == n - 1 ? one_sided : 1);
+        m[i].mark = doubt(f, n, i) * (i == 0 || i == n - 1 ? one_sided : 1) / weight(of, i, n);
     }
-    for (int64_t tries = 0; tries < n && !status; tries++) {
+    for (int64_t tries = 0; tries < most && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
         if (good >= rst_probes && !isinf(m[i].mark)) break;
         status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
         m[i].mark = -1;
-        if (fmax(fabs(m[i].value - cubic_of(f, n, i)), fabs(m[i].value - middle_of(f, n, i))) <= of->enough) {
+        const double by_cubic = fabs(m[i].value - cubic_of(f, n, i)), by_polynomial = fabs(m[i].value - middle_of(f, n, i));
+        const double miss = fmax(by_cubic, by_polynomial) / weight(of, i, n);
+        of->missed = fmax(of->missed, miss);
+        if (miss <= of->enough) {
             good++;
             continue;
         }
         good = 0;
-        *missed = 1;
         if (i > 0 && m[i - 1].mark >= 0) m[i - 1].mark = INFINITY;
         if (i + 1 < n && m[i + 1].mark >= 0) m[i + 1].mark = INFINITY;
     }
@@ -127,14 +144,16 @@ int rst_panel_fill(double **g, int64_t *cells)
     return join(g, cells, NULL);
 }
 
-int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places)
+int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places)
 {
-    int missed = 1, status = RESTITUTE_OK;
-    while (missed && !status && 2 * *cells <= places->most) {
+    int finer = 1, status = RESTITUTE_OK;
+    while (finer && !status) {
+        const int last = 2 * *cells > places->most;
         struct middle *m = malloc((size_t)*cells * sizeof *m);
         if (!m) return RESTITUTE_ERROR_MEMORY;
-        status = probe(*g, *cells, m, places, &missed);
-        if (missed && !status) status = join(g, cells, m);
+        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, places);
+        finer = places->missed > places->enough && !last;
+        if (finer && !status) status = join(g, cells, m);
         free(m);
     }
     return status;

@@ -49,17 +49,25 @@ static double miss(const struct rst_builder *b, int64_t i, const struct rst_colu
             for (int side = 0; side < 2; side++)
                 for (int k = 0; k < s[side].n; k++)
                     sum += x[1 + 2 * side] * width * s[side].w[k] * value(&o[s[side].first + k], panel, n, j);
-            worst = fmax(worst, fabs(sum - value(c, panel, n, j)));
+            const double psi = panel == 1 ? rst_psi_at(b, 1, (double)j / (double)n, c->normal.ez) : 1; /* g is psi e_x */
+            worst = fmax(worst, fabs(sum - value(c, panel, n, j)) / psi);
         }
     }
     return worst;
 }
 
+double rst_left_by_psi(const struct rst_builder *b, int64_t i)
+{
+    return rst_margin * fmax(b->column[i].by_psi, b->column[i + 1].by_psi);
+}
+
+/* More columns help neither against the solver's error nor against what psi leaves. */
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
     if (c->speed >= b->options.speed[1] || c[1].at - c->at <= 2 * rst_narrowest) return 0;
-    return !(c->normal.sunk && c[1].normal.sunk) && c->by_speed > fmax(c->solver, c[1].solver);
+    return !(c->normal.sunk && c[1].normal.sunk) &&
+           c->by_speed > fmax(fmax(c->solver, c[1].solver), rst_part_of_axis * rst_left_by_psi(b, i));
 }
 
 /* What is expected of both halves of a cell. */

@@ -49,8 +49,10 @@ static int solve_panel(struct place *p)
     if (p->panel) (*g)[0] = c->g[0][c->cells[0]];
     for (int64_t i = p->panel; i <= *cells - p->panel && !status; i++)
         status = solve_place(p, (double)i / (double)*cells, *g + i);
-    const struct rst_places places = {solve_place, p, rst_part_of_axis * b->options.tolerance, rst_finest * *cells};
+    const double share = p->panel ? rst_share(b->contact.numbers.chi) * (1 + c->normal.ez) : 0;
+    struct rst_places places = {solve_place, p, share, rst_part_of_axis * b->options.tolerance, rst_finest * *cells, 0};
     if (!status && *cells > 1) status = rst_panel_refine(g, cells, &places);
+    if (places.missed > places.enough) c->by_psi = fmax(c->by_psi, places.missed);
     return status;
 }
 
@@ -133,8 +135,10 @@ static int fill_panels(struct rst_builder *b)
         for (int64_t i = 0; i < b->columns; i++)
             if (b->column[i].cells[k] > b->cells[k]) b->cells[k] = b->column[i].cells[k];
         for (int64_t i = 0; i < b->columns; i++)
-            while (!status && b->column[i].cells[k] < b->cells[k])
+            while (!status && b->column[i].cells[k] < b->cells[k]) {
                 status = rst_panel_fill(&b->column[i].g[k], &b->column[i].cells[k]);
+                b->column[i].checked[0] = b->column[i].checked[1] = -1; /* to be compared again */
+            }
     }
     return status;
 }
