@@ -23,7 +23,8 @@ static const double rst_part_of_axis = 0.4;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.7;
 /* Cells that miss more than this part of the worst are compared again at other places. */
-static const double rst_look_again = 0.85;
+static const double rst_look_again = 0.7;
+enum { rst_looks = 3 };
 /* So many places of a check are those where the table's own values say that cubics fit worst. */
 enum { rst_doubtful = 4 };
 /* Cells are not narrower than this, in s. */
@@ -40,7 +41,12 @@ static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;
 
-/* psi has two panels: 0 stick, 1 slip. */
+/* psi has two panels: 0 stick, 1 slip; x in [0, 1]. */
+struct rst_place {
+    int panel;
+    double x;
+};
+
 struct rst_column {
     double speed, at; /* m/s; s */
     struct rst_column_normal normal;
@@ -53,6 +59,7 @@ struct rst_column {
     double missed;   /* by how much its parent missed this or the next column */
     double by_speed; /* its estimated error */
     double checked[2]; /* differences in ez and ex of the last check; negative: none yet */
+    struct rst_place worst; /* of ex */
 };
 
 /* A column to be solved. */

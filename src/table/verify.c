@@ -17,7 +17,8 @@ static double part(double x)
 /* What one speed says. */
 struct check {
     double speed, ez, ex; /* largest differences, with what the solver leaves open */
-    int64_t cell, doubtful[rst_doubtful]; /* of speed; of psi, lower ends */
+    int64_t cell;         /* of speed */
+    struct rst_place doubtful[rst_doubtful], worst; /* of psi: where cubics may fit worst, and where they did */
     int status;
     restitute_error why;
 };
@@ -53,9 +54,10 @@ static double doubt_of_node(const struct rst_builder *b, const struct rst_table_
     return slips ? doubt / rst_psi_at(b, 1, (double)p / (double)b->cells[1], c->normal.ez) : doubt;
 }
 
-/* The cells of psi that are most in doubt between speeds i and i + 1; not beside each other. */
-static void find_doubtful(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, int64_t *cell)
+/* The middles of the cells of psi that are most in doubt between speeds i and i + 1; not beside each other. */
+static void find_doubtful(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, struct rst_place *place)
 {
+    int64_t cell[rst_doubtful] = {0};
     for (int k = 0; k < rst_doubtful; k++) {
         double most = -1;
         for (int64_t j = 0; j + 1 < rst_places(d); j++) {
@@ -68,19 +70,27 @@ static void find_doubtful(const struct rst_builder *b, const struct rst_table_da
                 doubt += doubt_of_node(b, d, i + corner / 2, j + corner % 2);
             if (doubt > most) most = doubt, cell[k] = j;
         }
+        const int panel = cell[k] > d->stick_cells;
+        const int64_t in_panel = cell[k] - panel * (d->stick_cells + 1);
+        place[k] = (struct rst_place){panel, ((double)in_panel + 0.5) / (double)b->cells[panel]};
+    }
+}
+
+/* Places around the one that was worst, half a cell apart. */
+static void find_around(const struct rst_builder *b, struct rst_place worst, struct rst_place *place)
+{
+    for (int k = 0; k < rst_doubtful; k++) {
+        const double cells = 0.5 * (k - rst_doubtful / 2 + (k >= rst_doubtful / 2));
+        place[k] = (struct rst_place){worst.panel, fmin(1, fmax(0, worst.x + cells / (double)b->cells[worst.panel]))};
     }
 }
 
 /* Some places are those in doubt, the others fill the panels evenly: a third of them the stick panel, which is smooth. */
-static double psi_of(const struct rst_builder *b, const struct check *c, int64_t i, int64_t seed, double ez)
+static struct rst_place place_of(const struct check *c, int64_t i, int64_t seed)
 {
-    if (i < rst_doubtful) {
-        const int panel = c->doubtful[i] > b->cells[0];
-        const double cell = (double)(c->doubtful[i] - panel * (b->cells[0] + 1));
-        return rst_psi_at(b, panel, (cell + 0.5) / (double)b->cells[panel], ez);
-    }
+    if (i < rst_doubtful) return c->doubtful[i];
     i -= rst_doubtful;
-    return rst_psi_at(b, i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed), ez);
+    return (struct rst_place){i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed)};
 }
 
 /* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
@@ -110,12 +120,14 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
     c->ez = fabs(pair.ez - normal.ez) + normal.error;
     for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
-        const double psi = b->contact.sliding == RST_SLIDES ? psi_of(b, c, i, c->cell + 7 * w->round, normal.ez) : 0;
+        const struct rst_place place = place_of(c, i, c->cell + 7 * w->round);
+        const double psi = b->contact.sliding == RST_SLIDES ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
         double ex, error_ex;
         status = rst_column_solve(s, psi, &ex, &error_ex, &c->why);
         if (status < 0) break;
         rst_table_evaluate(w->table, c->speed, psi, 1, &pair);
-        c->ex = fmax(c->ex, fabs(pair.ex - ex) + error_ex);
+        const double miss = fabs(pair.ex - ex) + error_ex;
+        if (miss > c->ex) c->ex = miss, c->worst = place;
     }
     return status;
 }
@@ -135,10 +147,13 @@ static int64_t plan(const struct rst_builder *b, const restitute_table *table, i
         const struct rst_column *c = &b->column[i];
         const int again = fmax(c->checked[0], c->checked[1]) > least;
         if (!(c[1].at > c->at) || (least > 0 ? !again : c->checked[0] >= 0)) continue;
-        const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
+        const double u = 0.3 + 0.4 * part(0.5 + plastic * (double)(i + 3 * round));
         const double speed = rst_axis_speed(c->at + u * (c[1].at - c->at));
         check[n] = (struct check){.speed = fmin(speed, b->options.speed[1]), .cell = i}; /* of one speed: that */
-        find_doubtful(b, restitute_private_table_data(table), i, check[n++].doubtful);
+        if (least > 0)
+            find_around(b, c->worst, check[n++].doubtful);
+        else
+            find_doubtful(b, restitute_private_table_data(table), i, check[n++].doubtful);
     }
     return n;
 }
@@ -155,7 +170,7 @@ static int look(struct rst_builder *b, const restitute_table *table, int round, 
         struct rst_column *c = &b->column[w.check[i].cell];
         if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
         c->checked[0] = fmax(c->checked[0], w.check[i].ez);
-        c->checked[1] = fmax(c->checked[1], w.check[i].ex);
+        if (w.check[i].ex > c->checked[1]) c->checked[1] = w.check[i].ex, c->worst = w.check[i].worst;
     }
     free(w.check);
     b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
@@ -174,8 +189,9 @@ static double worst_of(const struct rst_builder *b)
 
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
 {
-    int status = look(b, table, 2 * round, 0, error);
-    if (!status) status = look(b, table, 2 * round + 1, rst_look_again * worst_of(b), error);
+    int status = look(b, table, rst_looks * round, 0, error);
+    for (int k = 1; k < rst_looks && !status; k++)
+        status = look(b, table, rst_looks * round + k, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;
     for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
