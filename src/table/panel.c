@@ -75,16 +75,19 @@ static int64_t most_doubtful(const struct middle *m, int64_t n)
     return most;
 }
 
-/* At the ends of a panel slopes and polynomials are one-sided, and tell less of what they miss. */
-static const double one_sided = 10;
+/* How much cubic and polynomial differ in cell i. */
+static double differ(const double *f, int64_t n, int64_t i)
+{
+    return fabs(middle_of(f, n, i) - cubic_of(f, n, i));
+}
 
-/* How much cubic and polynomial differ in cell i and beside it. With a kink in its middle they meet there, but not beside it. */
+/* The same in cell i and beside it: with a kink in its middle they meet there, but not beside it. At the ends of a panel slopes and
+ * polynomials are one-sided, and tell less of what they miss. */
 static double doubt(const double *f, int64_t n, int64_t i)
 {
-    double sum = 0;
-    for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
-        sum += fabs(middle_of(f, n, k) - cubic_of(f, n, k));
-    return sum;
+    const double one_sided = 10;
+    if (i == 0 || i == n - 1) return one_sided * differ(f, n, i);
+    return differ(f, n, i) + (i > 1 ? differ(f, n, i - 1) : 0) + (i < n - 2 ? differ(f, n, i + 1) : 0);
 }
 
 /* psi in the middle of cell i of n, if g is psi e_x there. */
@@ -97,11 +100,12 @@ static double weight(const struct rst_places *of, int64_t i, int64_t n)
  * than they differ, so that doubt alone tells too little. */
 static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of)
 {
+    const double beside_good = 0.1; /* other folds come first */
     int good = 0, status = RESTITUTE_OK;
     of->missed = 0;
     for (int64_t i = 0; i < n; i++) {
         m[i].value = middle_of(f, n, i);
-        m[i].mark = doubt(f, n, i) * (i == 0 || i == n - 1 ? one_sided : 1) / weight(of, i, n);
+        m[i].mark = doubt(f, n, i) / weight(of, i, n);
     }
     for (int64_t tries = 0; tries < most && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
@@ -111,13 +115,9 @@ static int probe(const double *f, int64_t n, struct middle *m, int64_t most, str
         const double by_cubic = fabs(m[i].value - cubic_of(f, n, i)), by_polynomial = fabs(m[i].value - middle_of(f, n, i));
         const double miss = fmax(by_cubic, by_polynomial) / weight(of, i, n);
         of->missed = fmax(of->missed, miss);
-        if (miss <= of->enough) {
-            good++;
-            continue;
-        }
-        good = 0;
-        if (i > 0 && m[i - 1].mark >= 0) m[i - 1].mark = INFINITY;
-        if (i + 1 < n && m[i + 1].mark >= 0) m[i + 1].mark = INFINITY;
+        good = miss <= of->enough ? good + 1 : 0;
+        for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
+            if (m[k].mark >= 0) m[k].mark = good ? beside_good * m[k].mark : INFINITY;
     }
     return status;
 }
