@@ -98,11 +98,12 @@ static double weight(const struct rst_places *of, int64_t i, int64_t n)
 
 /* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
  * than they differ, so that doubt alone tells too little. */
-static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of)
+static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of, int *met)
 {
     const double beside_good = 0.1; /* other folds come first */
     int good = 0, status = RESTITUTE_OK;
     of->missed = 0;
+    *met = 1;
     for (int64_t i = 0; i < n; i++) {
         m[i].value = middle_of(f, n, i);
         m[i].mark = doubt(f, n, i) / weight(of, i, n);
@@ -113,9 +114,9 @@ static int probe(const double *f, int64_t n, struct middle *m, int64_t most, str
         status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
         m[i].mark = -1;
         const double by_cubic = fabs(m[i].value - cubic_of(f, n, i)), by_polynomial = fabs(m[i].value - middle_of(f, n, i));
-        const double miss = fmax(by_cubic, by_polynomial) / weight(of, i, n);
-        of->missed = fmax(of->missed, miss);
-        good = miss <= of->enough ? good + 1 : 0;
+        good = fmax(by_cubic, by_polynomial) <= of->enough * weight(of, i, n) ? good + 1 : 0;
+        *met &= good > 0;
+        of->missed = fmax(of->missed, by_cubic / weight(of, i, n));
         for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
             if (m[k].mark >= 0) m[k].mark = good ? beside_good * m[k].mark : INFINITY;
     }
@@ -146,14 +147,14 @@ int rst_panel_fill(double **g, int64_t *cells)
 
 int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places)
 {
-    int finer = 1, status = RESTITUTE_OK;
-    while (finer && !status) {
+    int done = 0, met, status = RESTITUTE_OK;
+    while (!done && !status) {
         const int last = 2 * *cells > places->most;
         struct middle *m = malloc((size_t)*cells * sizeof *m);
         if (!m) return RESTITUTE_ERROR_MEMORY;
-        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, places);
-        finer = places->missed > places->enough && !last;
-        if (finer && !status) status = join(g, cells, m);
+        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, places, &met);
+        done = met || last;
+        if (!done && !status) status = join(g, cells, m);
         free(m);
     }
     return status;

@@ -77,7 +77,14 @@ static void judge(struct rst_column *low, struct rst_column *middle, double miss
     const double gain = before > 0 ? fmin(rst_most_gain, fmax(rst_least_gain, missed / before)) : rst_gain;
     low->missed = middle->missed = missed;
     low->by_speed = middle->by_speed = gain * missed;
-    low->checked[0] = low->checked[1] = middle->checked[0] = middle->checked[1] = -1;
+    middle->checked[0] = middle->checked[1] = -1;
+}
+
+/* A new column changes slopes, and with them the cells beside: these are compared again. */
+static void forget_checks(struct rst_builder *b, int64_t i)
+{
+    for (int64_t k = i > 0 ? i - 1 : 0; k < b->columns && k <= i + 1; k++)
+        b->column[k].checked[0] = b->column[k].checked[1] = -1;
 }
 
 static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)
@@ -91,6 +98,7 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
             b->column[cell[k]].by_speed = 0; /* cannot be halved */
             continue;
         }
+        forget_checks(b, cell[k]);
         judge(&b->column[cell[k]], &task[k].column, miss(b, cell[k], &task[k].column));
         task[solved++] = task[k];
     }

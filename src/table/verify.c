@@ -161,7 +161,8 @@ static int64_t plan(const struct rst_builder *b, const restitute_table *table, i
 /* Compare planned cells. */
 static int look(struct rst_builder *b, const restitute_table *table, int round, double least, restitute_error *error)
 {
-    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), rst_doubtful + 6 + (b->first[0] + b->first[1]) / 4, round};
+    const int64_t even = least > 0 ? 0 : 6 + (b->first[0] + b->first[1]) / 4;
+    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), rst_doubtful + even, round};
     if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
     const int64_t n = plan(b, table, round, least, w.check);
     int status = RESTITUTE_OK;
