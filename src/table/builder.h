@@ -26,7 +26,7 @@ static const double rst_margin = 1.7;
 static const double rst_look_again = 0.7;
 enum { rst_looks = 3 };
 /* So many places of a check are those where the table's own values say that cubics fit worst. */
-enum { rst_doubtful = 4 };
+enum { rst_doubtful = 6 };
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
