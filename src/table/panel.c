@@ -64,7 +64,14 @@ static double cubic_of(const double *f, int64_t cells, int64_t i)
 /* A cell whose middle may be solved. Marks of cells beside one that misses are infinite, of those that were solved -1. */
 struct middle {
     double value, mark;
+    double miss; /* of cubic or polynomial, if that is too much; else 0 */
 };
+
+/* A fold was seen in cell i of n: its halves are in doubt as well. */
+static int has_fold(const struct middle *m, int64_t n, int64_t i)
+{
+    return m[i].miss > 0 && (i == 0 || m[i].miss >= m[i - 1].miss) && (i == n - 1 || m[i].miss >= m[i + 1].miss);
+}
 
 /* The cell that is most in doubt. */
 static int64_t most_doubtful(const struct middle *m, int64_t n)
@@ -96,6 +103,15 @@ static double weight(const struct rst_places *of, int64_t i, int64_t n)
     return 1 + of->share * rst_panel_y(((double)i + 0.5) / (double)n);
 }
 
+/* Values and marks before any middle is solved; `before` are the cells that were halved, NULL: none. */
+static void prepare(const double *f, int64_t n, const struct middle *before, const struct rst_places *of, struct middle *m)
+{
+    for (int64_t i = 0; i < n; i++) {
+        const int fold = before && has_fold(before, n / 2, i / 2);
+        m[i] = (struct middle){middle_of(f, n, i), fold ? INFINITY : doubt(f, n, i) / weight(of, i, n), 0};
+    }
+}
+
 /* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
  * than they differ, so that doubt alone tells too little. */
 static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of, int *met)
@@ -104,19 +120,17 @@ static int probe(const double *f, int64_t n, struct middle *m, int64_t most, str
     int good = 0, status = RESTITUTE_OK;
     of->missed = 0;
     *met = 1;
-    for (int64_t i = 0; i < n; i++) {
-        m[i].value = middle_of(f, n, i);
-        m[i].mark = doubt(f, n, i) / weight(of, i, n);
-    }
     for (int64_t tries = 0; tries < most && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
         if (good >= rst_probes && !isinf(m[i].mark)) break;
+        const double polynomial = m[i].value, cubic = cubic_of(f, n, i), psi = weight(of, i, n);
         status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
+        const double by_cubic = fabs(m[i].value - cubic) / psi, by_polynomial = fabs(m[i].value - polynomial) / psi;
+        const double miss = fmax(by_cubic, by_polynomial);
+        of->missed = fmax(of->missed, by_cubic);
         m[i].mark = -1;
-        const double by_cubic = fabs(m[i].value - cubic_of(f, n, i)), by_polynomial = fabs(m[i].value - middle_of(f, n, i));
-        good = fmax(by_cubic, by_polynomial) <= of->enough * weight(of, i, n) ? good + 1 : 0;
-        *met &= good > 0;
-        of->missed = fmax(of->missed, by_cubic / weight(of, i, n));
+        good = miss <= of->enough ? good + 1 : 0;
+        if (!good) m[i].miss = miss, *met = 0;
         for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
             if (m[k].mark >= 0) m[k].mark = good ? beside_good * m[k].mark : INFINITY;
     }
@@ -147,15 +161,19 @@ int rst_panel_fill(double **g, int64_t *cells)
 
 int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places)
 {
+    struct middle *before = NULL;
     int done = 0, met, status = RESTITUTE_OK;
     while (!done && !status) {
         const int last = 2 * *cells > places->most;
         struct middle *m = malloc((size_t)*cells * sizeof *m);
+        if (m) prepare(*g, *cells, before, places, m);
+        free(before);
+        before = m;
         if (!m) return RESTITUTE_ERROR_MEMORY;
         status = probe(*g, *cells, m, last ? rst_last_probes : *cells, places, &met);
         done = met || last;
         if (!done && !status) status = join(g, cells, m);
-        free(m);
     }
+    free(before);
     return status;
 }
