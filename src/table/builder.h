@@ -142,6 +142,19 @@ int rst_make_table(const struct rst_builder *b, restitute_table **table, restitu
 /* Compare cells that were not compared yet with fresh impacts; set the errors, and what missed (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
 
+/* ---- loops whose turns do not depend on each other (parallel.c) */
+
+/* How many threads take n turns; threads as in restitute_table_options, 0: all. */
+int rst_table_threads(int threads, int64_t n);
+
+/* Turns 0 to n - 1, by rst_table_threads(threads, n) threads; `thread` counts them from 0. */
+void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of);
+
+/* Let one thread at a time through. */
+void rst_table_one_at_a_time(void (*act)(void *of), void *of);
+
+/* ---- all of it */
+
 /* One table; the scene and options are checked (builder.c). */
 int rst_build(const restitute_scene *scene, const restitute_table_options *options, int threads,
               restitute_table **table, restitute_error *error);

@@ -1,7 +1,6 @@
 /* Tables of all pairs of some materials.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
-#include "parallel.h"
 
 #include <stdlib.h>
 
