@@ -35,7 +35,10 @@ static inline double rst_axis_place(double v, double *slope)
         *slope = ((p[1] + 2 * p[2] * x) + x2 * (3 * p[3] + 4 * p[4] * x) +
                   x4 * ((5 * p[5] + 6 * p[6] * x) + x2 * (7 * p[7]))) *
                  inverse_power;
-    return (double)((bits >> 52) - 1023) +
+    const int64_t of_exponent = bits >> 52 | INT64_C(1075) << 52; /* as 2^52 + it, which compilers do for many at once */
+    double exponent;
+    memcpy(&exponent, &of_exponent, sizeof exponent);
+    return (exponent - (0x1p52 + 1023)) +
            ((x * p[1] + x2 * (p[2] + p[3] * x)) + x4 * ((p[4] + p[5] * x) + x2 * (p[6] + p[7] * x)));
 }
 
