@@ -11,7 +11,7 @@
 #include "../output/hdf5_image.h"
 
 /* Of what is written, and alone is read. */
-enum { rst_schema = 5 };
+enum { rst_schema = 6 };
 
 /* HDF5 prints errors unless told not to; the caller's setting is put back. */
 struct rst_quiet {

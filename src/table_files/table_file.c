@@ -1,4 +1,4 @@
-/* A table in a file: schema 5 of table_files.h.
+/* A table in a file: schema 6 of table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 #include <string.h>
