@@ -113,19 +113,21 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
 /* Slope at i of cells + 1 even values, by i. */
 double rst_even_slope(const double *f, int64_t cells, int64_t i);
 
-/* What gives values at x in [0, 1] of a panel, how well e_x of the cubics is to meet them, and the most cells. */
-struct rst_places {
-    int (*solve)(void *of, double x, double *g);
-    void *of;
-    double share; /* psi = 1 + share y where g = psi e_x - y e_z; else 0 */
-    double enough;
-    int64_t most;
-    double missed; /* by the last cubics: above enough if there are the most cells */
+/* A panel of a column that is being solved. */
+struct rst_panel {
+    const struct rst_builder *b;
+    struct rst_column_solver *solver;
+    struct rst_task *task;
+    int panel;
+    double missed; /* by the last cubics, in e_x: too much if there are the most cells */
 };
+
+/* g at x in [0, 1] (solve.c). */
+int rst_panel_solve(const struct rst_panel *p, double x, double *g);
 
 /* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled
  * by polynomials of degree 7. */
-int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places);
+int rst_panel_refine(struct rst_panel *p);
 
 /* Halve the cells once, all by polynomials. */
 int rst_panel_fill(double **g, int64_t *cells);

@@ -97,39 +97,40 @@ static double doubt(const double *f, int64_t n, int64_t i)
     return differ(f, n, i) + (i > 1 ? differ(f, n, i - 1) : 0) + (i < n - 2 ? differ(f, n, i + 1) : 0);
 }
 
-/* psi in the middle of cell i of n, if g is psi e_x there. */
-static double weight(const struct rst_places *of, int64_t i, int64_t n)
+/* g over e_x in the middle of cell i of n. */
+static double weight(const struct rst_panel *p, int64_t i, int64_t n)
 {
-    return 1 + of->share * rst_panel_y(((double)i + 0.5) / (double)n);
+    return p->panel ? rst_psi_at(p->b, 1, ((double)i + 0.5) / (double)n, p->task->column.normal.ez) : 1;
 }
 
 /* Values and marks before any middle is solved; `before` are the cells that were halved, NULL: none. */
-static void prepare(const double *f, int64_t n, const struct middle *before, const struct rst_places *of, struct middle *m)
+static void prepare(const double *f, int64_t n, const struct middle *before, const struct rst_panel *p, struct middle *m)
 {
     for (int64_t i = 0; i < n; i++) {
         const int fold = before && has_fold(before, n / 2, i / 2);
-        m[i] = (struct middle){middle_of(f, n, i), fold ? INFINITY : doubt(f, n, i) / weight(of, i, n), 0};
+        m[i] = (struct middle){middle_of(f, n, i), fold ? INFINITY : doubt(f, n, i) / weight(p, i, n), 0};
     }
 }
 
 /* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
  * than they differ, so that doubt alone tells too little. */
-static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_places *of, int *met)
+static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_panel *p, int *met)
 {
     const double beside_good = 0.1; /* other folds come first */
+    const double enough = rst_part_of_axis * p->b->options.tolerance;
     int good = 0, status = RESTITUTE_OK;
-    of->missed = 0;
+    p->missed = 0;
     *met = 1;
     for (int64_t tries = 0; tries < most && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
         if (good >= rst_probes && !isinf(m[i].mark)) break;
-        const double polynomial = m[i].value, cubic = cubic_of(f, n, i), psi = weight(of, i, n);
-        status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
+        const double polynomial = m[i].value, cubic = cubic_of(f, n, i), psi = weight(p, i, n);
+        status = rst_panel_solve(p, ((double)i + 0.5) / (double)n, &m[i].value);
         const double by_cubic = fabs(m[i].value - cubic) / psi, by_polynomial = fabs(m[i].value - polynomial) / psi;
         const double miss = fmax(by_cubic, by_polynomial);
-        of->missed = fmax(of->missed, by_cubic);
+        p->missed = fmax(p->missed, by_cubic);
         m[i].mark = -1;
-        good = miss <= of->enough ? good + 1 : 0;
+        good = miss <= enough ? good + 1 : 0;
         if (!good) m[i].miss = miss, *met = 0;
         for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
             if (m[k].mark >= 0) m[k].mark = good ? beside_good * m[k].mark : INFINITY;
@@ -159,18 +160,21 @@ int rst_panel_fill(double **g, int64_t *cells)
     return join(g, cells, NULL);
 }
 
-int rst_panel_refine(double **g, int64_t *cells, struct rst_places *places)
+int rst_panel_refine(struct rst_panel *p)
 {
+    int64_t *cells = &p->task->column.cells[p->panel];
+    double **g = &p->task->column.g[p->panel];
+    const int64_t most = rst_finest * *cells;
     struct middle *before = NULL;
     int done = 0, met, status = RESTITUTE_OK;
     while (!done && !status) {
-        const int last = 2 * *cells > places->most;
+        const int last = 2 * *cells > most;
         struct middle *m = malloc((size_t)*cells * sizeof *m);
-        if (m) prepare(*g, *cells, before, places, m);
+        if (m) prepare(*g, *cells, before, p, m);
         free(before);
         before = m;
         if (!m) return RESTITUTE_ERROR_MEMORY;
-        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, places, &met);
+        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, p, &met);
         done = met || last;
         if (!done && !status) status = join(g, cells, m);
     }
