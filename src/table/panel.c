@@ -88,8 +88,8 @@ static double differ(const double *f, int64_t n, int64_t i)
     return fabs(middle_of(f, n, i) - cubic_of(f, n, i));
 }
 
-/* The same in cell i and beside it: with a kink in its middle they meet there, but not beside it. At the ends of a panel slopes and
- * polynomials are one-sided, and tell less of what they miss. */
+/* The same in cell i and beside it: with a kink in its middle they meet there, but not beside it. At the ends of a panel slopes
+ * and polynomials are one-sided, and tell less of what they miss. */
 static double doubt(const double *f, int64_t n, int64_t i)
 {
     const double one_sided = 10;
