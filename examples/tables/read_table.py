@@ -31,7 +31,7 @@ def along_speed(v):
 
 
 def along_psi(y):
-    return 0.5 + ((y + C) ** 0.25 - (1 - y + C) ** 0.25) / (2 * ((1 + C) ** 0.25 - C**0.25))
+    return 0.5 + (y - 0.5) * (1 + C**0.25 - (y * (1 - y) + C) ** 0.25)
 
 
 def hermite(u, width):

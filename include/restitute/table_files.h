@@ -25,7 +25,7 @@
  *
  *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
  *
- *  Schema 5. Attributes of the root: the range of speeds `low` and `high`; `tolerance`, `error_ez`, `error_ex`, `impacts`,
+ *  Schema 6. Attributes of the root: the range of speeds `low` and `high`; `tolerance`, `error_ez`, `error_ex`, `impacts`,
  *  `checks`, `restitute_version`; the contact: `chi`, `gamma`, `delta1`, `psi_factor`, `duration`, `friction`, `radius`, `mass`,
  *  `poisson_ratio`, `equilibrium_modulus`, `parallel_viscosity`; the limits `speed_limit`, `radius_limit`, `displacement_limit`; the
  *  numbers `speeds`, `stick_cells`, `slip_cells`, `terms`. Datasets of doubles, each with attributes `units` and `description`:
@@ -37,10 +37,10 @@
  *      relaxation_time [terms], modulus [terms]              of the material, s and Pa
  *
  *  s(v) is log2(v) within 7e-7. p counts the cells of psi: psi = p/stick_cells, then t = p/slip_cells with
- *  t(y) = 1/2 + ((y + c)^(1/4) - (1 - y + c)^(1/4))/(2 ((1 + c)^(1/4) - c^(1/4))), c = 2e-4, y = (psi - 1)/(psi_c - 1). g is
+ *  t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - (y (1 - y) + c)^(1/4)), c = 2e-4, y = (psi - 1)/(psi_c - 1). g is
  *  ex up to psi = 1, and psi ex - y ez beyond. Between nodes ez and g are Hermite's cubics: examples/tables/read_table.py.
  *
- *  Files of schemas 1 to 4 are refused: their tables were of other kinds.
+ *  Files of schemas 1 to 5 are refused: their tables were of other kinds, or had another t(y).
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */

@@ -35,7 +35,10 @@ static inline double rst_axis_place(double v, double *slope)
         *slope = ((p[1] + 2 * p[2] * x) + x2 * (3 * p[3] + 4 * p[4] * x) +
                   x4 * ((5 * p[5] + 6 * p[6] * x) + x2 * (7 * p[7]))) *
                  inverse_power;
-    return (double)((bits >> 52) - 1023) +
+    const int64_t of_exponent = bits >> 52 | INT64_C(1075) << 52; /* as 2^52 + it, which compilers do for many at once */
+    double exponent;
+    memcpy(&exponent, &of_exponent, sizeof exponent);
+    return (exponent - (0x1p52 + 1023)) +
            ((x * p[1] + x2 * (p[2] + p[3] * x)) + x4 * ((p[4] + p[5] * x) + x2 * (p[6] + p[7] * x)));
 }
 
@@ -50,28 +53,32 @@ static inline double rst_axis_speed(double s)
     return v;
 }
 
-/* t(y) = 1/2 + ((y + c)^(1/4) - (1 - y + c)^(1/4))/(2 ((1 + c)^(1/4) - c^(1/4))): cells are narrow at psi = 1 and psi_c,
- * where g goes as powers like 5/3 and 3/2 of the distance. Cubics need the fewest cells so; with square roots in place of
- * the fourth ones they need twice as many. c keeps slopes finite: 1e-4 and 5e-4 are as good. */
-static const double rst_c = 2e-4, rst_of_t = 0.5674536173675917; /* 1/(2 ((1 + c)^(1/4) - c^(1/4))) */
+/* t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - w^(1/4)), w = y (1 - y) + c: cells are narrow at psi = 1 and psi_c, where g goes as
+ * powers like 5/3 and 3/2 of the distance. Cubics need the fewest cells so; with a square root in place of the fourth one they
+ * need twice as many. c keeps slopes finite: 1e-4 and 5e-4 are as good. */
+static const double rst_c = 2e-4, rst_a = 1.1189207115002722; /* 1 + c^(1/4) */
 
 static inline double rst_panel_place(double y)
 {
-    return 0.5 + rst_of_t * (sqrt(sqrt(y + rst_c)) - sqrt(sqrt((1 - y) + rst_c)));
+    return 0.5 + (y - 0.5) * (rst_a - sqrt(sqrt(y * (1 - y) + rst_c)));
 }
 
 static inline double rst_panel_slope(double y)
 {
-    const double low = y + rst_c, high = (1 - y) + rst_c;
-    return 0.25 * rst_of_t * (sqrt(sqrt(low)) / low + sqrt(sqrt(high)) / high);
+    const double w = y * (1 - y) + rst_c, root = sqrt(sqrt(w)), off = y - 0.5;
+    return rst_a - root + 0.5 * off * off * (root / w);
 }
 
-/* With fourth roots m + r/2 and m - r/2 of both sides: 2 m^4 + 3 m^2 r^2 + r^4/8 = 1 + 2 c. */
+/* By Newton's method: from below t(y) and y rise to them, as t bends down in the lower half; the upper one mirrors it. */
 static inline double rst_panel_y(double t)
 {
-    const double r = (t - 0.5) / rst_of_t, r2 = r * r;
-    const double m = sqrt(0.25 * (sqrt(8 * (r2 * r2 + 1 + 2 * rst_c)) - 3 * r2)), root = m + 0.5 * r;
-    return fmin(1, fmax(0, root * root * root * root - rst_c));
+    const double lower = t < 0.5 ? t : 1 - t;
+    double y = 0, step = 1;
+    for (int i = 0; i < 60 && step > 0x1p-54; i++) {
+        step = (lower - rst_panel_place(y)) / rst_panel_slope(y);
+        y += step;
+    }
+    return t < 0.5 ? y : 1 - y;
 }
 
 /* Hermite's cubic at u in [0, 1]: weights of value and slope at 0, then at 1. */

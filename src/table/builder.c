@@ -1,7 +1,6 @@
 /* The build of a table from first columns to last check (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
-#include "parallel.h"
 
 #include <stdlib.h>
 
@@ -28,11 +27,8 @@ void restitute_table_options_init(restitute_table_options *options)
 int rst_check_options(const restitute_table_options *o, restitute_error *error)
 {
     const double most_speed = 1e12, most_ratio = 1e15;
-    if (o->struct_size != sizeof *o)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "restitute_table_options.struct_size = %zu: must be %zu; prepare the struct with "
-                          "restitute_table_options_init of this version",
-                          o->struct_size, sizeof *o);
+    int status = rst_check_size(o->struct_size, sizeof *o, "restitute_table_options", error);
+    if (status) return status;
     if (!(o->speed[0] >= rst_sizes.low && o->speed[1] <= most_speed && o->speed[0] <= o->speed[1]))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise within %g to %g",
                           o->speed[0], o->speed[1], rst_sizes.low, most_speed);
@@ -40,18 +36,14 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "speed (m/s) = %g to %g: highest over lowest must be <= %g", o->speed[0], o->speed[1],
                           most_ratio);
-    if (!(o->tolerance >= 1e-7 && o->tolerance <= 0.1))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "tolerance = %.17g: must be in [1e-07, 0.1]", o->tolerance);
     if (o->threads < 0 || o->threads > 1024)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
     if (o->max_impacts <= 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
-    const double limit[3] = {o->speed_limit, o->radius_limit, o->displacement_limit};
-    static const char *const name[3] = {"speed_limit", "radius_limit", "displacement_limit"};
-    for (int i = 0; i < 3; i++)
-        if (!(limit[i] >= 0))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be >= 0", name[i], limit[i]);
-    return RESTITUTE_OK;
+    status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
+    if (!status) status = rst_check_range(o->speed_limit, 0, INFINITY, "speed_limit", error);
+    if (!status) status = rst_check_range(o->radius_limit, 0, INFINITY, "radius_limit", error);
+    return status ? status : rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
 }
 
 /* ---- start */

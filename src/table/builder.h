@@ -22,8 +22,12 @@ static const double rst_gain = 0.0625, rst_least_gain = 0.03, rst_most_gain = 0.
 static const double rst_part_of_axis = 0.4;
 /* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
 static const double rst_margin = 1.7;
-/* Cells that miss more than this part of the worst are compared again at other places. */
-static const double rst_look_again = 0.85;
+/* So many places of a check are those where the table's own values say that cubics fit worst. With four, a random
+ * solid exceeded its stated error 1.4 times that holds it now. */
+enum { rst_doubtful = 6 };
+/* Then cells that miss more than this part of the worst are compared again around their worst places, in so many looks in all. */
+static const double rst_look_again = 0.7;
+enum { rst_looks = 3 };
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
 /* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
@@ -31,23 +35,32 @@ static const double rst_narrowest = 0x1p-10;
 enum { rst_probes = 5 };
 /* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
 enum { rst_finest = 4 };
+/* So many middles of the finest cells are solved: their largest miss is what psi leaves to the stated error. */
+enum { rst_last_probes = 3 };
 /* What refinement leaves of the impacts for the checks. */
 static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;
 
-/* psi has two panels: 0 stick, 1 slip. */
+/* psi has two panels: 0 stick, 1 slip; x in [0, 1]. */
+struct rst_place {
+    int panel;
+    double x;
+};
+
 struct rst_column {
     double speed, at; /* m/s; s */
     struct rst_column_normal normal;
     int64_t cells[2];
     double *g[2];    /* [cells + 1] */
     double solver;   /* largest estimated error of ex */
+    double by_psi;   /* what its cubics miss, if it has the most cells; else 0 */
     int64_t impacts; /* that it took */
     /* of the cell above: */
     double missed;   /* by how much its parent missed this or the next column */
     double by_speed; /* its estimated error */
     double checked[2]; /* differences in ez and ex of the last check; negative: none yet */
+    struct rst_place worst; /* of ex */
 };
 
 /* A column to be solved. */
@@ -101,17 +114,21 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
 /* Slope at i of cells + 1 even values, by i. */
 double rst_even_slope(const double *f, int64_t cells, int64_t i);
 
-/* What gives values at x in [0, 1] of a panel, how well cubics are to meet them, and the most cells. */
-struct rst_places {
-    int (*solve)(void *of, double x, double *g);
-    void *of;
-    double enough;
-    int64_t most;
+/* A panel of a column that is being solved. */
+struct rst_panel {
+    const struct rst_builder *b;
+    struct rst_column_solver *solver;
+    struct rst_task *task;
+    int panel;
+    double missed; /* by the last cubics, in e_x: too much if there are the most cells */
 };
+
+/* g at x in [0, 1] (solve.c). */
+int rst_panel_solve(const struct rst_panel *p, double x, double *g);
 
 /* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled
  * by polynomials of degree 7. */
-int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places);
+int rst_panel_refine(struct rst_panel *p);
 
 /* Halve the cells once, all by polynomials. */
 int rst_panel_fill(double **g, int64_t *cells);
@@ -119,11 +136,27 @@ int rst_panel_fill(double **g, int64_t *cells);
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);
 
+/* What finer cells of speed cannot mend between columns i and i + 1, as a stated error. */
+double rst_left_by_psi(const struct rst_builder *b, int64_t i);
+
 /* The table of the columns (make.c). */
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error);
 
 /* Compare cells that were not compared yet with fresh impacts; set the errors, and what missed (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
+
+/* ---- loops whose turns do not depend on each other (parallel.c) */
+
+/* How many threads take n turns; threads as in restitute_table_options, 0: all. */
+int rst_table_threads(int threads, int64_t n);
+
+/* Turns 0 to n - 1, by rst_table_threads(threads, n) threads; `thread` counts them from 0. */
+void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of);
+
+/* Let one thread at a time through. */
+void rst_table_one_at_a_time(void (*act)(void *of), void *of);
+
+/* ---- all of it */
 
 /* One table; the scene and options are checked (builder.c). */
 int rst_build(const restitute_scene *scene, const restitute_table_options *options, int threads,

@@ -1,6 +1,6 @@
 /* One impact of two bodies in space, looked up.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "lookup.h"
+#include "form.h"
 
 #include "../core/two_bodies.h"
 

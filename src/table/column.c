@@ -44,6 +44,11 @@ int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, r
     return RESTITUTE_OK;
 }
 
+double rst_psi_factor(const struct rst_contact *c)
+{
+    return c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
+}
+
 int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
                              restitute_error *error)
 {

@@ -20,6 +20,9 @@ struct rst_contact {
 /* Check a scene and take what is needed. The material stays the caller's. */
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error);
 
+/* psi v_n/|v_t| (22). */
+double rst_psi_factor(const struct rst_contact *contact);
+
 /* One of these belongs to a thread at a time. */
 struct rst_column_solver {
     const struct rst_contact *contact;

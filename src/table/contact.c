@@ -70,7 +70,7 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
                           "speed_factor = %g of the scene: must be in [%g, %g]; it is too far from the table's contact",
                           factor, smallest_factor, largest_factor);
     found->speed_factor = factor;
-    found->psi_factor = c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
+    found->psi_factor = rst_psi_factor(c);
     found->radius = c->numbers.radius;
     found->mass = c->numbers.mass;
     return RESTITUTE_OK;
@@ -82,13 +82,9 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
     struct rst_contact c;
     if (!table || !scene || !contact)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
-    if (contact->struct_size != sizeof *contact)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "restitute_table_contact.struct_size = %zu: must be %zu; prepare the struct with "
-                          "restitute_table_contact_init of this version",
-                          contact->struct_size, sizeof *contact);
+    int status = rst_check_size(contact->struct_size, sizeof *contact, "restitute_table_contact", error);
     restitute_table_contact found = *contact;
-    int status = rst_contact_set(scene, &c, error);
+    if (!status) status = rst_contact_set(scene, &c, error);
     if (!status) status = bind(table, &c, &found, error);
     if (status) return status;
     *contact = found;

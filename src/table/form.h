@@ -7,7 +7,7 @@
 #include "table_data.h"
 
 #include "../core/ranges.h"
-#include "../core/report.h"
+#include "../core/status.h"
 
 /* A node along the speed. */
 struct rst_node {
@@ -48,6 +48,10 @@ static inline int rst_same_chi(double a, double b)
 {
     return fabs(a - b) <= 1e-9 * fabs(b);
 }
+
+/* The pair at `speed` on the table's axis and psi = sliding/v_n; v_n may be 0 and sliding infinite. */
+void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n,
+                        restitute_table_value *pair);
 
 /* Highest value of chi that tables take, and lowest. */
 static const double rst_chi_range[2] = {0.3, 1000};

@@ -39,11 +39,8 @@ static double rebound_speed(const struct rst_table_data *d)
 int restitute_table_describe(const restitute_table *table, restitute_table_info *info, restitute_error *error)
 {
     if (!table || !info) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
-    if (info->struct_size != sizeof *info)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "restitute_table_info.struct_size = %zu: must be %zu; prepare the struct with "
-                          "restitute_table_info_init of this version",
-                          info->struct_size, sizeof *info);
+    const int status = rst_check_size(info->struct_size, sizeof *info, "restitute_table_info", error);
+    if (status) return status;
     const struct rst_table_data *d = &table->d;
     const double rebound = rebound_speed(d);
     *info = (restitute_table_info){.struct_size = sizeof *info,

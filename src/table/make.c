@@ -4,27 +4,18 @@
 
 #include <stdlib.h>
 
-/* Arrays that the numbers of a table point to. */
-static int allocate(const struct rst_builder *b, struct rst_table_data *d)
+/* One block for the arrays that the numbers of a table point to; NULL: out of memory. */
+static double *allocate(struct rst_table_data *d)
 {
-    const size_t n = (size_t)b->columns, terms = (size_t)d->terms, size = sizeof(double);
-    d->speed = malloc(n * size);
-    d->ez = malloc(2 * n * size);
-    d->strain = malloc(3 * n * size);
-    d->ex = malloc(4 * n * (size_t)rst_places(d) * size);
-    d->relaxation_time = malloc((terms + 1) * size);
-    d->modulus = malloc((terms + 1) * size);
-    return d->speed && d->ez && d->strain && d->ex && d->relaxation_time && d->modulus;
-}
-
-static void release(struct rst_table_data *d)
-{
-    free(d->speed);
-    free(d->ez);
-    free(d->strain);
-    free(d->ex);
-    free(d->relaxation_time);
-    free(d->modulus);
+    const int64_t size[] = {d->speeds, 2 * d->speeds, 3 * d->speeds, 4 * d->speeds * rst_places(d), d->terms, d->terms};
+    double **const array[] = {&d->speed, &d->ez, &d->strain, &d->ex, &d->relaxation_time, &d->modulus};
+    int64_t all = 0;
+    for (int i = 0; i < 6; i++)
+        all += size[i];
+    double *const block = malloc((size_t)all * sizeof *block), *next = block;
+    for (int i = 0; i < 6 && block; next += size[i++])
+        *array[i] = next;
+    return block;
 }
 
 static void describe(const struct rst_builder *b, struct rst_table_data *d)
@@ -53,7 +44,7 @@ static void describe(const struct rst_builder *b, struct rst_table_data *d)
                                  .speeds = b->columns,
                                  .stick_cells = b->cells[0],
                                  .slip_cells = b->cells[1]};
-    d->psi_factor = c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
+    d->psi_factor = rst_psi_factor(c);
     restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL);
     snprintf(d->version, sizeof d->version, "%s", restitute_version());
 }
@@ -107,13 +98,10 @@ int rst_make_table(const struct rst_builder *b, restitute_table **table, restitu
 {
     struct rst_table_data d;
     describe(b, &d);
-    int status = RESTITUTE_OK;
-    if (!allocate(b, &d))
-        status = rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
-    else {
-        fill(b, &d);
-        status = restitute_private_table_make(&d, table, error);
-    }
-    release(&d);
+    double *block = allocate(&d);
+    if (!block) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    fill(b, &d);
+    const int status = restitute_private_table_make(&d, table, error);
+    free(block);
     return status;
 }

@@ -1,13 +1,16 @@
 /* Tables of all pairs of some materials.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
-#include "parallel.h"
 
 #include <stdlib.h>
 
 enum { most_materials = 1000 };
 
+struct work;
+
 struct job {
+    struct work *work;
+    int begins; /* no table before it has failed */
     restitute_table *table;
     int status;
     restitute_error why;
@@ -24,13 +27,6 @@ struct work {
     size_t failed; /* first table that failed, of those that are done; count: none */
 };
 
-/* A table to ask about, or one that is done. */
-struct news {
-    struct work *work;
-    size_t k;
-    int goes_on;
-};
-
 /* The materials of table k, i <= j. */
 static void pair_of(size_t k, size_t *i, size_t *j)
 {
@@ -42,15 +38,16 @@ static void pair_of(size_t k, size_t *i, size_t *j)
 /* After a failure tables before it are still built, so that the first failure is the same for any number of threads. */
 static void ask(void *of)
 {
-    struct news *n = of;
-    n->goes_on = n->k < n->work->failed;
+    struct job *job = of;
+    job->begins = (size_t)(job - job->work->job) < job->work->failed;
 }
 
 static void tell(void *of)
 {
-    const struct news *n = of;
-    struct work *w = n->work;
-    if (w->job[n->k].status < 0 && n->k < w->failed) w->failed = n->k;
+    const struct job *job = of;
+    struct work *w = job->work;
+    const size_t k = (size_t)(job - w->job);
+    if (job->status < 0 && k < w->failed) w->failed = k;
     w->done++;
     if (w->progress) w->progress(w->data, w->done, w->count);
 }
@@ -61,11 +58,11 @@ static void turn(void *of, int thread, int64_t k)
     struct job *job = &w->job[k];
     restitute_material *unlike = NULL;
     restitute_scene scene = *w->scene;
-    struct news news = {w, (size_t)k, 1};
     size_t i, j;
     (void)thread;
-    rst_table_one_at_a_time(ask, &news);
-    if (!news.goes_on) return;
+    job->work = w;
+    rst_table_one_at_a_time(ask, job);
+    if (!job->begins) return;
     pair_of((size_t)k, &i, &j);
     scene.material = w->materials[i];
     scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
@@ -76,7 +73,7 @@ static void turn(void *of, int thread, int64_t k)
     }
     if (job->status >= 0) job->status = rst_build(&scene, w->options, 1, &job->table, &job->why);
     restitute_material_destroy(unlike);
-    rst_table_one_at_a_time(tell, &news);
+    rst_table_one_at_a_time(tell, job);
 }
 
 /* The first failure, else the first remark. */

@@ -64,7 +64,14 @@ static double cubic_of(const double *f, int64_t cells, int64_t i)
 /* A cell whose middle may be solved. Marks of cells beside one that misses are infinite, of those that were solved -1. */
 struct middle {
     double value, mark;
+    double miss; /* of cubic or polynomial, if that is too much; else 0 */
 };
+
+/* A fold was seen in cell i of n: its halves are in doubt as well. */
+static int has_fold(const struct middle *m, int64_t n, int64_t i)
+{
+    return m[i].miss > 0 && (i == 0 || m[i].miss >= m[i - 1].miss) && (i == n - 1 || m[i].miss >= m[i + 1].miss);
+}
 
 /* The cell that is most in doubt. */
 static int64_t most_doubtful(const struct middle *m, int64_t n)
@@ -75,32 +82,58 @@ static int64_t most_doubtful(const struct middle *m, int64_t n)
     return most;
 }
 
-/* At the ends of a panel slopes and polynomials are one-sided, and tell less of what they miss. */
-static const double one_sided = 10;
-
-/* Solve middles until those most in doubt are met by the cubics. Where cubic and polynomial differ the cell is in doubt; of a
- * kink both miss much more, so that this alone tells too little. */
-static int probe(const double *f, int64_t n, struct middle *m, const struct rst_places *of, int *missed)
+/* How much cubic and polynomial differ in cell i. */
+static double differ(const double *f, int64_t n, int64_t i)
 {
-    int good = 0, status = RESTITUTE_OK;
-    *missed = 0;
+    return fabs(middle_of(f, n, i) - cubic_of(f, n, i));
+}
+
+/* The same in cell i and beside it: with a kink in its middle they meet there, but not beside it. At the ends of a panel slopes
+ * and polynomials are one-sided, and tell less of what they miss. */
+static double doubt(const double *f, int64_t n, int64_t i)
+{
+    const double one_sided = 10;
+    if (i == 0 || i == n - 1) return one_sided * differ(f, n, i);
+    return differ(f, n, i) + (i > 1 ? differ(f, n, i - 1) : 0) + (i < n - 2 ? differ(f, n, i + 1) : 0);
+}
+
+/* g over e_x in the middle of cell i of n. */
+static double weight(const struct rst_panel *p, int64_t i, int64_t n)
+{
+    return p->panel ? rst_psi_at(p->b, 1, ((double)i + 0.5) / (double)n, p->task->column.normal.ez) : 1;
+}
+
+/* Values and marks before any middle is solved; `before` are the cells that were halved, NULL: none. */
+static void prepare(const double *f, int64_t n, const struct middle *before, const struct rst_panel *p, struct middle *m)
+{
     for (int64_t i = 0; i < n; i++) {
-        m[i].value = middle_of(f, n, i);
-        m[i].mark = fabs(m[i].value - cubic_of(f, n, i)) * (i == 0 || i == n - 1 ? one_sided : 1);
+        const int fold = before && has_fold(before, n / 2, i / 2);
+        m[i] = (struct middle){middle_of(f, n, i), fold ? INFINITY : doubt(f, n, i) / weight(p, i, n), 0};
     }
-    for (int64_t tries = 0; tries < n && !status; tries++) {
+}
+
+/* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
+ * than they differ, so that doubt alone tells too little. */
+static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_panel *p, int *met)
+{
+    const double beside_good = 0.1; /* other folds come first */
+    const double enough = rst_part_of_axis * p->b->options.tolerance;
+    int good = 0, status = RESTITUTE_OK;
+    p->missed = 0;
+    *met = 1;
+    for (int64_t tries = 0; tries < most && !status; tries++) {
         const int64_t i = most_doubtful(m, n);
         if (good >= rst_probes && !isinf(m[i].mark)) break;
-        status = of->solve(of->of, ((double)i + 0.5) / (double)n, &m[i].value);
+        const double polynomial = m[i].value, cubic = cubic_of(f, n, i), psi = weight(p, i, n);
+        status = rst_panel_solve(p, ((double)i + 0.5) / (double)n, &m[i].value);
+        const double by_cubic = fabs(m[i].value - cubic) / psi, by_polynomial = fabs(m[i].value - polynomial) / psi;
+        const double miss = fmax(by_cubic, by_polynomial);
+        p->missed = fmax(p->missed, by_cubic);
         m[i].mark = -1;
-        if (fmax(fabs(m[i].value - cubic_of(f, n, i)), fabs(m[i].value - middle_of(f, n, i))) <= of->enough) {
-            good++;
-            continue;
-        }
-        good = 0;
-        *missed = 1;
-        if (i > 0 && m[i - 1].mark >= 0) m[i - 1].mark = INFINITY;
-        if (i + 1 < n && m[i + 1].mark >= 0) m[i + 1].mark = INFINITY;
+        good = miss <= enough ? good + 1 : 0;
+        if (!good) m[i].miss = miss, *met = 0;
+        for (int64_t k = i > 0 ? i - 1 : 0; k < n && k <= i + 1; k++)
+            if (m[k].mark >= 0) m[k].mark = good ? beside_good * m[k].mark : INFINITY;
     }
     return status;
 }
@@ -127,15 +160,24 @@ int rst_panel_fill(double **g, int64_t *cells)
     return join(g, cells, NULL);
 }
 
-int rst_panel_refine(double **g, int64_t *cells, const struct rst_places *places)
+int rst_panel_refine(struct rst_panel *p)
 {
-    int missed = 1, status = RESTITUTE_OK;
-    while (missed && !status && 2 * *cells <= places->most) {
+    int64_t *cells = &p->task->column.cells[p->panel];
+    double **g = &p->task->column.g[p->panel];
+    const int64_t most = rst_finest * *cells;
+    struct middle *before = NULL;
+    int done = 0, met, status = RESTITUTE_OK;
+    while (!done && !status) {
+        const int last = 2 * *cells > most;
         struct middle *m = malloc((size_t)*cells * sizeof *m);
+        if (m) prepare(*g, *cells, before, p, m);
+        free(before);
+        before = m;
         if (!m) return RESTITUTE_ERROR_MEMORY;
-        status = probe(*g, *cells, m, places, &missed);
-        if (missed && !status) status = join(g, cells, m);
-        free(m);
+        status = probe(*g, *cells, m, last ? rst_last_probes : *cells, p, &met);
+        done = met || last;
+        if (!done && !status) status = join(g, cells, m);
     }
+    free(before);
     return status;
 }

@@ -1,6 +1,6 @@
-/* Loops by several threads (parallel.h). They round as the caller does, or bits would depend on who takes a turn.
+/* Loops by several threads (builder.h). They round as the caller does, or bits would depend on who takes a turn.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "parallel.h"
+#include "builder.h"
 
 #ifdef _OPENMP
 #include <fenv.h>

@@ -49,17 +49,25 @@ static double miss(const struct rst_builder *b, int64_t i, const struct rst_colu
             for (int side = 0; side < 2; side++)
                 for (int k = 0; k < s[side].n; k++)
                     sum += x[1 + 2 * side] * width * s[side].w[k] * value(&o[s[side].first + k], panel, n, j);
-            worst = fmax(worst, fabs(sum - value(c, panel, n, j)));
+            const double psi = panel == 1 ? rst_psi_at(b, 1, (double)j / (double)n, c->normal.ez) : 1; /* g is psi e_x */
+            worst = fmax(worst, fabs(sum - value(c, panel, n, j)) / psi);
         }
     }
     return worst;
 }
 
+double rst_left_by_psi(const struct rst_builder *b, int64_t i)
+{
+    return rst_margin * fmax(b->column[i].by_psi, b->column[i + 1].by_psi);
+}
+
+/* More columns help neither against the solver's error nor against what psi leaves. */
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
     if (c->speed >= b->options.speed[1] || c[1].at - c->at <= 2 * rst_narrowest) return 0;
-    return !(c->normal.sunk && c[1].normal.sunk) && c->by_speed > fmax(c->solver, c[1].solver);
+    return !(c->normal.sunk && c[1].normal.sunk) &&
+           c->by_speed > fmax(fmax(c->solver, c[1].solver), rst_part_of_axis * rst_left_by_psi(b, i));
 }
 
 /* What is expected of both halves of a cell. */
@@ -69,7 +77,14 @@ static void judge(struct rst_column *low, struct rst_column *middle, double miss
     const double gain = before > 0 ? fmin(rst_most_gain, fmax(rst_least_gain, missed / before)) : rst_gain;
     low->missed = middle->missed = missed;
     low->by_speed = middle->by_speed = gain * missed;
-    low->checked[0] = low->checked[1] = middle->checked[0] = middle->checked[1] = -1;
+    middle->checked[0] = middle->checked[1] = -1;
+}
+
+/* A new column changes slopes, and with them the cells beside: these are compared again. */
+static void forget_checks(struct rst_builder *b, int64_t i)
+{
+    for (int64_t k = i > 0 ? i - 1 : 0; k < b->columns && k <= i + 1; k++)
+        b->column[k].checked[0] = b->column[k].checked[1] = -1;
 }
 
 static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const int64_t *cell, restitute_error *error)
@@ -83,6 +98,7 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
             b->column[cell[k]].by_speed = 0; /* cannot be halved */
             continue;
         }
+        forget_checks(b, cell[k]);
         judge(&b->column[cell[k]], &task[k].column, miss(b, cell[k], &task[k].column));
         task[solved++] = task[k];
     }

@@ -1,7 +1,6 @@
 /* Columns of a build, by several threads. Each is solved at the first places of psi, then where its cubics miss.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
-#include "parallel.h"
 
 #include <stdlib.h>
 
@@ -10,23 +9,13 @@ struct work {
     struct rst_task *task;
 };
 
-/* Places along a panel of one column. */
-struct place {
-    const struct rst_builder *b;
-    struct rst_column_solver *solver;
-    struct rst_task *task;
-    int panel;
-};
-
 double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
 {
     return panel ? 1 + rst_panel_y(x) * rst_share(b->contact.numbers.chi) * (1 + ez) : x;
 }
 
-/* g at x in [0, 1] of a panel. */
-static int solve_place(void *of, double x, double *g)
+int rst_panel_solve(const struct rst_panel *p, double x, double *g)
 {
-    struct place *p = of;
     struct rst_column *c = &p->task->column;
     const double psi = rst_psi_at(p->b, p->panel, x, c->normal.ez);
     double ex, error;
@@ -39,7 +28,7 @@ static int solve_place(void *of, double x, double *g)
 }
 
 /* The ends of the slip panel are e_x at psi = 1, and 0. */
-static int solve_panel(struct place *p)
+static int solve_panel(struct rst_panel *p)
 {
     const struct rst_builder *b = p->b;
     struct rst_column *c = &p->task->column;
@@ -48,22 +37,23 @@ static int solve_panel(struct place *p)
     int status = RESTITUTE_OK;
     if (p->panel) (*g)[0] = c->g[0][c->cells[0]];
     for (int64_t i = p->panel; i <= *cells - p->panel && !status; i++)
-        status = solve_place(p, (double)i / (double)*cells, *g + i);
-    const struct rst_places places = {solve_place, p, rst_part_of_axis * b->options.tolerance, rst_finest * *cells};
-    if (!status && *cells > 1) status = rst_panel_refine(g, cells, &places);
+        status = rst_panel_solve(p, (double)i / (double)*cells, *g + i);
+    p->missed = 0;
+    if (!status && *cells > 1) status = rst_panel_refine(p);
+    if (p->missed > rst_part_of_axis * b->options.tolerance) c->by_psi = fmax(c->by_psi, p->missed);
     return status;
 }
 
 static int solve_column(const struct rst_builder *b, struct rst_column_solver *s, struct rst_task *t)
 {
     struct rst_column *c = &t->column;
-    struct place p = {b, s, t, 0};
+    struct rst_panel p = {b, s, t, 0, 0};
     int status = rst_column_begin(s, c->speed, &t->why);
     if (!status) status = rst_column_normal(s, &c->normal, &t->why);
     c->impacts = 1;
     if (status < 0 || c->normal.sunk || b->contact.sliding == RST_NO_FRICTION) return status;
     if (b->contact.sliding == RST_NEVER_SLIPS) {
-        status = solve_place(&p, 0, c->g[0]);
+        status = rst_panel_solve(&p, 0, c->g[0]);
         c->g[0][1] = c->g[1][0] = c->g[0][0];
         return status;
     }
@@ -133,8 +123,10 @@ static int fill_panels(struct rst_builder *b)
         for (int64_t i = 0; i < b->columns; i++)
             if (b->column[i].cells[k] > b->cells[k]) b->cells[k] = b->column[i].cells[k];
         for (int64_t i = 0; i < b->columns; i++)
-            while (!status && b->column[i].cells[k] < b->cells[k])
+            while (!status && b->column[i].cells[k] < b->cells[k]) {
                 status = rst_panel_fill(&b->column[i].g[k], &b->column[i].cells[k]);
+                b->column[i].checked[0] = b->column[i].checked[1] = -1; /* to be compared again */
+            }
     }
     return status;
 }

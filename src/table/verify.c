@@ -1,8 +1,6 @@
 /* Verification: every cell of speed is compared with impacts at one other speed and at many places of psi.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
-#include "lookup.h"
-#include "parallel.h"
 
 #include <stdlib.h>
 
@@ -17,7 +15,8 @@ static double part(double x)
 /* What one speed says. */
 struct check {
     double speed, ez, ex; /* largest differences, with what the solver leaves open */
-    int64_t cell;
+    int64_t cell;         /* of speed */
+    struct rst_place doubtful[rst_doubtful], worst; /* of psi: where cubics may fit worst, and where they did */
     int status;
     restitute_error why;
 };
@@ -30,10 +29,69 @@ struct work {
     int round;
 };
 
-/* A third of the places is in the stick panel, which is smooth. */
-static double psi_of(const struct rst_builder *b, int64_t i, int64_t seed, double ez)
+/* By how much the cubic through the nodes below and above misses a node: 16 times what cubics of half its width miss where the
+ * function is smooth. Values and slopes are `slope` apart, `low` and `high` are the distances of both nodes. */
+static double miss_node(const double *below, const double *node, const double *above, int slope, double low, double high)
 {
-    return rst_psi_at(b, i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed), ez);
+    const double width = low + high;
+    double w[4];
+    rst_hermite(low / width, w);
+    return fabs(w[0] * below[0] + w[2] * above[0] + width * (w[1] * below[slope] + w[3] * above[slope]) - node[0]);
+}
+
+/* The same of place j of speed i, along psi and along the speed: large at folds, wherever they lie between nodes. */
+static double doubt_of_node(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, int64_t j)
+{
+    const int64_t row = 4 * rst_places(d), slips = j > d->stick_cells ? d->stick_cells + 1 : 0, p = j - slips;
+    const struct rst_column *c = b->column + i;
+    const double *node = d->ex + i * row + 4 * j;
+    double doubt = 0;
+    if (p > 0 && p < b->cells[slips > 0]) doubt += miss_node(node - 4, node, node + 4, 2, 1, 1);
+    if (i > 0 && i + 1 < b->columns && c[-1].at < c->at && c->at < c[1].at)
+        doubt += miss_node(node - row, node, node + row, 1, c->at - c[-1].at, c[1].at - c->at);
+    return slips ? doubt / rst_psi_at(b, 1, (double)p / (double)b->cells[1], c->normal.ez) : doubt;
+}
+
+/* The middles of the cells of psi that are most in doubt between speeds i and i + 1; not beside each other. */
+static void find_doubtful(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, struct rst_place *place)
+{
+    const int64_t places = rst_places(d);
+    double doubt[2][2 * rst_most_cells + 2];
+    int64_t cell[rst_doubtful] = {0};
+    for (int64_t j = 0; j < places; j++)
+        for (int k = 0; k < 2; k++)
+            doubt[k][j] = doubt_of_node(b, d, i + k, j);
+    for (int k = 0; k < rst_doubtful; k++) {
+        double most = -1;
+        for (int64_t j = 0; j + 1 < places; j++) {
+            int taken = j == d->stick_cells; /* between the panels */
+            for (int m = 0; m < k; m++)
+                taken |= j >= cell[m] - 1 && j <= cell[m] + 1;
+            if (taken) continue;
+            const double sum = doubt[0][j] + doubt[0][j + 1] + doubt[1][j] + doubt[1][j + 1];
+            if (sum > most) most = sum, cell[k] = j;
+        }
+        const int panel = cell[k] > d->stick_cells;
+        const int64_t in_panel = cell[k] - panel * (d->stick_cells + 1);
+        place[k] = (struct rst_place){panel, ((double)in_panel + 0.5) / (double)b->cells[panel]};
+    }
+}
+
+/* Places around the one that was worst, half a cell apart. */
+static void find_around(const struct rst_builder *b, struct rst_place worst, struct rst_place *place)
+{
+    for (int k = 0; k < rst_doubtful; k++) {
+        const double cells = 0.5 * (k - rst_doubtful / 2 + (k >= rst_doubtful / 2));
+        place[k] = (struct rst_place){worst.panel, fmin(1, fmax(0, worst.x + cells / (double)b->cells[worst.panel]))};
+    }
+}
+
+/* Some places are those in doubt, the others fill the panels evenly: a third of them the stick panel, which is smooth. */
+static struct rst_place place_of(const struct check *c, int64_t i, int64_t seed)
+{
+    if (i < rst_doubtful) return c->doubtful[i];
+    i -= rst_doubtful;
+    return (struct rst_place){i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed)};
 }
 
 /* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
@@ -63,12 +121,14 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
     c->ez = fabs(pair.ez - normal.ez) + normal.error;
     for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
-        const double psi = b->contact.sliding == RST_SLIDES ? psi_of(b, i, c->cell + 7 * w->round, normal.ez) : 0;
+        const struct rst_place place = place_of(c, i, c->cell + 7 * w->round);
+        const double psi = b->contact.sliding == RST_SLIDES ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
         double ex, error_ex;
         status = rst_column_solve(s, psi, &ex, &error_ex, &c->why);
         if (status < 0) break;
         rst_table_evaluate(w->table, c->speed, psi, 1, &pair);
-        c->ex = fmax(c->ex, fabs(pair.ex - ex) + error_ex);
+        const double miss = fabs(pair.ex - ex) + error_ex;
+        if (miss > c->ex) c->ex = miss, c->worst = place;
     }
     return status;
 }
@@ -80,16 +140,21 @@ static void turn(void *of, int thread, int64_t i)
 }
 
 /* Cells that were not compared yet; or, to look again, those that were found to miss more than `least`. */
-static int64_t plan(const struct rst_builder *b, int round, double least, struct check *check)
+static int64_t plan(const struct rst_builder *b, const restitute_table *table, int round, double least,
+                    struct check *check)
 {
     int64_t n = 0;
     for (int64_t i = 0; i + 1 < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
         const int again = fmax(c->checked[0], c->checked[1]) > least;
         if (!(c[1].at > c->at) || (least > 0 ? !again : c->checked[0] >= 0)) continue;
-        const double u = 0.15 + 0.7 * part(0.5 + plastic * (double)(i + 3 * round));
+        const double u = 0.3 + 0.4 * part(0.5 + plastic * (double)(i + 3 * round));
         const double speed = rst_axis_speed(c->at + u * (c[1].at - c->at));
-        check[n++] = (struct check){.speed = fmin(speed, b->options.speed[1]), .cell = i}; /* of one speed: that */
+        check[n] = (struct check){.speed = fmin(speed, b->options.speed[1]), .cell = i}; /* of one speed: that */
+        if (least > 0)
+            find_around(b, c->worst, check[n++].doubtful);
+        else
+            find_doubtful(b, restitute_private_table_data(table), i, check[n++].doubtful);
     }
     return n;
 }
@@ -97,16 +162,17 @@ static int64_t plan(const struct rst_builder *b, int round, double least, struct
 /* Compare planned cells. */
 static int look(struct rst_builder *b, const restitute_table *table, int round, double least, restitute_error *error)
 {
-    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), 6 + (b->first[0] + b->first[1]) / 4, round};
+    const int64_t even = least > 0 ? 0 : 6 + (b->first[0] + b->first[1]) / 4;
+    struct work w = {b, table, malloc((size_t)b->columns * sizeof *w.check), rst_doubtful + even, round};
     if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
-    const int64_t n = plan(b, round, least, w.check);
+    const int64_t n = plan(b, table, round, least, w.check);
     int status = RESTITUTE_OK;
     rst_table_loop(b->threads, n, turn, &w);
     for (int64_t i = n - 1; i >= 0; i--) {
         struct rst_column *c = &b->column[w.check[i].cell];
         if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);
         c->checked[0] = fmax(c->checked[0], w.check[i].ez);
-        c->checked[1] = fmax(c->checked[1], w.check[i].ex);
+        if (w.check[i].ex > c->checked[1]) c->checked[1] = w.check[i].ex, c->worst = w.check[i].worst;
     }
     free(w.check);
     b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
@@ -125,15 +191,16 @@ static double worst_of(const struct rst_builder *b)
 
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error)
 {
-    int status = look(b, table, 2 * round, 0, error);
-    if (!status) status = look(b, table, 2 * round + 1, rst_look_again * worst_of(b), error);
+    int status = look(b, table, rst_looks * round, 0, error);
+    for (int k = 1; k < rst_looks && !status; k++)
+        status = look(b, table, rst_looks * round + k, rst_look_again * worst_of(b), error);
     b->error_ez = b->error_ex = 0;
     *missed = 0;
     for (int64_t i = 0; i + 1 < b->columns && !status; i++) {
-        const double *checked = b->column[i].checked, both = fmax(checked[0], checked[1]);
+        const double *checked = b->column[i].checked, both = fmax(checked[0], checked[1]), left = rst_left_by_psi(b, i);
         b->error_ez = fmax(b->error_ez, rst_margin * checked[0]);
-        b->error_ex = fmax(b->error_ex, rst_margin * both); /* e_z is in (27) */
-        if (rst_margin * both <= b->options.tolerance) continue;
+        b->error_ex = fmax(b->error_ex, fmax(left, rst_margin * both)); /* e_z is in (27) */
+        if (rst_margin * both <= fmax(left, b->options.tolerance)) continue;
         ++*missed; /* to be halved */
         b->column[i].by_speed = fmax(b->column[i].by_speed, both);
     }

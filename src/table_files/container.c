@@ -18,19 +18,6 @@
 
 enum { block_size = 512 };
 
-struct rst_quiet rst_quiet_begin(void)
-{
-    struct rst_quiet quiet = {NULL, NULL};
-    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return quiet;
-}
-
-void rst_quiet_end(struct rst_quiet quiet)
-{
-    H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
-}
-
 static uint64_t checksum(const unsigned char *bytes, size_t size)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);

@@ -11,15 +11,7 @@
 #include "../output/hdf5_image.h"
 
 /* Of what is written, and alone is read. */
-enum { rst_schema = 5 };
-
-/* HDF5 prints errors unless told not to; the caller's setting is put back. */
-struct rst_quiet {
-    H5E_auto2_t function;
-    void *data;
-};
-struct rst_quiet rst_quiet_begin(void);
-void rst_quiet_end(struct rst_quiet quiet);
+enum { rst_schema = 6 };
 
 /* A new file, in memory; negative: HDF5 fails. */
 hid_t rst_container_begin(void);

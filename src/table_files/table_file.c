@@ -1,4 +1,4 @@
-/* A table in a file: schema 5 of table_files.h.
+/* A table in a file: schema 6 of table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 #include <string.h>
@@ -78,11 +78,13 @@ static int put_table(hid_t f, const struct rst_table_data *d)
 int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error)
 {
     if (!table || !path) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "path" : "table");
-    const struct rst_quiet quiet = rst_quiet_begin();
-    const hid_t file = rst_container_begin();
-    const int good = file >= 0 && !put_table(file, restitute_private_table_data(table));
-    const int status = rst_container_end(file, good, title, path, error);
-    rst_quiet_end(quiet);
+    int status;
+    H5E_BEGIN_TRY { /* HDF5 does not print errors */
+        const hid_t file = rst_container_begin();
+        const int good = file >= 0 && !put_table(file, restitute_private_table_data(table));
+        status = rst_container_end(file, good, title, path, error);
+    }
+    H5E_END_TRY
     return status ? status : rst_done(error);
 }
 
@@ -135,12 +137,14 @@ int restitute_table_read(const char *path, restitute_table **table, restitute_er
 {
     struct rst_old_file file;
     if (!path || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "table" : "path");
-    const struct rst_quiet quiet = rst_quiet_begin();
-    int status = rst_old_file_open(path, title, &file, error);
-    if (!status) {
-        status = read_table(path, file.file, table, error);
-        rst_old_file_close(&file);
+    int status;
+    H5E_BEGIN_TRY {
+        status = rst_old_file_open(path, title, &file, error);
+        if (!status) {
+            status = read_table(path, file.file, table, error);
+            rst_old_file_close(&file);
+        }
     }
-    rst_quiet_end(quiet);
+    H5E_END_TRY
     return status ? status : rst_done(error);
 }

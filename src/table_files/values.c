@@ -38,7 +38,8 @@ int rst_put_text(hid_t place, const char *name, const char *text)
 }
 
 /* Without the time of writing: the same table gives the same bytes. */
-static int put_set(hid_t place, const char *name, int rank, const int64_t *size, const double *value)
+int rst_put_values(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
+                   const char *units, const char *description)
 {
     hsize_t length[4];
     for (int i = 0; i < rank; i++)
@@ -47,22 +48,9 @@ static int put_set(hid_t place, const char *name, int rank, const int64_t *size,
     hid_t set = -1;
     if (space >= 0 && how >= 0 && H5Pset_obj_track_times(how, 0) >= 0)
         set = H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    const int good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
+    const int good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0 &&
+                     rst_put_text(set, "units", units) == 0 && rst_put_text(set, "description", description) == 0;
     return close_all(good, set, space, how);
-}
-
-static int describe_set(hid_t place, const char *name, const char *units, const char *description)
-{
-    const hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
-    const int good =
-        set >= 0 && rst_put_text(set, "units", units) == 0 && rst_put_text(set, "description", description) == 0;
-    return close_all(good, set, -1, -1);
-}
-
-int rst_put_values(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
-                   const char *units, const char *description)
-{
-    return put_set(place, name, rank, size, value) || describe_set(place, name, units, description);
 }
 
 /* An attribute that is one value of a class. */

@@ -180,14 +180,14 @@ static void foreign_and_later_files_are_refused(void **state)
     refused("is not a table file", RESTITUTE_ERROR_FORMAT);
     unsigned char *later = malloc(size);
     memcpy(later, bytes, size);
-    char *schema = strstr((char *)later, "schema 5");
+    char *schema = strstr((char *)later, "schema 6");
     assert_non_null(schema);
-    schema[7] = '6';
+    schema[7] = '7';
     put(later, size);
-    refused("schema 6: this library reads schema 5", RESTITUTE_ERROR_FORMAT);
+    refused("schema 7: this library reads schema 6", RESTITUTE_ERROR_FORMAT);
     schema[7] = '3';
     put(later, size);
-    refused("schema 3, of tables that this library has no more; it reads schema 5: build the table again",
+    refused("schema 3, of tables that this library has no more; it reads schema 6: build the table again",
             RESTITUTE_ERROR_FORMAT);
     free(later);
     restitute_table *read = NULL;

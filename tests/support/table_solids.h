@@ -69,4 +69,23 @@ static inline restitute_scene table_solid_scene(const struct table_solid *s, con
     scene.material = *m;
     return scene;
 }
+/* The same ball of a standard solid, delta1 at a speed. Returns the material, the caller's. */
+static inline restitute_material *table_solid_standard(restitute_scene *scene, double nu, double gamma, double delta1,
+                                                       double speed)
+{
+    restitute_numbers n;
+    restitute_error e = {0};
+    restitute_material *m = NULL;
+    restitute_material_elastic(1e6, nu, &m, &e);
+    restitute_scene_init(scene);
+    scene->material = m;
+    scene->radius1 = 0.005, scene->mass1 = 0.004, scene->friction = 0.3, scene->normal_speed = speed;
+    restitute_numbers_init(&n);
+    restitute_scene_numbers(scene, &n, &e);
+    restitute_material_destroy(m);
+    restitute_material_standard_solid(1e6, 1e6 / gamma, delta1 * sqrt(32.0 / 15) * 1e6 * n.time, nu, &m, &e);
+    scene->material = m;
+    return m;
+}
+
 #endif
