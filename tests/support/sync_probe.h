@@ -12,6 +12,7 @@ void probe_collocation(double x[points], double a[stages][stages]);
 void probe_weights(double x, double weight[points]);
 void probe_polynomial(const double y[points], int64_t i, double *last, double *start, double slope[stages],
                       double *root);
+int64_t probe_solve(double a[stages][stages], const double b[stages], double x[stages]);
 int64_t probe_respond(double rate, const double span[stages], double kernel[stages][stages], double decay[stages]);
 int64_t probe_normal(double eta, int64_t n, const double *g, const double *rate, double depth, int64_t halvings,
                      double roughness, int64_t counts[2]);

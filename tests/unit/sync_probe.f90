@@ -4,7 +4,8 @@
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between
+  use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between, &
+                             factors_type, factorize, solution_of
   use rst_arms, only: solid_type, respond
   use rst_panel, only: panel_type, mesh_type
   use rst_normal_motion, only: normal_control_type, follow_normal
@@ -53,6 +54,18 @@ contains
     slope = applied(differential, y(1:))
     root = root_between(i, y)
   end subroutine probe_polynomial
+
+  !> x with a x = b. Nonzero: a is singular.
+  function probe_solve(a, b, x) bind(c) result(failed)
+    real(c_double), intent(in) :: a(stages, stages), b(stages)
+    real(c_double), intent(out) :: x(stages)
+    integer(c_int64_t) :: failed
+    type(factors_type) :: factors
+    logical :: fails
+    call factorize(a, factors, fails)
+    failed = merge(1, 0, fails)
+    if (.not. fails) x = solution_of(factors, b)
+  end function probe_solve
 
   function probe_respond(rate, span, kernel, decay) bind(c) result(failed)
     real(c_double), value :: rate

@@ -1,8 +1,10 @@
 /* Procedures of the method `sync` one by one (docs/sync.md): polynomials, arms, normal motion.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
+#include <string.h>
 
 #include "../support/data.h"
+#include "../support/random.h"
 #include "../support/sync_probe.h"
 
 /* ---- collocation */
@@ -89,6 +91,34 @@ static void polynomials_of_degree_six_are_exact(void **state)
 }
 
 /* ---- arms */
+
+/* Solutions of random systems are found again to 1e-11, for matrices that have a zero on the diagonal and whose rows change
+ * places more than once; a matrix of rank 5 is refused. Conditions of such matrices are below 1e4, as a rule. */
+static void linear_systems_are_solved_with_pivots(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    for (int trial = 0; trial < 200; trial++) {
+        double a[stages][stages], x[stages], b[stages] = {0}, found[stages];
+        for (int j = 0; j < stages; j++) {
+            x[j] = random_in(&random, -1, 1);
+            for (int i = 0; i < stages; i++)
+                a[j][i] = i == j && trial % 2 ? 0 : random_in(&random, -1, 1);
+        }
+        if (trial == 199) memcpy(a[5], a[2], sizeof a[5]); /* columns */
+        for (int j = 0; j < stages; j++)
+            for (int i = 0; i < stages; i++)
+                b[i] += a[j][i] * x[j];
+        const int64_t failed = probe_solve(a, b, found);
+        if (trial == 199) {
+            CHECK(failed || fabs(found[2]) + fabs(found[5]) > 1e12, "rank 5 was not noticed");
+            continue;
+        }
+        CHECK(!failed, "trial %d", trial);
+        for (int i = 0; i < stages; i++)
+            CHECK_NEAR(found[i], x[i], 1e-11, "trial %d, unknown %d", trial, i);
+    }
+}
 
 /* An arm that is released relaxes by exp(-rate t). At the ends of panels the error is of order 11, at a point between
  * of order 7. */
@@ -297,6 +327,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(radau_integrates_powers),
         cmocka_unit_test(polynomials_of_degree_six_are_exact),
+        cmocka_unit_test(linear_systems_are_solved_with_pivots),
         cmocka_unit_test(order_is_eleven_at_the_end_and_seven_within),
         cmocka_unit_test(arms_are_springs_and_dashpots_in_their_limits),
         cmocka_unit_test(elastic_impact_keeps_its_energy_and_is_symmetric),
