@@ -65,20 +65,21 @@ contains
   !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other points.
   pure function weights_at(x) result(weight)
     real(dp), intent(in) :: x
-    real(dp) :: weight(0:stages), away(0:stages), product
+    real(dp) :: weight(0:stages), away(0:stages), left, right
     integer(ip) :: j
     away = x - point
-    product = 1
+    left = 1
     do j = 0, stages
-      weight(j) = barycentric(j)*product
-      product = product*away(j)
+      weight(j) = barycentric(j)*left
+      left = left*away(j)
     end do
-    product = 1
+    right = 1
     do j = stages, 0, -1
-      weight(j) = weight(j)*product
-      product = product*away(j)
+      weight(j) = weight(j)*right
+      right = right*away(j)
     end do
-    weight = weight/sum(weight)  ! at a point the value there, to the last bit
+    ! at a point the value there, to the last bit: a division by the sum, which is 1 but for rounding
+    weight = weight*(2 - (((weight(0) + weight(1)) + (weight(2) + weight(3))) + ((weight(4) + weight(5)) + weight(6))))
   end function weights_at
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
@@ -181,27 +182,31 @@ contains
     real(dp), intent(in) :: a(stages, stages)
     type(factors_type), intent(out) :: factors
     logical, intent(out) :: fails
-    real(dp) :: rest(stages, stages), part(stages), row(stages)
+    real(dp) :: part(stages), row(stages)
+    integer(ip), parameter :: below(stages) = [1_ip, 2_ip, 3_ip, 4_ip, 5_ip, 6_ip]
     integer(ip) :: j, k, p
-    rest = a
+    factors%upper = a
     fails = .true.
-    do k = 1, stages
-      p = k - 1 + maxloc(abs(rest(k:, k)), dim=1, kind=ip)
-      if (.not. (abs(rest(p, k)) > 0 .and. abs(rest(p, k)) <= huge(1.0_dp))) return
-      factors%pivot(k) = p
-      if (p /= k) then
-        row = rest(k, :)
-        rest(k, :) = rest(p, :)
-        rest(p, :) = row
-      end if
-      part = rest(:, k)*(1/rest(k, k))
-      part(:k) = 0 ! rows that are done: whole columns are faster than parts of them
-      do j = k + 1, stages
-        rest(:, j) = rest(:, j) - part*rest(k, j)
+    associate (u => factors%upper)
+      do k = 1, stages
+        p = k
+        do j = k + 1, stages
+          if (abs(u(j, k)) > abs(u(p, k))) p = j
+        end do
+        if (.not. (abs(u(p, k)) > 0 .and. abs(u(p, k)) <= huge(1.0_dp))) return
+        factors%pivot(k) = p
+        if (p /= k) then
+          row = u(k, :)
+          u(k, :) = u(p, :)
+          u(p, :) = row
+        end if
+        part = merge(u(:, k)*(1/u(k, k)), 0.0_dp, below > k) ! none of rows that are done: whole columns are faster than parts
+        do j = k + 1, stages
+          u(:, j) = u(:, j) - part*u(k, j)
+        end do
+        factors%lower(:, k) = part
       end do
-      factors%lower(:, k) = part
-    end do
-    factors%upper = rest
+    end associate
     fails = .false.
   end subroutine factorize
 

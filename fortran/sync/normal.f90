@@ -67,6 +67,7 @@ contains
       beside = merge(control%n_coarse_compression, 0_ip, back) + 1
       widest = whole/2_ip**control%halvings
       width = widest
+      fails = .false.
       do while (place < whole)
         n = mesh%n_panels + 1
         found = lacks_room
@@ -103,19 +104,20 @@ contains
       found = rebounds
     end subroutine go_through
 
-    !> Newton's steps begin where the coarser run was, or where the panel before leads, if that converges better.
+    !> Newton's steps begin where the coarser run was, or where the panel before leads if the last try did not converge.
     subroutine solve_panel(back, n, fails)
       logical, intent(in) :: back
       integer(ip), intent(in) :: n
-      logical, intent(out) :: fails
+      logical, intent(inout) :: fails
       integer(ip) :: first, last
       first = merge(control%n_coarse_compression, 0_ip, back) + 1
       last = merge(control%n_coarse, control%n_coarse_compression, back)
-      fails = .true.
-      if (first <= last) call solve_from(coarse(first:last), back, n, fails)
-      if (.not. fails) return
-      first = merge(n, n - 1, n == merge(mesh%n_compression, 0_ip, back) + 1)
-      call solve_from(panel(first:n - 1), back, n, fails)
+      if (first <= last .and. .not. fails) then
+        call solve_from(coarse(first:last), back, n, fails)
+      else
+        first = merge(n, n - 1, n == merge(mesh%n_compression, 0_ip, back) + 1)
+        call solve_from(panel(first:n - 1), back, n, fails)
+      end if
     end subroutine solve_panel
 
     subroutine solve_from(known, back, n, fails)

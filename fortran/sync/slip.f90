@@ -18,8 +18,8 @@ module rst_slip
   integer(ip), parameter :: nothing = 0, slip_begins = 1, stick_ends = 2, slip_leaves = 3
 
   integer(ip), parameter :: most_iterations = 20, most_secants = 15
-  !> Part e of the roughness that may be left of what is zero when slip begins or leaves at the edge: as many elements slip for so
-  !> long, that U' is off by e^2. (Stick may end in all elements at once.)
+  !> Part of the roughness that may be left of the slack at the edge when slip leaves. Nobody slips there then. (Slip that begins too
+  !> early or too late may look as if it stuck again, and stick may end in all elements at once.)
   real(dp), parameter :: at_edge = 0.1_dp
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
@@ -123,7 +123,7 @@ contains
     do n = 1, most_iterations
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
-        if (n == 1 .and. .not. warm) s%front(i) = continued(i, s%front)
+        if (n == 1 .and. .not. warm) s%front(i) = s%front(i - 1)
         call slacken(normal, store, ground, side, near, edge(i), i, s)
       end do
       do j = 1, stages
@@ -151,15 +151,6 @@ contains
     s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
     if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
   end subroutine slip_behind
-
-  !> The front at the point i by those before.
-  pure function continued(i, front) result(next)
-    integer(ip), intent(in) :: i
-    real(dp), intent(in) :: front(0:stages)
-    real(dp) :: next
-    next = front(i - 1)
-    if (i > 1) next = next + (front(i - 1) - front(i - 2))*(point(i) - point(i - 1))/(point(i - 1) - point(i - 2))
-  end function continued
 
   !> At every point, the outermost element that may stick.
   subroutine look_at_edges(normal, store, ground, side, edge)
@@ -303,7 +294,7 @@ contains
       call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
-      if (abs(miss) <= merge(contact%closeness, at_edge*contact%roughness, event == stick_ends) &
+      if (abs(miss) <= merge(at_edge*contact%roughness, contact%closeness, event == slip_leaves) &
           *merge(1.0_dp, contact%stress, event == slip_begins)) return
       if (n == 1) then
         slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
