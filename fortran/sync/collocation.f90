@@ -96,7 +96,7 @@ contains
     total = start + applied(integral, y)
   end function integrated
 
-  !> The matrix a, applied to y. (Compilers may call a library for matmul; a sum written out stays in registers.)
+  !> The matrix a of six columns, applied to y. (Compilers may call a library for matmul; a sum written out stays in registers.)
   pure function applied(a, y) result(z)
     real(dp), intent(in) :: a(stages, stages), y(stages)
     real(dp) :: z(stages)
@@ -168,7 +168,7 @@ contains
     end do
   end function root_between
 
-  !> Whether Newton's steps end: the next change, foretold from the last two, is below closeness, or
+  !> Whether Newton's steps end: the next change, predicted from the last two, is below closeness, or
   !> rounding keeps it from falling.
   pure function has_converged(change, previous, closeness) result(yes)
     real(dp), intent(in) :: change, previous, closeness

@@ -157,7 +157,8 @@ contains
     if (element%radius > 0) element%stretch = edge(3)/(2*element%radius)
   end subroutine look_at
 
-  !> Values that are known at the points of a record, in between. (Sums that are written out stay in registers.)
+  !> Values of an element or of an arm, known at the points of a record, in between. (Sums that are written out stay in
+  !> registers. There are as many values of both kinds.)
   pure function between(weight, at) result(values)
     real(dp), intent(in) :: weight(0:stages), at(of_edge, 0:stages)
     real(dp) :: values(of_edge)

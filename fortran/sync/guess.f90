@@ -19,7 +19,7 @@ contains
     type(panel_type), intent(inout) :: panel
     real(dp) :: theta(stages)
     if (size(known) > 0) then
-      call continue(known, panel)
+      call take_from(known, panel)
       if (all(panel%force(1:) > 0)) return
       panel%force(1:) = max(panel%force(0), tiny(1.0_dp))
     else
@@ -39,7 +39,7 @@ contains
     real(dp) :: after(stages)
     integer(ip) :: i
     if (size(known) > 0) then
-      call continue(known, panel)
+      call take_from(known, panel)
       if (any(panel%pace(1:) <= 0)) panel%pace(1:) = max(panel%pace(0), tiny(1.0_dp))
     else
       do i = 1, stages
@@ -52,7 +52,7 @@ contains
   end subroutine guess_restitution
 
   !> Values of the known panels, one after the other from `from` on, at the points of a panel; the last one is continued.
-  pure subroutine continue(known, panel)
+  pure subroutine take_from(known, panel)
     type(panel_type), intent(in) :: known(:)
     type(panel_type), intent(inout) :: panel
     real(dp) :: weight(0:stages), theta, x
@@ -71,7 +71,7 @@ contains
       panel%force(i) = sum(weight*known(p)%force)
       panel%pace(i) = sum(weight*known(p)%pace)
     end do
-  end subroutine continue
+  end subroutine take_from
 
   !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
   !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0,

@@ -1,5 +1,6 @@
-/* All tuned numbers of the method `sync`, fifteen, and its limits. Those of the estimates are calibrated by the target
- * sync-campaign (docs/sync.md, "How the error is estimated").
+/* The tuned numbers of the method `sync`, fifteen, and its limits. Those of the estimates are calibrated by the target
+ * sync-campaign (docs/sync.md, "How the error is estimated"). Where iterations end, and what is rounding to them, is said at
+ * the heads of the files in fortran/sync.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_TUNING_H
 #define RST_SYNC_TUNING_H
