@@ -25,8 +25,9 @@ int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model 
                           size_t starts, struct rst_fit_search *search);
 void rst_fit_search_release(struct rst_fit_search *search);
 
-/* Solve sets of logarithms, and keep the best as starts; the quasi-random ones; then a local fit from a start. */
-int rst_fit_choose(struct rst_fit_search *search, size_t sets, const double *logs);
+/* Solve sets of logarithms with the best shifts for each, and keep the best sets as starts; the quasi-random ones; then a
+ * local fit from a start. */
+int rst_fit_choose(struct rst_fit_search *search, size_t sets, double *logs);
 int rst_fit_scan(struct rst_fit_search *search);
 int rst_fit_local(struct rst_fit_search *search, size_t start);
 
