@@ -18,7 +18,7 @@ void restitute_fit_options_init(restitute_fit_options *o)
 {
     if (!o) return;
     *o = (restitute_fit_options){.struct_size = sizeof *o, .model = RESTITUTE_FIT_STANDARD_SOLID};
-    o->poisson_ratio = 0.5, o->confidence = 0.95, o->starts = 4, o->seed = 1, o->threads = 1;
+    o->poisson_ratio = 0.5, o->confidence = 0.95, o->seed = 1, o->threads = 1;
     o->reference_temperature = o->wlf_c1 = o->wlf_c2 = NAN;
 }
 
@@ -76,7 +76,7 @@ static int check_options(const restitute_fit_options *o, restitute_error *error)
     if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
     if (!status) status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_SQUARES, RESTITUTE_FIT_CAUCHY, error);
     if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
-    if (!status) status = rst_fit_outside("options.starts", o->starts, 1, 100, error);
+    if (!status) status = rst_fit_outside("options.starts", o->starts, 0, 100, error);
     if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
     if (!status && o->model == RESTITUTE_FIT_PRONY) {
         status = rst_fit_outside("options.terms", (double)o->terms, 1, 20, error);

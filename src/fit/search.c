@@ -98,8 +98,8 @@ static size_t before_shifts(const struct rst_fit_model *m)
 }
 
 /* The best shifts for a solid. Rows of a temperature depend on its own shift alone: all shifts take a value of the grid at
- * once, and each temperature keeps its best. */
-static int scan_shifts(struct rst_fit_search *s, double *x, double *sum)
+ * once, and each temperature keeps its best; or the one in x, if it is `known`. */
+static int scan_shifts(struct rst_fit_search *s, int known, double *x, double *sum)
 {
     const struct rst_fit_data *d = s->data;
     const size_t first = before_shifts(&s->model), p = s->model.free;
@@ -108,10 +108,10 @@ static int scan_shifts(struct rst_fit_search *s, double *x, double *sum)
     if (first == p) return solve_sum(s, x, sum);
     for (size_t t = 0; t < d->temperature.count; t++)
         best[t] = INFINITY;
-    memcpy(trial, x, first * sizeof *x);
-    for (int decade = -DECADES; decade <= DECADES && status >= 0; decade++) {
+    memcpy(trial, x, p * sizeof *x);
+    for (int decade = -DECADES - known; decade <= DECADES && status >= 0; decade++) {
         double sums[RESTITUTE_DMA_SHIFTS] = {0};
-        for (size_t k = first; k < p; k++)
+        for (size_t k = first; k < p && decade >= -DECADES; k++)
             trial[k] = decade * log(10);
         status = residuals(s, trial, s->r);
         for (size_t i = 0; i < d->rows; i++)
@@ -137,7 +137,7 @@ int rst_fit_choose(struct rst_fit_search *s, size_t sets, double *logs)
     int status = RESTITUTE_OK;
     s->data->solver.tolerance = COARSE[0];
     for (size_t i = 0; i < sets && status >= 0; i++)
-        status = scan_shifts(s, logs + i * p, &sums[i]);
+        status = scan_shifts(s, 0, logs + i * p, &sums[i]);
     if (status < 0) return status;
     gsl_sort_index(order, sums, 1, sets);
     for (size_t i = 0; i < s->starts; i++)
@@ -168,6 +168,16 @@ int rst_fit_scan(struct rst_fit_search *s)
     return rst_fit_choose(s, sets, logs);
 }
 
+/* Two starts may agree in a wrong valley. */
+static int looks_right(struct rst_fit_search *s, int *right)
+{
+    struct rst_fit_misfit m;
+    int status = residuals(s, s->logs, s->r);
+    if (status >= 0) status = rst_fit_misfit(s, s->data->rows - s->model.free, &m);
+    *right = status >= 0 && !m.patterned && !m.large && !m.surpassed;
+    return status;
+}
+
 /* A fit from x; kept if it is better than what is there. */
 static int fit_from(struct rst_fit_search *s, double *x, int rounds, const double level[2])
 {
@@ -185,13 +195,15 @@ static int fit_from(struct rst_fit_search *s, double *x, int rounds, const doubl
     s->data->solver.tolerance = level[0];
     const int status = rst_fit_minimise(&least, x, &sum, &converged);
     if (status < 0) return status;
-    s->agreed = sum < least.exact || (converged && fabs(sum - s->sum) <= ALIKE * sum);
+    const int alike = converged && fabs(sum - s->sum) <= ALIKE * sum;
     if (sum < s->sum) {
         s->sum = sum;
         s->converged = converged;
         memcpy(s->logs, x, s->model.free * sizeof *x);
     }
-    return RESTITUTE_OK;
+    if (!s->automatic) return RESTITUTE_OK;
+    s->agreed = sum < (double)s->data->rows * level[0] * level[0]; /* residuals as small as the impacts' errors */
+    return alike && !s->agreed ? looks_right(s, &s->agreed) : RESTITUTE_OK;
 }
 
 int rst_fit_local(struct rst_fit_search *s, size_t start)
@@ -204,9 +216,11 @@ int rst_fit_local(struct rst_fit_search *s, size_t start)
 int rst_fit_again(struct rst_fit_search *s)
 {
     double x[RESTITUTE_FIT_CONSTANTS];
-    memcpy(x, s->logs, sizeof x);
-    s->sum = INFINITY, s->converged = 1;
     s->data->solver.tolerance = PRECISE[0];
+    memcpy(x, s->logs, sizeof x);
+    const int status = scan_shifts(s, 1, x, &s->sum); /* a shift may have wandered where nothing depends on it */
+    if (status < 0) return status;
+    s->sum = INFINITY, s->converged = 1;
     return s->model.free ? fit_from(s, x, ROUNDS, PRECISE) : solve_sum(s, x, &s->sum);
 }
 
@@ -217,5 +231,23 @@ int rst_fit_linearise(struct rst_fit_search *s, double *j)
     int status = residuals(s, s->logs, s->r);
     if (status >= 0 && j && s->model.free) status = jacobian(s, s->logs, s->r, j);
     s->weight = weight;
+    return status;
+}
+
+int rst_fit_rescale(struct rst_fit_search *s)
+{
+    const struct rst_fit_model *m = &s->model;
+    double logs = 0, n = 0;
+    for (size_t i = 0; i < s->data->n; i++)
+        if (s->data->points[i].scene.material) return RESTITUTE_OK; /* a partner's moduli are a scale */
+    if (m->scaled || m->kind == RESTITUTE_FIT_PRONY) return RESTITUTE_OK;
+    const int status = residuals(s, s->logs, s->r);
+    for (size_t i = 0; i < s->data->n && status >= 0; i++) {
+        const double modulus = rst_fit_elastic_modulus(s->data, i, s->values[i].of[RST_FIT_TIME]);
+        if (isfinite(modulus) && modulus > 0) logs += log(1e6 / modulus), n++;
+    }
+    for (size_t k = 0; k < m->free && n > 0; k++) /* docs/fit.md: f for moduli, f^(3/5) for viscosities */
+        if (m->index[k] < m->solid)
+            s->logs[k] += logs / n * (m->index[k] + 1 == m->solid && m->kind != RESTITUTE_FIT_ELASTIC ? 0.6 : 1);
     return status;
 }
