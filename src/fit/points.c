@@ -39,6 +39,8 @@ int rst_fit_outside(const char *name, double value, double low, double high, res
     if (value >= low && value <= high) return RESTITUTE_OK;
     if (isnan(value))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is missing: must be in [%g, %g]", name, low, high);
+    if (low > 0 && low <= 1e-30 && !(value > 0)) /* the rest of the range is for overflow alone */
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be > 0", name, value);
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
 }
 

@@ -13,7 +13,7 @@
 /* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. Shifts are scanned
  * DECADES up and down: beyond, solids are elastic or relaxed. STEPS of a local fit and ROUNDS of the last one; most need
  * eight and two. Starts whose sums are alike within ALIKE have found the same valley: the others are left out. */
-enum { SCAN = 16, MOST_SCAN = 64, DECADES = 4, STEPS = 20, ROUNDS = 8 };
+enum { SCAN = 16, MOST_SCAN = 64, DECADES = 4, STEPS = 20, ROUNDS = 8, USUAL = 4 };
 static const double ALIKE = 1e-2;
 
 /* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends when its sum changes by
@@ -168,13 +168,13 @@ int rst_fit_scan(struct rst_fit_search *s)
     return rst_fit_choose(s, sets, logs);
 }
 
-/* Two starts may agree in a wrong valley. */
-static int looks_right(struct rst_fit_search *s, int *right)
+/* Two starts may agree in a wrong valley. More than the USUAL number are only for residuals that are far too large. */
+static int judge(struct rst_fit_search *s, int usual)
 {
     struct rst_fit_misfit m;
     int status = residuals(s, s->logs, s->r);
     if (status >= 0) status = rst_fit_misfit(s, s->data->rows - s->model.free, &m);
-    *right = status >= 0 && !m.patterned && !m.large && !m.surpassed;
+    s->agreed = status >= 0 && !m.large && (usual || (!m.patterned && !m.surpassed));
     return status;
 }
 
@@ -203,12 +203,16 @@ static int fit_from(struct rst_fit_search *s, double *x, int rounds, const doubl
     }
     if (!s->automatic) return RESTITUTE_OK;
     s->agreed = sum < (double)s->data->rows * level[0] * level[0]; /* residuals as small as the impacts' errors */
-    return alike && !s->agreed ? looks_right(s, &s->agreed) : RESTITUTE_OK;
+    return alike && !s->agreed ? judge(s, 0) : RESTITUTE_OK;
 }
 
 int rst_fit_local(struct rst_fit_search *s, size_t start)
 {
     if (s->agreed || s->model.free == 0) return RESTITUTE_OK;
+    if (s->automatic && start == USUAL) {
+        const int status = judge(s, 1);
+        if (status < 0 || s->agreed) return status;
+    }
     const int shifts = before_shifts(&s->model) < s->model.free; /* updates of the Jacobian lose their way among them */
     return fit_from(s, s->start + start * s->model.free, shifts ? 0 : 1, COARSE);
 }
