@@ -88,8 +88,8 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
                    "the data do not tell these apart: %s for any factor f gives the same", text);
     if (c->rank < p && !s->model.scaled)
         remark(result, RESTITUTE_FIT_UNDETERMINED,
-               "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a known "
-               "constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
+               "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a "
+               "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
