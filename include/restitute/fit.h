@@ -18,8 +18,8 @@
  *  e_x; the constants are reported as not determined, and the remarks say which of them may change together.
  *
  *  How. Nonlinear least squares in the logarithms of the constants (GSL's trust region), from several starts that are
- *  chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule. The forward model is the method
- *  `sync` (@ref restitute_solve_scenes); many points without e_x are interpolated between impacts evenly spaced in log T,
+ *  chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule unless shifts are fitted. The forward model is
+ *  the method `sync` (@ref restitute_solve_scenes); many points without e_x are interpolated between impacts evenly spaced in log T,
  *  within 1e-5. Intervals are those of the linearised problem with Student's t. Without standard deviations all values of
  *  e count alike, contact times by their relative error, and the noise is estimated from the residuals. Equal input gives
  *  equal bits.
@@ -97,7 +97,7 @@ typedef struct restitute_fit_options {
     double reference_temperature; /**< where a_T = 1; NaN (default): that of the first point */
     double wlf_c1, wlf_c2;        /**< log10 a_T = -c1 (T - T_r)/(c2 + T - T_r); NaN (default): a_T of every other
                                        temperature is fitted. a_T multiplies all relaxation times */
-    int starts;                   /**< local fits from the best of the scan, 1 to 100; default 4; fewer if two agree */
+    int starts;                   /**< local fits from the best of the scan, 1 to 100; default 0: up to 8, until two agree */
     uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
     int threads;                  /**< as in @ref restitute_solve_many; default 1 */
 } restitute_fit_options;

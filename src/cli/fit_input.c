@@ -125,7 +125,6 @@ static bool read_point(const struct fit_settings *s, struct fit_input *input, si
     if (!scene_cells(input->csv, row, s, &values, why) ||
         !take_heights(number[DROP], number[REBOUND], &number[EZ], &values, why))
         return false;
-    if (number[WEIGHT] <= 0) return refuse(why, "weight = %g: must be > 0", number[WEIGHT]);
     restitute_fit_point_init(p);
     const double from_weight = 1 / sqrt(number[WEIGHT]); /* NaN: not given */
     p->ez = number[EZ], p->ex = number[EX], p->contact_time = number[TIME], p->temperature = number[TEMPERATURE];
@@ -133,6 +132,23 @@ static bool read_point(const struct fit_settings *s, struct fit_input *input, si
     p->sigma_ex = s->options.noise_known ? number[SIGMA_EX] : from_weight;
     p->sigma_contact_time = s->options.noise_known ? number[SIGMA_TIME] : from_weight * number[TIME];
     return build_scene(&values, input, p, why);
+}
+
+/* Only ratios of weights count: over their mean, so that the noise is that of a usual row. No weight: 1. */
+static bool scale_weights(struct fit_input *input, struct reason *why)
+{
+    double *weight = input->numbers + WEIGHT * input->n, sum = 0;
+    for (size_t i = 0; i < input->n; i++) {
+        if (isnan(weight[i])) weight[i] = 1;
+        if (!(weight[i] > 0 && weight[i] <= 1e100)) {
+            refuse(why, "weight = %g: must be > 0", weight[i]);
+            return at_line(input, i, why);
+        }
+        sum += weight[i] / (double)input->n;
+    }
+    for (size_t i = 0; i < input->n; i++)
+        weight[i] /= sum;
+    return true;
 }
 
 static bool read_points(struct fit_settings *s, struct fit_input *input, struct reason *why)
@@ -145,6 +161,7 @@ static bool read_points(struct fit_settings *s, struct fit_input *input, struct 
     if (s->options.noise_known && has(input, "weight"))
         return refuse(why, "%.200s: columns weight and sigma_...: give one kind", input->source);
     input->points = allocate(input->n, sizeof *input->points);
+    if (has(input, "weight") && !scale_weights(input, why)) return false;
     for (size_t row = 0; row < input->n; row++)
         if (!read_point(s, input, row, why)) return at_line(input, row, why);
     return true;
@@ -184,12 +201,28 @@ void fit_input_release(struct fit_input *input)
     restitute_csv_destroy(input->csv);
 }
 
+/* The column for a field that the library names at the beginning of a message; the rest follows in *after. */
+static const char *column_of(const char *text, const char **after)
+{
+    static const char *const columns[] = {"contact_time_s", "sigma_contact_time_s", "temperature_C", "storage_Pa", "loss_Pa",
+                                          "frequency_Hz"};
+    const size_t length = strcspn(text, " ");
+    *after = text + length;
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        const size_t stem = (size_t)(strrchr(columns[i], '_') - columns[i]);
+        if (stem == length && strncmp(text, columns[i], stem) == 0) return columns[i];
+    }
+    *after = text;
+    return "";
+}
+
 bool fit_input_place(const struct fit_input *input, const char *message, struct reason *why)
 {
     const char *rest = strchr(message, ']');
     size_t row = 0;
     if (!rest || (sscanf(message, "points[%zu]", &row) != 1 && sscanf(message, "row[%zu]", &row) != 1))
         return refuse(why, "%.120s: %s", input->source, message);
-    refuse(why, "%s", rest + 1 + strspn(rest + 1, ".: "));
+    const char *after, *column = column_of(rest + 1 + strspn(rest + 1, ".: "), &after);
+    refuse(why, "%s%s", column, after);
     return at_line(input, row, why);
 }

@@ -9,8 +9,8 @@
 #include "report.h"
 #include "search.h"
 
-/* Rounds of robust weights. */
-enum { ROUNDS = 30 };
+/* Rounds of robust weights; most starts, unless options say how many. */
+enum { ROUNDS = 30, STARTS = 8 };
 
 struct restitute_fitter {
     struct rst_fit_data data;
@@ -111,6 +111,8 @@ static int check_model(const restitute_fitter *f, restitute_error *error)
 static int prepare(restitute_fitter *f, restitute_error *error)
 {
     struct rst_fit_model model;
+    const int automatic = f->data.options.starts == 0;
+    if (automatic) f->data.options.starts = STARTS;
     rst_fit_model_make(&f->data, f->data.options.model, f->data.options.known, &model);
     f->weight = malloc(f->data.rows * sizeof *f->weight);
     for (size_t i = 0; f->weight && i < f->data.rows; i++)
@@ -122,6 +124,7 @@ static int prepare(restitute_fitter *f, restitute_error *error)
     if (status) return status;
     if (!f->weight || rst_fit_search_create(&f->data, &model, f->weight, (size_t)f->data.options.starts, &f->search))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", f->data.n);
+    f->search.automatic = automatic;
     return RESTITUTE_OK;
 }
 
@@ -163,6 +166,7 @@ static int settle(restitute_fitter *f)
         status = rst_fit_reweigh(&f->search, f->weight, &change);
         if (status >= 0) status = rst_fit_again(&f->search);
     }
+    if (status >= 0) status = rst_fit_rescale(&f->search);
     return status < 0 ? status : rst_fit_certainty(&f->search, &f->certainty);
 }
 

@@ -13,8 +13,13 @@ static const double widest = 18.4; /* ln 1e8 */
 /* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
 static const double elastic_time = 2.9432751843;
 
-/* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. The plan has T for
- * 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
+/* The plan has T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
+double rst_fit_elastic_modulus(const struct rst_fit_data *d, size_t point, double contact_time)
+{
+    return 2 * (1 - d->options.poisson_ratio) * pow(elastic_time * d->place[point].time / contact_time, 2.5);
+}
+
+/* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. */
 static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, double *modulus, double *time)
 {
     const double softness = 2 * (1 - d->options.poisson_ratio);
@@ -22,9 +27,9 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     size_t n = 0;
     const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
     for (size_t i = 0; i < d->n; i++) {
-        const double t = d->place[i].time, contact_time = d->points[i].contact_time;
-        times += log(t) / (double)d->n;
-        if (!isnan(contact_time)) logs += log(softness * pow(elastic_time * t / contact_time, 2.5)), n++;
+        const double contact_time = d->points[i].contact_time;
+        times += log(d->place[i].time) / (double)d->n;
+        if (!isnan(contact_time)) logs += log(rst_fit_elastic_modulus(d, i, contact_time)), n++;
     }
     for (size_t i = 0; n == 0 && i < moduli; i++)
         if (m->known[i] > 0) logs = log(m->known[i]), n = 1;

@@ -99,6 +99,9 @@ void rst_fit_model_make(const struct rst_fit_data *data, int kind, const double 
 void rst_fit_name(const struct rst_fit_data *data, const struct rst_fit_model *model, size_t constant,
                   char name[RESTITUTE_FIT_NAME]);
 
+/* Modulus of the elastic solid with this contact time at a point. */
+double rst_fit_elastic_modulus(const struct rst_fit_data *data, size_t point, double contact_time);
+
 /* All constants from logarithms of the fitted ones, which are kept within the range where impacts can be solved. */
 void rst_fit_constants(const struct rst_fit_model *model, const double *logs, double *constants);
 

@@ -18,7 +18,7 @@ void restitute_fit_options_init(restitute_fit_options *o)
 {
     if (!o) return;
     *o = (restitute_fit_options){.struct_size = sizeof *o, .model = RESTITUTE_FIT_STANDARD_SOLID};
-    o->poisson_ratio = 0.5, o->confidence = 0.95, o->starts = 4, o->seed = 1, o->threads = 1;
+    o->poisson_ratio = 0.5, o->confidence = 0.95, o->seed = 1, o->threads = 1;
     o->reference_temperature = o->wlf_c1 = o->wlf_c2 = NAN;
 }
 
@@ -39,6 +39,8 @@ int rst_fit_outside(const char *name, double value, double low, double high, res
     if (value >= low && value <= high) return RESTITUTE_OK;
     if (isnan(value))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is missing: must be in [%g, %g]", name, low, high);
+    if (low > 0 && low <= 1e-30 && !(value > 0)) /* the rest of the range is for overflow alone */
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be > 0", name, value);
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
 }
 
@@ -76,7 +78,7 @@ static int check_options(const restitute_fit_options *o, restitute_error *error)
     if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
     if (!status) status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_SQUARES, RESTITUTE_FIT_CAUCHY, error);
     if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
-    if (!status) status = rst_fit_outside("options.starts", o->starts, 1, 100, error);
+    if (!status) status = rst_fit_outside("options.starts", o->starts, 0, 100, error);
     if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
     if (!status && o->model == RESTITUTE_FIT_PRONY) {
         status = rst_fit_outside("options.terms", (double)o->terms, 1, 20, error);

@@ -3,7 +3,6 @@
 #include "search.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -89,51 +88,27 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
                    "the data do not tell these apart: %s for any factor f gives the same", text);
     if (c->rank < p && !s->model.scaled)
         remark(result, RESTITUTE_FIT_UNDETERMINED,
-               "e has no unit, so it gives no modulus, and about 1 MPa is assumed: measure a contact time or name a known "
-               "constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
+               "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a "
+               "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
 }
 
-static int compare_speeds(const void *a, const void *b)
+/* Residuals that do not look like noise. A pattern below what can be measured is none. */
+static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
 {
-    const double *x = a, *y = b;
-    return (x[0] > y[0]) - (x[0] < y[0]);
-}
-
-/* Wald and Wolfowitz: chance that signs in random order have so few runs. Pairs of speed and residual, sorted. */
-static double chance_of_runs(const double *pairs, size_t n)
-{
-    double up = 0, down = 0, runs = 1;
-    for (size_t i = 0; i < n; i++) {
-        if (pairs[2 * i + 1] > 0)
-            up++;
-        else
-            down++;
-        if (i && (pairs[2 * i + 1] > 0) != (pairs[2 * i - 1] > 0)) runs++;
-    }
-    if (up < 3 || down < 3) return 1;
-    const double mean = 2 * up * down / (up + down) + 1;
-    return gsl_cdf_ugaussian_P((runs + 0.5 - mean) / sqrt((mean - 1) * (mean - 2) / (up + down - 1)));
-}
-
-/* Residuals that have the same sign for many speeds in a row; noise that is known and surpassed. */
-static int remark_pattern(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
-{
-    const struct rst_fit_data *d = s->data;
-    double *pairs = malloc(2 * d->rows * sizeof *pairs);
-    size_t n = 0;
-    if (!pairs) return RESTITUTE_ERROR_MEMORY;
-    for (size_t i = 0; i < d->rows; i++)
-        if (d->row[i].kind == RST_FIT_EZ)
-            pairs[2 * n] = d->points[d->row[i].point].scene.normal_speed, pairs[2 * n++ + 1] = s->r[i];
-    qsort(pairs, n, 2 * sizeof *pairs, compare_speeds);
-    const double chance = chance_of_runs(pairs, n);
-    free(pairs);
-    if (chance < WRONG_BELOW && c->noise >= c->judged)
+    struct rst_fit_misfit m;
+    const int status = rst_fit_misfit(s, c->dof, &m);
+    if (status < 0) return status;
+    if (m.patterned && c->noise >= c->judged)
         remark(result, RESTITUTE_FIT_MISFIT,
-               "the data do not follow the model: residuals of ez keep their sign over ranges of speed (chance %.1g), "
-               "their standard deviation is %.2g",
-               chance, c->noise);
-    if (d->options.noise_known && c->dof && gsl_cdf_chisq_Q(s->sum, (double)c->dof) < WRONG_BELOW)
+               "the data do not follow the model: residuals keep their sign over ranges of speed, angle or temperature "
+               "(chance %.1g), their standard deviation is %.2g",
+               m.chance, c->noise);
+    if (m.large)
+        remark(result, RESTITUTE_FIT_MISFIT,
+               "the data do not follow the model: residuals of %.2g in e and %.2g in relative contact times are "
+               "more than drop tests have",
+               m.noise_e, m.noise_time);
+    if (m.surpassed)
         remark(result, RESTITUTE_FIT_MISFIT,
                "the data do not follow the model: residuals are %.3g times the given standard deviations",
                sqrt(s->sum / (double)c->dof));
@@ -168,7 +143,7 @@ int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c,
 {
     if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
-    const int status = remark_pattern(s, c, result);
+    const int status = remark_misfit(s, c, result);
     return status < 0 ? status : remark_limits(s, result);
 }
 

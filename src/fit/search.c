@@ -10,10 +10,10 @@
 
 #include "least.h"
 
-/* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. STEPS of a local
- * fit and ROUNDS of the last one; most need eight and two. Starts whose sums are alike within ALIKE have found the same
- * valley: the others are left out. */
-enum { SCAN = 16, MOST_SCAN = 64, STEPS = 20, ROUNDS = 8 };
+/* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. Shifts are scanned
+ * DECADES up and down: beyond, solids are elastic or relaxed. STEPS of a local fit and ROUNDS of the last one; most need
+ * eight and two. Starts whose sums are alike within ALIKE have found the same valley: the others are left out. */
+enum { SCAN = 16, MOST_SCAN = 64, DECADES = 4, STEPS = 20, ROUNDS = 8, USUAL = 4 };
 static const double ALIKE = 1e-2;
 
 /* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends when its sum changes by
@@ -88,7 +88,48 @@ static int solve_sum(struct rst_fit_search *s, const double *x, double *sum)
     return status;
 }
 
-int rst_fit_choose(struct rst_fit_search *s, size_t sets, const double *logs)
+/* How many of the fitted constants are not shifts: these are the first ones. */
+static size_t before_shifts(const struct rst_fit_model *m)
+{
+    size_t k = 0;
+    while (k < m->free && m->index[k] < m->shift)
+        k++;
+    return k;
+}
+
+/* The best shifts for a solid. Rows of a temperature depend on its own shift alone: all shifts take a value of the grid at
+ * once, and each temperature keeps its best; or the one in x, if it is `known`. */
+static int scan_shifts(struct rst_fit_search *s, int known, double *x, double *sum)
+{
+    const struct rst_fit_data *d = s->data;
+    const size_t first = before_shifts(&s->model), p = s->model.free;
+    double best[RESTITUTE_DMA_SHIFTS], trial[RESTITUTE_FIT_CONSTANTS];
+    int status = RESTITUTE_OK;
+    if (first == p) return solve_sum(s, x, sum);
+    for (size_t t = 0; t < d->temperature.count; t++)
+        best[t] = INFINITY;
+    memcpy(trial, x, p * sizeof *x);
+    for (int decade = -DECADES - known; decade <= DECADES && status >= 0; decade++) {
+        double sums[RESTITUTE_DMA_SHIFTS] = {0};
+        for (size_t k = first; k < p && decade >= -DECADES; k++)
+            trial[k] = decade * log(10);
+        status = residuals(s, trial, s->r);
+        for (size_t i = 0; i < d->rows; i++)
+            sums[d->at[d->row[i].point]] += s->r[i] * s->r[i];
+        for (size_t t = 0; t < d->temperature.count; t++) {
+            const size_t k = first + t - (t > d->temperature.reference);
+            if (sums[t] >= best[t]) continue;
+            best[t] = sums[t];
+            if (t != d->temperature.reference) x[k] = trial[k];
+        }
+    }
+    *sum = 0;
+    for (size_t t = 0; t < d->temperature.count; t++)
+        *sum += best[t];
+    return status;
+}
+
+int rst_fit_choose(struct rst_fit_search *s, size_t sets, double *logs)
 {
     const size_t p = s->model.free;
     double sums[MOST_SCAN];
@@ -96,7 +137,7 @@ int rst_fit_choose(struct rst_fit_search *s, size_t sets, const double *logs)
     int status = RESTITUTE_OK;
     s->data->solver.tolerance = COARSE[0];
     for (size_t i = 0; i < sets && status >= 0; i++)
-        status = solve_sum(s, logs + i * p, &sums[i]);
+        status = scan_shifts(s, 0, logs + i * p, &sums[i]);
     if (status < 0) return status;
     gsl_sort_index(order, sums, 1, sets);
     for (size_t i = 0; i < s->starts; i++)
@@ -108,23 +149,33 @@ int rst_fit_choose(struct rst_fit_search *s, size_t sets, const double *logs)
 int rst_fit_scan(struct rst_fit_search *s)
 {
     const struct rst_fit_model *m = &s->model;
-    const size_t p = m->free, sets = SCAN * p < MOST_SCAN ? SCAN * p : MOST_SCAN;
+    const size_t p = m->free, q = before_shifts(m), all = q ? SCAN * q : 1, sets = all < MOST_SCAN ? all : MOST_SCAN;
     uint64_t state = s->data->options.seed;
     double at[RESTITUTE_FIT_CONSTANTS], offset[RESTITUTE_FIT_CONSTANTS], logs[MOST_SCAN * RESTITUTE_FIT_CONSTANTS];
     if (p == 0) return RESTITUTE_OK;
-    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)p);
+    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)(q ? q : 1));
     if (!sequence) return RESTITUTE_ERROR_MEMORY;
-    for (size_t k = 0; k < p; k++) {
+    for (size_t k = 0; k < q; k++) {
         state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         offset[k] = (double)(state >> 11) * 0x1p-53;
     }
     for (size_t i = 0; i < sets; i++) {
         gsl_qrng_get(sequence, at);
-        for (size_t k = 0; k < p; k++)
+        for (size_t k = 0; k < q; k++)
             logs[i * p + k] = m->centre[m->index[k]] + (2 * fmod(at[k] + offset[k], 1) - 1) * m->spread[m->index[k]];
     }
     gsl_qrng_free(sequence);
     return rst_fit_choose(s, sets, logs);
+}
+
+/* Two starts may agree in a wrong valley. More than the USUAL number are only for residuals that are far too large. */
+static int judge(struct rst_fit_search *s, int usual)
+{
+    struct rst_fit_misfit m;
+    int status = residuals(s, s->logs, s->r);
+    if (status >= 0) status = rst_fit_misfit(s, s->data->rows - s->model.free, &m);
+    s->agreed = status >= 0 && !m.large && (usual || (!m.patterned && !m.surpassed));
+    return status;
 }
 
 /* A fit from x; kept if it is better than what is there. */
@@ -144,27 +195,36 @@ static int fit_from(struct rst_fit_search *s, double *x, int rounds, const doubl
     s->data->solver.tolerance = level[0];
     const int status = rst_fit_minimise(&least, x, &sum, &converged);
     if (status < 0) return status;
-    s->agreed = sum < least.exact || (converged && fabs(sum - s->sum) <= ALIKE * sum);
+    const int alike = converged && fabs(sum - s->sum) <= ALIKE * sum;
     if (sum < s->sum) {
         s->sum = sum;
         s->converged = converged;
         memcpy(s->logs, x, s->model.free * sizeof *x);
     }
-    return RESTITUTE_OK;
+    if (!s->automatic) return RESTITUTE_OK;
+    s->agreed = sum < (double)s->data->rows * level[0] * level[0]; /* residuals as small as the impacts' errors */
+    return alike && !s->agreed ? judge(s, 0) : RESTITUTE_OK;
 }
 
 int rst_fit_local(struct rst_fit_search *s, size_t start)
 {
     if (s->agreed || s->model.free == 0) return RESTITUTE_OK;
-    return fit_from(s, s->start + start * s->model.free, 1, COARSE);
+    if (s->automatic && start == USUAL) {
+        const int status = judge(s, 1);
+        if (status < 0 || s->agreed) return status;
+    }
+    const int shifts = before_shifts(&s->model) < s->model.free; /* updates of the Jacobian lose their way among them */
+    return fit_from(s, s->start + start * s->model.free, shifts ? 0 : 1, COARSE);
 }
 
 int rst_fit_again(struct rst_fit_search *s)
 {
     double x[RESTITUTE_FIT_CONSTANTS];
-    memcpy(x, s->logs, sizeof x);
-    s->sum = INFINITY, s->converged = 1;
     s->data->solver.tolerance = PRECISE[0];
+    memcpy(x, s->logs, sizeof x);
+    const int status = scan_shifts(s, 1, x, &s->sum); /* a shift may have wandered where nothing depends on it */
+    if (status < 0) return status;
+    s->sum = INFINITY, s->converged = 1;
     return s->model.free ? fit_from(s, x, ROUNDS, PRECISE) : solve_sum(s, x, &s->sum);
 }
 
@@ -175,5 +235,23 @@ int rst_fit_linearise(struct rst_fit_search *s, double *j)
     int status = residuals(s, s->logs, s->r);
     if (status >= 0 && j && s->model.free) status = jacobian(s, s->logs, s->r, j);
     s->weight = weight;
+    return status;
+}
+
+int rst_fit_rescale(struct rst_fit_search *s)
+{
+    const struct rst_fit_model *m = &s->model;
+    double logs = 0, n = 0;
+    for (size_t i = 0; i < s->data->n; i++)
+        if (s->data->points[i].scene.material) return RESTITUTE_OK; /* a partner's moduli are a scale */
+    if (m->scaled || m->kind == RESTITUTE_FIT_PRONY) return RESTITUTE_OK;
+    const int status = residuals(s, s->logs, s->r);
+    for (size_t i = 0; i < s->data->n && status >= 0; i++) {
+        const double modulus = rst_fit_elastic_modulus(s->data, i, s->values[i].of[RST_FIT_TIME]);
+        if (isfinite(modulus) && modulus > 0) logs += log(1e6 / modulus), n++;
+    }
+    for (size_t k = 0; k < m->free && n > 0; k++) /* docs/fit.md: f for moduli, f^(3/5) for viscosities */
+        if (m->index[k] < m->solid)
+            s->logs[k] += logs / n * (m->index[k] + 1 == m->solid && m->kind != RESTITUTE_FIT_ELASTIC ? 0.6 : 1);
     return status;
 }

@@ -18,20 +18,25 @@ struct rst_fit_search {
     double logs[RESTITUTE_FIT_CONSTANTS]; /* the best */
     double sum;                           /* of its weighted squared residuals; infinite before the first start */
     int converged;
-    int agreed; /* two starts came to the same sum, or one to the impacts' precision */
+    int automatic; /* starts end when two agree on a fit that looks right */
+    int agreed;    /* they did, or one came to the impacts' precision */
 };
 
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
                           size_t starts, struct rst_fit_search *search);
 void rst_fit_search_release(struct rst_fit_search *search);
 
-/* Solve sets of logarithms, and keep the best as starts; the quasi-random ones; then a local fit from a start. */
-int rst_fit_choose(struct rst_fit_search *search, size_t sets, const double *logs);
+/* Solve sets of logarithms with the best shifts for each, and keep the best sets as starts; the quasi-random ones; then a
+ * local fit from a start. */
+int rst_fit_choose(struct rst_fit_search *search, size_t sets, double *logs);
 int rst_fit_scan(struct rst_fit_search *search);
 int rst_fit_local(struct rst_fit_search *search, size_t start);
 
 /* Again from the best, precisely: at the end, and after the weights changed. */
 int rst_fit_again(struct rst_fit_search *search);
+
+/* Without a scale: to the contact times of an elastic solid of 1 MPa, which changes no e. */
+int rst_fit_rescale(struct rst_fit_search *search);
 
 /* Residuals at the best; and their derivatives by the logarithms, rows x free, unless j is NULL. No weights. */
 int rst_fit_linearise(struct rst_fit_search *search, double *j);
@@ -48,6 +53,15 @@ struct rst_fit_certainty {
 };
 
 int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *certainty);
+
+/* misfit.c: what the residuals in search->r say against the model. */
+struct rst_fit_misfit {
+    double chance;                   /* of signs that change so seldom along speed, angle, temperature */
+    double noise_e, noise_time;      /* of e and of relative contact times */
+    int patterned, large, surpassed; /* seldom signs; too much noise; more than the given standard deviations */
+};
+
+int rst_fit_misfit(const struct rst_fit_search *search, size_t dof, struct rst_fit_misfit *misfit);
 
 /* Weights of a robust loss from residuals at the best, and the largest change of a weight. */
 int rst_fit_reweigh(struct rst_fit_search *search, double *weight, double *change);

@@ -64,6 +64,16 @@ if command -v gnuplot >/dev/null; then
     has fit.svg 'residuals'
 fi
 
+# Only ratios of weights count.
+for weight in 1 1e12; do
+    awk -F, -v w=$weight '{ print $1 "," $2 + (NR > 1) * 0.01 * (NR % 3 - 1) "," (NR > 1 ? w : "weight") }' only.csv |
+        sed '1s/.*/speed_m_s,ez,weight/' >weighted.csv
+    expect 0 fit --input weighted.csv $ball --known modulus1=1e6,modulus2=3e6 --output weighted.json
+    sed -n '/viscosity/s/ *$//p' out >weight.$weight
+done
+near "$(awk '{ print $2 }' weight.1)" "$(awk '{ print $2 }' weight.1e12)" 0.05
+near "$(awk '{ print $3 }' weight.1)" "$(awk '{ print $3 }' weight.1e12)" 0.05
+
 # A DMA curve of one term, G' = G x^2/(1+x^2), G'' = G x/(1+x^2).
 awk 'BEGIN { print "frequency_Hz,storage_Pa,loss_Pa"
              for (i = -12; i <= 12; i++) { f = exp(i / 2); x = 6.283185307 * f * 0.01
@@ -98,12 +108,14 @@ bad 'row 1): column radius1_m and option' speed_m_s,ez,radius1_m 1,0.4,1 2,0.4,1
 printf 'frequency_Hz,storage_Pa\n1,2\n' >bad.csv
 refused 'column loss_Pa is missing' fit --dma bad.csv
 printf 'frequency_Hz,storage_Pa,loss_Pa\n1,2,3\n2,3,-4\n3,4,5\n' >bad.csv
-refused 'line 3 (row 2): loss = -4' fit --dma bad.csv
+refused 'line 3 (row 2): loss_Pa = -4' fit --dma bad.csv
 refused 'give --input' fit
 refused '--model: not with --dma' fit --dma curve.csv --model elastic
 refused '--radius: not with --dma' fit --dma curve.csv --radius 1
 refused '--noise: need --dma' fit --input drop.csv --noise 0.1
 bad 'row 2): sigma_ez is missing' speed_m_s,ez,sigma_ez 1,0.5,0.01 2,0.4, 3,0.3,0.01
+bad 'line 3 (row 2): contact_time_s = -1: must be > 0' speed_m_s,ez,contact_time_s 1,0.5,1 2,0.4,-1 3,0.4,1
+bad 'line 3 (row 2): weight = 0: must be > 0' speed_m_s,ez,weight 1,0.5,1 2,0.4,0 3,0.4,1
 bad 'columns weight and sigma_' speed_m_s,ez,sigma_ez,weight 1,0.5,0.01,1
 refused '--model = "rubber"' fit --input drop.csv --model rubber
 refused 'must end in .json' fit --input drop.csv $ball --output solid.txt
@@ -115,5 +127,5 @@ refused '--known: modulus1 is given twice' fit --input drop.csv $ball --known mo
 refused 'drop.csv has no column temperature_C' fit --input drop.csv $ball --wlf 17:51
 refused 'curve.csv has no column temperature_C' fit --dma curve.csv --reference-temperature 20
 awk -F, '{ print $0 "," (NR == 1 ? "temperature_C" : NR < 9 ? 20 : -40) }' curve.csv >cold.csv
-refused 'cold.csv line 9 (row 8): temperature = -40: must be above the pole' fit --dma cold.csv --wlf 17:51
+refused 'cold.csv line 9 (row 8): temperature_C = -40: must be above the pole' fit --dma cold.csv --wlf 17:51
 refused '--terms and --model prony' fit --input drop.csv $ball --model prony
