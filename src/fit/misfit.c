@@ -6,9 +6,9 @@
 
 #include "search.h"
 
-/* Chance below which a model is called wrong. Published drop tests scatter by 0.005 to 0.02 in e, and
- * contact times by a few per cent: more than LARGE is suspect. */
-static const double WRONG_BELOW = 0.01, LARGE_E = 0.03, LARGE_TIME = 0.1;
+/* Chance below which a model is called wrong, and residuals that are suspect whatever their order. The latter are chosen, not
+ * derived: noise of 5 % is to pass, while searches that ended in a wrong place had left 6 to 18 %. */
+static const double WRONG_BELOW = 0.01, LARGE_E = 0.07, LARGE_TIME = 0.1;
 
 /* A pattern below what can be measured is none: it is that of the solver's error. */
 static const double PRACTICAL = 1e-3;

@@ -105,8 +105,8 @@ static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_ce
                m.chance, c->noise);
     if (m.large)
         remark(result, RESTITUTE_FIT_MISFIT,
-               "the data do not follow the model: residuals of %.2g in e and %.2g in relative contact times are "
-               "more than drop tests have",
+               "the data do not follow the model: residuals of %.2g in e and %.2g in relative contact times (0: none "
+               "measured) are more than noise should be; or try more starts",
                m.noise_e, m.noise_time);
     if (m.surpassed)
         remark(result, RESTITUTE_FIT_MISFIT,
