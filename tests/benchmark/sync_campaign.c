@@ -28,7 +28,9 @@ enum { piece = 128, threads = 2, most_rows = 12, every = 64, explained = 20 };
 
 static const double reference_tolerance = 1e-8, rounding = 1e-15; /* of e_z and e_x: four units in the last place */
 static const int64_t reference_updates = 100000000; /* half a second; the tested method has the default */
-static const int64_t cvode_updates = 3000000;       /* one second */
+#ifdef RESTITUTE_WITH_CVODE
+static const int64_t cvode_updates = 3000000; /* one second */
+#endif
 
 enum worst { ERROR, ESTIMATE, FORCE, TIME, WORST };
 
