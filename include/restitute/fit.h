@@ -60,7 +60,7 @@ typedef enum restitute_fit_loss {
 
 /** What the data leave open, bits of restitute_fit_result.flags; the remarks say it with names and numbers. */
 typedef enum restitute_fit_flag {
-    RESTITUTE_FIT_UNDETERMINED = 1, /**< constants, or combinations of them, may be anything */
+    RESTITUTE_FIT_UNDETERMINED = 1, /**< constants, combinations of them or the model may be another */
     RESTITUTE_FIT_SIMPLER = 2,      /**< a model with fewer constants fits as well */
     RESTITUTE_FIT_MISFIT = 4,       /**< the data do not follow the model */
     RESTITUTE_FIT_LIMITS = 8,       /**< impacts beyond the limits of the contact model (@ref restitute_flag) */

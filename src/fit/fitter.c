@@ -31,7 +31,7 @@ static int try_rival(restitute_fitter *f, int kind, const double *known, const d
     double ours[RESTITUTE_FIT_CONSTANTS], logs[3 * RESTITUTE_FIT_CONSTANTS];
     rst_fit_constants(m, f->search.logs, ours);
     rst_fit_model_make(&f->data, kind, known, &model);
-    if (model.free == m->free || model.free > f->data.rows) return RESTITUTE_OK;
+    if ((model.free == m->free && kind == m->kind) || model.free > f->data.rows) return RESTITUTE_OK;
     if (model.free > m->free && f->certainty.judged > f->certainty.noise) return RESTITUTE_OK; /* nothing left to explain */
     for (size_t k = 0; k < 3 * model.free; k++) {
         const size_t i = model.index[k % model.free];
@@ -64,7 +64,8 @@ static int try_shorter_series(restitute_fitter *f)
     return try_rival(f, RESTITUTE_FIT_PRONY, known, ours);
 }
 
-/* Solids with a constant more or less. A spring that is new begins as strong as the other. */
+/* Solids with a constant more or less, and Maxwell's beside Kelvin and Voigt's. A spring that is new begins as strong as the
+ * other. */
 static int try_rivals(restitute_fitter *f)
 {
     static const int parts[] = {0, 1, 5, 7, 6}; /* of a kind, bits: modulus1, modulus2, viscosity */
@@ -79,9 +80,10 @@ static int try_rivals(restitute_fitter *f)
     for (size_t i = 0; i < m->solid; i++)
         part[rst_fit_part(m->kind, i)] = ours[i], known[rst_fit_part(m->kind, i)] = m->known[i];
     for (int kind = RESTITUTE_FIT_ELASTIC; kind <= RESTITUTE_FIT_MAXWELL && status >= 0; kind++) {
-        const int differ = parts[kind] ^ parts[m->kind], which = differ == 1 ? 0 : differ == 2 ? 1 : 2;
+        const int differ = parts[kind] ^ parts[m->kind], other = differ == 3; /* the spring beside or behind the dashpot */
+        const int which = other ? (parts[kind] & 1) : differ == 1 ? 0 : differ == 2 ? 1 : 2;
         double theirs[RST_FIT_PARTS], from[RST_FIT_PARTS];
-        if (differ != 1 << which || !isnan(known[which])) continue; /* one that is known cannot be left out */
+        if ((!other && differ != 1 << which) || !isnan(known[which])) continue; /* one that is known cannot be left out */
         for (size_t i = 0; i < rst_fit_solid_constants(kind, 0); i++)
             theirs[i] = known[rst_fit_part(kind, i)], from[i] = part[rst_fit_part(kind, i)];
         status = try_rival(f, kind, theirs, from);

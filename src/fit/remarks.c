@@ -162,11 +162,11 @@ static const char *kind_text(const struct rst_fit_model *m, int ours)
 void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
                           const struct rst_fit_search *rival, restitute_fit_result *result)
 {
-    const int simpler = rival->model.free < s->model.free;
-    const double more = fabs((double)s->model.free - (double)rival->model.free), rows = (double)s->data->rows;
+    const int simpler = rival->model.free <= s->model.free, like = rival->model.free == s->model.free;
+    const double more = like ? 1 : fabs((double)s->model.free - (double)rival->model.free), rows = (double)s->data->rows;
     const double worse = simpler ? rival->sum : s->sum, better = simpler ? s->sum : rival->sum;
     const double left = simpler ? (double)c->dof : rows - (double)rival->model.free;
-    if (left < 1 || more < 1) return;
+    if (left < 1) return;
     /* F of the drop against the noise, which is not below what a measurement has */
     const double floor = s->data->options.noise_known
                              ? 1
@@ -174,7 +174,11 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_c
     const double f = fmax(0, worse - better) / more / floor;
     const double chance =
         s->data->options.noise_known ? gsl_cdf_chisq_Q(f * more, more) : gsl_cdf_fdist_Q(f, more, left);
-    if (simpler && chance > SIMPLER_FROM)
+    if (like && chance > SIMPLER_FROM)
+        remark(result, RESTITUTE_FIT_UNDETERMINED,
+               "the data do not tell this model from %s, which has as many constants (rms %.3g, here %.3g)",
+               kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
+    else if (simpler && chance > SIMPLER_FROM)
         remark(result, RESTITUTE_FIT_SIMPLER, "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)

@@ -55,6 +55,12 @@ has err 'the data do not follow the model'
 # Heights for speed and ez; two partners; a fixed series.
 printf 'drop_height_m,rebound_height_m,partner\n0.1,0.05,rigid\n0.2,0.09,rigid\n0.3,0.13,%s\n0.5,0.2,%s\n' \
     "$materials/steel.json" "$materials/steel.json" >heights.csv
+# one speed alone does not tell two models of as many constants apart
+printf 'speed_m_s,ez,contact_time_s\n1,0.5,.001\n1,0.51,.00101\n1,0.49,.00099\n1,.5,.001\n' >alone.csv
+expect 1 fit --input alone.csv $ball --model kelvin_voigt
+has err 'do not tell this model from a Maxwell body'
+expect 1 fit --input alone.csv $ball --model maxwell
+has err 'do not tell this model from a Kelvin-Voigt solid'
 expect 0 fit --input heights.csv $ball --model kelvin_voigt --known modulus1=1e6
 expect 1 fit --input drop.csv $ball --model prony --terms 1e-5,1e-4,1e-3,1e-2,1e-1
 has err 'the data do not'
