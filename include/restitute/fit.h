@@ -17,12 +17,12 @@
  *  or one known constant (`known`), sets the scale. Without it the fitted solid still has the right e_z and
  *  e_x; the constants are reported as not determined, and the remarks say which of them may change together.
  *
- *  How. Nonlinear least squares in the logarithms of the constants (GSL's trust region), from several starts that are
- *  chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule unless shifts are fitted. The forward model is
- *  the method `sync` (@ref restitute_solve_scenes); many points without e_x are interpolated between impacts evenly spaced in log T,
- *  within 1e-5. Intervals are those of the linearised problem with Student's t. Without standard deviations all values of
- *  e count alike, contact times by their relative error, and the noise is estimated from the residuals. Equal input gives
- *  equal bits.
+ *  How. Nonlinear least squares in the logarithms of the constants (GSL's trust region), from several starts that
+ *  are chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule unless shifts are
+ *  fitted. The forward model is the method `sync` (@ref restitute_solve_scenes); many points without e_x are
+ *  interpolated between impacts evenly spaced in log T, within 1e-5. Intervals are those of the linearised
+ *  problem with Student's t. Without standard deviations all values of e count alike, contact times by their
+ *  relative error, and the noise is estimated from the residuals. Equal input gives  equal bits.
  *
  *  The rules of restitute.h hold. GSL has one error handler for the process, and its own ends the program:
  *  it is switched off while a call of this component runs and restored afterwards. GSL may also raise floating-point
