@@ -93,15 +93,14 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     return 0;
 }
 
-/* After so many refinements. Not below rounding, which narrower panels do not lessen. */
-static double roughness_of(int refined)
+double rst_roughness(int halvings)
 {
-    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, refined));
+    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, halvings - 1));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
 {
-    const double roughness = roughness_of(halvings - 1);
+    const double roughness = rst_roughness(halvings);
     return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
 }
 
@@ -161,7 +160,7 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
     const struct sync_normal *coarser = coarser_than(motion, halvings);
     for (int64_t capacity = run->capacity > 0 ? run->capacity : first_capacity(halvings);; capacity *= 2) {
         const int64_t allowed = capacity < most ? capacity : most;
-        const struct sync_normal_control control = {.roughness = roughness_of(halvings - 1),
+        const struct sync_normal_control control = {.roughness = rst_roughness(halvings),
                                                     .stop_speed = motion->stop_speed,
                                                     .halvings = halvings,
                                                     .capacity = allowed,
@@ -237,7 +236,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
                                          .roughness = roughness * scale / swings,
-                                         .noise = rst_noise * roughness_of(halvings - 1),
+                                         .noise = rst_noise * rst_roughness(halvings),
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
                                          .no_slip = problem->mode == RST_NO_SLIP};

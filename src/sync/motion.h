@@ -47,6 +47,12 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
  * NULL: out of memory. */
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most);
 
+/* Of a run that was solved. */
+static inline const struct sync_panel *rst_last_panel(const struct rst_run *run)
+{
+    return &run->normal.panel[run->normal.n_panels - 1];
+}
+
 /* The same with friction without limit, U' over psi. */
 static inline struct rst_problem rst_without_slip(const struct rst_problem *problem)
 {
@@ -56,7 +62,10 @@ static inline struct rst_problem rst_without_slip(const struct rst_problem *prob
     return without;
 }
 
-/* What the polynomials of U' may miss, over psi. */
+/* What the polynomials of a run may miss: not below rounding, which narrower panels do not lessen. */
+double rst_roughness(int halvings);
+
+/* The same of U' over psi. */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
 /* The tangential motion on a run: U' at the end, over psi as the problem has it; RST_LACKS_PIECES: it wants more than

@@ -6,9 +6,8 @@
 
 #include "motion.h"
 #include "record.h"
-#include "status.h"
 #include "sync.h"
-#include "tuning.h"
+#include "verdict.h"
 #include "walk.h"
 
 /* One resolution. */
@@ -30,11 +29,6 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
-static const struct sync_panel *last_panel(const struct rst_run *run)
-{
-    return &run->normal.panel[run->normal.n_panels - 1];
-}
-
 static int too_hard(const struct rst_problem *problem, restitute_error *error)
 {
     if (problem->elements > 0)
@@ -43,12 +37,6 @@ static int too_hard(const struct rst_problem *problem, restitute_error *error)
                           (long long)problem->elements);
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                       "sync did not converge for this solid; use the method euler");
-}
-
-static int too_much_work(const struct rst_problem *problem, restitute_error *error)
-{
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: too few for this impact",
-                      (long long)problem->max_updates);
 }
 
 static int attempt_contact(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *a,
@@ -60,7 +48,7 @@ static int attempt_contact(struct rst_motion *motion, const struct rst_problem *
                            &a->shear_velocity, &found))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
     outcome->updates += motion->store.n_pieces * cost;
-    if (found == RST_LACKS_PIECES) return too_much_work(problem, error);
+    if (found == RST_LACKS_PIECES) return rst_sync_too_much_work(problem, error);
     a->sticks_again = found == RST_STICKS_AGAIN;
     return RESTITUTE_OK;
 }
@@ -72,11 +60,11 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
     const int64_t cost = rst_points * (1 + motion->n_arms), most = (problem->max_updates - outcome->updates) / cost;
     *a = (struct attempt){.run = rst_motion_run(motion, halvings, most), .halvings = halvings};
     if (!a->run) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for panels");
-    if (a->run->found == RST_LACKS_ROOM || a->run->normal.n_panels > most) return too_much_work(problem, error);
+    if (a->run->found == RST_LACKS_ROOM || a->run->normal.n_panels > most) return rst_sync_too_much_work(problem, error);
     outcome->updates += a->run->normal.n_panels * cost;
     a->fails = a->run->found == RST_DOES_NOT_CONVERGE;
     if (a->fails) return RESTITUTE_OK;
-    a->velocity = a->run->found == RST_STOPS ? 0 : last_panel(a->run)->velocity[rst_stages];
+    a->velocity = a->run->found == RST_STOPS ? 0 : rst_last_panel(a->run)->velocity[rst_stages];
     if (problem->mode != RST_FRICTIONLESS && !slips_to_the_end(problem, -a->velocity))
         return attempt_contact(motion, problem, a, outcome, error);
     a->shear_velocity = problem->mode == RST_FRICTIONLESS ? problem->psi : full_slip(problem, a->velocity);
@@ -112,7 +100,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
                     struct rst_outcome *outcome)
 {
     const struct sync_normal *n = &fine->run->normal;
-    const struct sync_panel *end = last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
+    const struct sync_panel *end = rst_last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
     const double left = stops ? 2 * n->left : 0; /* its velocity changes by no more */
@@ -142,16 +130,6 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     outcome->halvings = fine->halvings;
 }
 
-static double larger_error(const struct rst_outcome *outcome)
-{
-    return fmax(outcome->error_ez, outcome->error_ex);
-}
-
-static int meets(const struct rst_problem *problem, const struct rst_outcome *outcome)
-{
-    return larger_error(outcome) <= rst_acceptance * problem->tolerance;
-}
-
 /* Panels of the first run, and of the last one. */
 static int first_halvings(const struct rst_problem *problem)
 {
@@ -164,83 +142,11 @@ static int first_halvings(const struct rst_problem *problem)
     return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
-static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
-                     int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)
-{
-    const double n = (double)(parts * (fine->run->normal.n_compression + 1));
-    const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
-    if ((double)outcome->updates + work > (double)problem->max_updates) return too_much_work(problem, error);
-    outcome->updates += (int64_t)work;
-    if (rst_walk(motion, fine->run, problem, RST_STICKS_SOMETIME, parts, walk))
-        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
-    return RESTITUTE_OK;
-}
-
-/* A walk is over the ends of all panels at least: the finest run that is not too fine for four walks. */
-static struct attempt ground_of_walk(const struct rst_motion *motion, const struct attempt *fine)
-{
-    struct attempt ground = *fine;
-    while (ground.halvings > 0 && 8 * ground.run->normal.n_compression > rst_most_elements) {
-        const struct rst_run *coarser = &motion->run[ground.halvings - 1];
-        if (coarser->found != ground.run->found) break;
-        ground.run = coarser;
-        ground.halvings--;
-    }
-    return ground;
-}
-
-static void note_walk(const struct rst_walk *walk, int64_t parts, double velocity, struct rst_outcome *outcome)
-{
-    outcome->shear_velocity = velocity;
-    outcome->elements = walk->n;
-    outcome->steps = 2 * walk->n;
-    outcome->step = outcome->followed_time / (double)outcome->steps;
-    outcome->spacing = outcome->max_contact_radius / (double)walk->n;
-    outcome->walked = parts;
-}
-
-/* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
- * agree by chance, so that a part of the change before extrapolation counts, too: half of that if twice in a row it fell
- * to a quarter, as it does where all is regular. */
-static int walk_refining(struct rst_motion *motion, const struct rst_problem *problem, const struct attempt *fine,
-                         struct rst_outcome *outcome, restitute_error *error)
-{
-    const struct attempt ground = ground_of_walk(motion, fine);
-    struct rst_walk coarse, now;
-    const double rest = outcome->error_ez +
-                        (outcome->sunk ? 4 * problem->chi * ground.run->normal.left / problem->psi : 0); /* see compare */
-    double before = 0, extrapolated = 0;
-    int walked = 1, regular = 0;
-    const double first = rst_first_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
-    int64_t parts = 1 + (int64_t)first / ground.run->normal.n_compression;
-    if (problem->elements > 0) parts = 1 + problem->elements / (2 * ground.run->normal.n_compression);
-    outcome->halvings = ground.halvings;
-    int status = walk_once(motion, problem, &ground, parts, outcome, &coarse, error);
-    while (!status) {
-        parts *= 2;
-        status = walk_once(motion, problem, &ground, parts, outcome, &now, error);
-        if (status) break;
-        const double plain = now.velocity - coarse.velocity, last = extrapolated;
-        double change = fabs(plain);
-        extrapolated = now.velocity + plain / 3;
-        regular = ++walked > 2 && fabs(before / plain - 4) < rst_regular ? regular + 1 : 0;
-        if (walked > 2)
-            change = fmax(rst_share_by_chance / (regular > 1 ? 2 : 1) * change, fabs(extrapolated - last));
-        before = plain;
-        note_walk(&now, parts, extrapolated, outcome);
-        outcome->error_ex =
-            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
-        if (problem->elements > 0 || (walked > 2 && meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
-        coarse = now;
-    }
-    return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
-}
-
 /* What is said of a result; `spent`: max_updates kept it from being refined. */
 static int conclude(const struct rst_problem *problem, int spent, const struct rst_outcome *outcome,
                     restitute_error *error)
 {
-    if (meets(problem, outcome)) return rst_done(error);
+    if (rst_meets(problem, outcome)) return rst_done(error);
     if (spent)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                           "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
@@ -254,7 +160,7 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
 static int return_best(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_outcome *best,
                        struct attempt *fine, struct rst_outcome *outcome, restitute_error *error)
 {
-    if (!(larger_error(best) < larger_error(outcome))) return RESTITUTE_OK;
+    if (!(rst_larger_error(best) < rst_larger_error(outcome))) return RESTITUTE_OK;
     const int64_t updates = outcome->updates;
     *outcome = *best;
     outcome->updates = updates;
@@ -282,8 +188,8 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
         compare(problem, &coarse, fine, outcome);
         walks = fine->sticks_again || coarse.sticks_again;
         if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
-        if (!walks && (problem->elements > 0 || meets(problem, outcome))) return RESTITUTE_OK;
-        if (!walks && larger_error(outcome) < larger_error(&best)) best = *outcome;
+        if (!walks && (problem->elements > 0 || rst_meets(problem, outcome))) return RESTITUTE_OK;
+        if (!walks && rst_larger_error(outcome) < rst_larger_error(&best)) best = *outcome;
     }
     if (known < 2) return too_hard(problem, error);
     if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
@@ -291,7 +197,7 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
         outcome->error_ex = INFINITY;
         return RESTITUTE_TOLERANCE_NOT_REACHED;
     }
-    if (walks) return walk_refining(motion, problem, fine, outcome, error);
+    if (walks) return rst_walk_refining(motion, problem, fine->halvings, outcome, error);
     return return_best(motion, problem, &best, fine, outcome, error);
 }
 

@@ -1,0 +1,92 @@
+/* Elements where slip sticks again (docs/sync.md, section 9): walks with more and more of them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "verdict.h"
+#include "walk.h"
+
+static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *ground,
+                     int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)
+{
+    const double n = (double)(parts * (ground->normal.n_compression + 1));
+    const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
+    if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
+    outcome->updates += (int64_t)work;
+    if (rst_walk(motion, ground, problem, RST_STICKS_SOMETIME, parts, walk))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
+    return RESTITUTE_OK;
+}
+
+static double rebound_of(const struct rst_run *run)
+{
+    return rst_last_panel(run)->velocity[rst_stages];
+}
+
+/* The rebound is the finest run's, and what polynomials miss is little beside the tolerance. */
+static int is_as_good(const struct rst_problem *problem, const struct rst_run *run, int halvings,
+                      const struct rst_run *finest)
+{
+    const double change = fabs(rebound_of(run) - rebound_of(finest));
+    return problem->elements <= 0 && run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
+           rst_roughness(halvings) <= problem->tolerance;
+}
+
+/* A walk has the ends of all panels among its levels. So it is over the coarsest run that is as good as the finest one, or else
+ * over the finest that is not too fine for four walks. Returned are its halvings. */
+static int ground_of_walk(const struct rst_motion *motion, const struct rst_problem *problem, int finest)
+{
+    int halvings = finest;
+    for (; halvings > 0; halvings--) {
+        const struct rst_run *coarser = &motion->run[halvings - 1];
+        const int too_fine = 8 * motion->run[halvings].normal.n_compression > rst_most_elements;
+        if (coarser->found != motion->run[finest].found) break;
+        if (!too_fine && !is_as_good(problem, coarser, halvings - 1, &motion->run[finest])) break;
+    }
+    return halvings;
+}
+
+static void note_walk(const struct rst_walk *walk, int64_t parts, double velocity, struct rst_outcome *outcome)
+{
+    outcome->shear_velocity = velocity;
+    outcome->elements = walk->n;
+    outcome->steps = 2 * walk->n;
+    outcome->step = outcome->followed_time / (double)outcome->steps;
+    outcome->spacing = outcome->max_contact_radius / (double)walk->n;
+    outcome->walked = parts;
+}
+
+/* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
+ * agree by chance, so that a part of the change before extrapolation counts, too: half of that if twice in a row it fell
+ * to a quarter, as it does where all is regular. */
+int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
+                      struct rst_outcome *outcome, restitute_error *error)
+{
+    outcome->halvings = ground_of_walk(motion, problem, halvings);
+    const struct rst_run *ground = &motion->run[outcome->halvings];
+    const int64_t panels = ground->normal.n_compression;
+    struct rst_walk coarse, now;
+    const double rest = outcome->error_ez +
+                        (outcome->sunk ? 4 * problem->chi * ground->normal.left / problem->psi : 0); /* see compare */
+    double before = 0, extrapolated = 0;
+    int walked = 1, regular = 0;
+    const double first = rst_first_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
+    int64_t parts = 1 + (int64_t)first / panels;
+    if (problem->elements > 0) parts = 1 + problem->elements / (2 * panels);
+    int status = walk_once(motion, problem, ground, parts, outcome, &coarse, error);
+    while (!status) {
+        parts *= 2;
+        status = walk_once(motion, problem, ground, parts, outcome, &now, error);
+        if (status) break;
+        const double plain = now.velocity - coarse.velocity, last = extrapolated;
+        double change = fabs(plain);
+        extrapolated = now.velocity + plain / 3;
+        regular = ++walked > 2 && fabs(before / plain - 4) < rst_regular ? regular + 1 : 0;
+        if (walked > 2)
+            change = fmax(rst_share_by_chance / (regular > 1 ? 2 : 1) * change, fabs(extrapolated - last));
+        before = plain;
+        note_walk(&now, parts, extrapolated, outcome);
+        outcome->error_ex =
+            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
+        if (problem->elements > 0 || (walked > 2 && rst_meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
+        coarse = now;
+    }
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
+}

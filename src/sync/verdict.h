@@ -1,0 +1,28 @@
+/* What is said of an outcome (docs/sync.md, section 9).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SYNC_VERDICT_H
+#define RST_SYNC_VERDICT_H
+
+#include <math.h>
+
+#include "motion.h"
+#include "status.h"
+#include "tuning.h"
+
+static inline double rst_larger_error(const struct rst_outcome *outcome)
+{
+    return fmax(outcome->error_ez, outcome->error_ex);
+}
+
+static inline int rst_meets(const struct rst_problem *problem, const struct rst_outcome *outcome)
+{
+    return rst_larger_error(outcome) <= rst_acceptance * problem->tolerance;
+}
+
+static inline int rst_sync_too_much_work(const struct rst_problem *problem, restitute_error *error)
+{
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: too few for this impact",
+                      (long long)problem->max_updates);
+}
+
+#endif
