@@ -20,13 +20,14 @@ static double rebound_of(const struct rst_run *run)
     return rst_last_panel(run)->velocity[rst_stages];
 }
 
-/* The rebound is the finest run's, and what polynomials miss is little beside the tolerance. */
+/* The rebound is the finest run's, and polynomials of the run before miss as little already as pieces of U' may. */
 static int is_as_good(const struct rst_problem *problem, const struct rst_run *run, int halvings,
                       const struct rst_run *finest)
 {
     const double change = fabs(rebound_of(run) - rebound_of(finest));
+    const double swings = sqrt(fmax(1, problem->chi)); /* as in rst_motion_contact */
     return problem->elements <= 0 && run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
-           rst_roughness(halvings) <= problem->tolerance;
+           rst_roughness(halvings - 1) * swings <= rst_piece_part * problem->tolerance;
 }
 
 /* A walk has the ends of all panels among its levels. So it is over the coarsest run that is as good as the finest one, or else
@@ -63,7 +64,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
     const struct rst_run *ground = &motion->run[outcome->halvings];
     const int64_t panels = ground->normal.n_compression;
     struct rst_walk coarse, now;
-    const double rest = outcome->error_ez +
+    const double rest = outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
                         (outcome->sunk ? 4 * problem->chi * ground->normal.left / problem->psi : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
