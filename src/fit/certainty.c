@@ -105,6 +105,16 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
     }
 }
 
+/* A constant that is beyond three standard deviations in another valley that fits as well is not determined. */
+static void look_beside(const struct rst_fit_search *s, struct rst_fit_certainty *c)
+{
+    const size_t p = s->model.free;
+    for (size_t i = 0; i < p && s->beside_sum < INFINITY; i++) {
+        c->elsewhere[i] = c->determined[i] && fabs(s->beside[i] - s->logs[i]) > 3 * sqrt(c->variance[i * p + i]);
+        if (c->elsewhere[i]) c->determined[i] = 0;
+    }
+}
+
 int rst_fit_certainty(struct rst_fit_search *s, struct rst_fit_certainty *c)
 {
     const size_t rows = s->data->rows, p = s->model.free;
@@ -119,6 +129,7 @@ int rst_fit_certainty(struct rst_fit_search *s, struct rst_fit_certainty *c)
             c->rank++;
         find_noise(s, c, sorted); /* with the degrees of freedom of that rank */
         set_variance(s, c);
+        look_beside(s, c);
     }
     free(j);
     return status;

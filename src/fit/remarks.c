@@ -82,7 +82,8 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
     separate(p - c->rank, p, open);
     for (size_t k = 0; k < p - c->rank; k++)
         if (direction_text(s, open + k * p, text, sizeof text) == 1)
-            remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %.*s", (int)strcspn(text, " "), text);
+            remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "), text,
+                   s->model.kind == RESTITUTE_FIT_PRONY ? "; the intervals of the others are those beside this value of it" : "");
         else
             remark(result, RESTITUTE_FIT_UNDETERMINED,
                    "the data do not tell these apart: %s for any factor f gives the same", text);
@@ -90,6 +91,20 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
         remark(result, RESTITUTE_FIT_UNDETERMINED,
                "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a "
                "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
+}
+
+/* Constants of another valley. */
+static void remark_beside(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+{
+    char name[RESTITUTE_FIT_NAME], text[600] = "";
+    for (size_t i = 0; i < s->model.free; i++) {
+        const size_t used = strlen(text);
+        if (!c->elsewhere[i]) continue;
+        rst_fit_name(s->data, &s->model, s->model.index[i], name);
+        snprintf(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->beside[i]));
+    }
+    if (text[0])
+        remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s; a contact time tells them apart", text);
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
@@ -143,6 +158,7 @@ int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c,
 {
     if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
+    remark_beside(s, c, result);
     const int status = remark_misfit(s, c, result);
     return status < 0 ? status : remark_limits(s, result);
 }

@@ -248,6 +248,34 @@ static void many_points_are_interpolated(void **state)
     }
 }
 
+/* Two solids may give the same e(v): what fits as well elsewhere is said, unless noise is less or a contact time was measured. */
+static void another_valley_is_named(void **state)
+{
+    enum { DROPS = 20 };
+    static const double tau[] = {3e-5, 3e-3}, g[] = {1e6, 1e6}, known[] = {1e6, NAN, NAN};
+    restitute_material *solid = NULL;
+    restitute_fit_point points[DROPS];
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_PRONY);
+    (void)state;
+    options.terms = 2, options.relaxation_time = tau, options.known = known, options.noise_known = 1;
+    restitute_material_prony(1e6, 0, 2, tau, g, 0.5, &solid, NULL);
+    for (int which = 0; which < 3; which++) {
+        const double sigma = which == 1 ? 0.003 : 0.01;
+        drops(DROPS, 0.01, 10, points);
+        measure(solid, DROPS, points, 0, which == 2, 0, 1);
+        for (size_t i = 0; i < DROPS; i++) {
+            points[i].sigma_ez = sigma;
+            if (which == 2) points[i].sigma_contact_time = sigma * points[i].contact_time;
+        }
+        restitute_fit_result r = fitted(DROPS, points, &options);
+        CHECK(!(r.flags & RESTITUTE_FIT_UNDETERMINED) == (which > 0), "%d: flags %d", which, r.flags);
+        CHECK(!strstr(r.remarks, "other constants fit as well") == (which > 0), "%d: %s", which, r.remarks);
+        CHECK(isinf(r.high[1]) == (which == 0), "%d: up to %g", which, r.high[1]);
+        restitute_material_destroy(r.material);
+    }
+    restitute_material_destroy(solid);
+}
+
 /* With e_x every point has its own impact; the starts are found from a hundred of these. Four angles at each speed. */
 static void many_angles(void **state)
 {
@@ -266,7 +294,7 @@ static void many_angles(void **state)
     restitute_fit_result r = fitted(MANY, points, &options);
     CHECK_NEAR(r.value[0] / 1e6, 1, 1e-4, "G1");
     CHECK_NEAR(r.value[3], 0.3, 1e-4, "friction");
-    CHECK(r.impacts < 150 * MANY, "%d impacts", (int)r.impacts);
+    CHECK(r.impacts < 200 * MANY, "%d impacts", (int)r.impacts);
     restitute_material_destroy(r.material);
     restitute_material_destroy(solid);
 }
@@ -465,6 +493,7 @@ int main(void)
                                        cmocka_unit_test(a_wrong_model_is_called_wrong),
                                        cmocka_unit_test(robust_losses_bear_outliers),
                                        cmocka_unit_test(many_points_are_interpolated),
+                                       cmocka_unit_test(another_valley_is_named),
                                        cmocka_unit_test(many_angles),
                                        cmocka_unit_test(times_of_slow_rebounds_are_not_interpolated),
                                        cmocka_unit_test(spheres_partners_and_friction),
