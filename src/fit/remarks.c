@@ -104,7 +104,7 @@ static void remark_beside(const struct rst_fit_search *s, const struct rst_fit_c
         snprintf(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->beside[i]));
     }
     if (text[0])
-        remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s; a contact time tells them apart", text);
+        remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s", text);
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */

@@ -10,7 +10,7 @@
 #include "../../src/bench/random.h"
 
 enum { POINTS = 20, MOST = 4 };
-static const double pi = 3.14159265358979323846;
+static const double pi = 3.14159265358979323846, prony_times[] = {3e-5, 3e-3};
 
 static double gauss(uint64_t *state)
 {
@@ -31,6 +31,9 @@ static restitute_material *draw(int model, uint64_t *state, double *c)
     } else if (model == RESTITUTE_FIT_MAXWELL) {
         c[1] = g1 * tau * 30; /* below, it hardly rebounds */
         restitute_material_maxwell(g1, c[1], 0.5, &material, NULL);
+    } else if (model == RESTITUTE_FIT_PRONY) {
+        c[1] = g1 * random_log(state, 0.1, 3), c[2] = g1 * random_log(state, 0.1, 3);
+        restitute_material_prony(g1, 0, 2, prony_times, c + 1, 0.5, &material, NULL);
     } else
         restitute_material_standard_solid(g1, g2, c[2], 0.5, &material, NULL);
     return material;
@@ -75,6 +78,7 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
         restitute_fit_options_init(&options);
         restitute_fit_result_init(&result);
         options.model = model;
+        if (model == RESTITUTE_FIT_PRONY) options.terms = 2, options.relaxation_time = prony_times;
         known[0] = truth[0];
         if (!with_time) options.known = known;
         if (!measure(material, noise, with_time, solver, &seed, points)) {
@@ -104,11 +108,12 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
 
 int main(int count, char **arguments)
 {
-    static const int models[] = {RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_STANDARD_SOLID, RESTITUTE_FIT_MAXWELL};
+    static const int models[] = {RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_STANDARD_SOLID, RESTITUTE_FIT_MAXWELL,
+                                 RESTITUTE_FIT_PRONY};
     const int draws = count > 1 ? atoi(arguments[1]) : 200;
     const uint64_t seed = count > 2 ? (uint64_t)atoll(arguments[2]) : 2017;
     printf("model,noise,data,constant,coverage,not_determined,failed\n");
-    for (size_t m = 0; m < 3; m++)
+    for (size_t m = 0; m < 4; m++)
         for (int data = 1; data >= 0; data--)
             for (int noise = 0; noise < 3; noise++)
                 campaign(models[m], noise == 0 ? 0 : noise == 1 ? 0.01 : 0.05, data, draws, seed);
