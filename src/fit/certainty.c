@@ -105,13 +105,13 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
     }
 }
 
-/* A constant that is beyond three standard deviations in another valley that fits as well is not determined. */
-static void look_beside(const struct rst_fit_search *s, struct rst_fit_certainty *c)
+/* A constant is not determined if it is more than three standard deviations away in another fit that is as good. */
+static void look_at_other(const struct rst_fit_search *s, struct rst_fit_certainty *c)
 {
     const size_t p = s->model.free;
-    for (size_t i = 0; i < p && s->beside_sum < INFINITY; i++) {
-        c->elsewhere[i] = c->determined[i] && fabs(s->beside[i] - s->logs[i]) > 3 * sqrt(c->variance[i * p + i]);
-        if (c->elsewhere[i]) c->determined[i] = 0;
+    for (size_t i = 0; i < p && s->other_sum < INFINITY; i++) {
+        c->otherwise[i] = c->determined[i] && fabs(s->other[i] - s->logs[i]) > 3 * sqrt(c->variance[i * p + i]);
+        if (c->otherwise[i]) c->determined[i] = 0;
     }
 }
 
@@ -129,7 +129,7 @@ int rst_fit_certainty(struct rst_fit_search *s, struct rst_fit_certainty *c)
             c->rank++;
         find_noise(s, c, sorted); /* with the degrees of freedom of that rank */
         set_variance(s, c);
-        look_beside(s, c);
+        look_at_other(s, c);
     }
     free(j);
     return status;

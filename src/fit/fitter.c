@@ -162,13 +162,13 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
 static int settle(restitute_fitter *f)
 {
     double change = 1;
-    rst_fit_forget_beside(&f->search);
     rst_fit_thin(&f->data, 0);
     int status = rst_fit_again(&f->search);
     for (int round = 0; f->data.options.loss && round < ROUNDS && status >= 0 && change > 1e-4; round++) {
         status = rst_fit_reweigh(&f->search, f->weight, &change);
         if (status >= 0) status = rst_fit_again(&f->search);
     }
+    if (status >= 0) status = rst_fit_judge_other(&f->search);
     if (status >= 0) status = rst_fit_rescale(&f->search);
     return status < 0 ? status : rst_fit_certainty(&f->search, &f->certainty);
 }

@@ -83,7 +83,7 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
     for (size_t k = 0; k < p - c->rank; k++)
         if (direction_text(s, open + k * p, text, sizeof text) == 1)
             remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "), text,
-                   s->model.kind == RESTITUTE_FIT_PRONY ? "; the intervals of the others are those beside this value of it" : "");
+                   s->model.kind == RESTITUTE_FIT_PRONY ? "; the intervals of the others hold for this value of it" : "");
         else
             remark(result, RESTITUTE_FIT_UNDETERMINED,
                    "the data do not tell these apart: %s for any factor f gives the same", text);
@@ -93,15 +93,16 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
                "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
 }
 
-/* Constants of another valley. */
-static void remark_beside(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+/* Constants that have other values in another fit that is as good. */
+static void remark_other(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+                         restitute_fit_result *result)
 {
     char name[RESTITUTE_FIT_NAME], text[600] = "";
     for (size_t i = 0; i < s->model.free; i++) {
         const size_t used = strlen(text);
-        if (!c->elsewhere[i]) continue;
+        if (!c->otherwise[i]) continue;
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
-        snprintf(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->beside[i]));
+        snprintf(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->other[i]));
     }
     if (text[0])
         remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s", text);
@@ -158,7 +159,7 @@ int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c,
 {
     if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
-    remark_beside(s, c, result);
+    remark_other(s, c, result);
     const int status = remark_misfit(s, c, result);
     return status < 0 ? status : remark_limits(s, result);
 }

@@ -16,9 +16,9 @@
  * valleys, of which 4 starts miss one in 3 % and 6 in 1.5 %. More only where residuals are far too large. */
 enum { SCAN = 16, MOST_SCAN = 64, DECADES = 4, STEPS = 20, ROUNDS = 8, USUAL = 6 };
 
-/* Fits whose constants differ by more than exp(APART) are in different valleys. One whose sum is larger by up to LIKELY
- * variances is within two standard deviations, as likely as what a 95 % interval holds. */
-static const double APART = 0.5, LIKELY = 4;
+/* Two fits are apart if a constant differs by more than exp(APART). The sum of the other one may be LIKELY variances of the noise
+ * larger: two standard deviations, as far as a 95 % interval reaches; and FAIR times as large before both are fitted precisely. */
+static const double APART = 0.5, LIKELY = 4, FAIR = 3;
 
 /* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends when its sum changes by
  * less than the last part: 1e-5 of 20 squares is 0.015 standard deviations of a constant. */
@@ -29,7 +29,7 @@ int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model 
 {
     const size_t sets = model->free + 1;
     *s = (struct rst_fit_search){.data = data, .model = *model, .weight = weight, .starts = starts, .sum = INFINITY};
-    s->beside_sum = INFINITY;
+    s->other_sum = INFINITY;
     s->start = calloc(starts * model->free + 1, sizeof *s->start);
     s->sets = calloc(sets * model->count, sizeof *s->sets);
     s->values = calloc(sets * data->n, sizeof *s->values);
@@ -173,24 +173,16 @@ int rst_fit_scan(struct rst_fit_search *s)
     return rst_fit_choose(s, sets, logs);
 }
 
-/* Whether residuals are so large that more starts are worth while. */
+/* More starts are worth while if residuals are far too large. */
 static int judge(struct rst_fit_search *s)
 {
     struct rst_fit_misfit m;
     int status = residuals(s, s->logs, s->r);
     if (status >= 0) status = rst_fit_misfit(s, s->data->rows - s->model.free, &m);
-    s->enough = status >= 0 && !m.large;
+    s->enough = status >= 0 && !m.large && !m.surpassed;
     return status;
 }
 
-static void keep_beside(struct rst_fit_search *s, double sum, const double *x)
-{
-    if (!(sum < s->beside_sum)) return;
-    s->beside_sum = sum;
-    memcpy(s->beside, x, s->model.free * sizeof *x);
-}
-
-/* In another valley: a constant is other by more than a factor. */
 static int is_apart(const struct rst_fit_search *s, const double *x)
 {
     double most = 0;
@@ -199,11 +191,35 @@ static int is_apart(const struct rst_fit_search *s, const double *x)
     return most > APART;
 }
 
-void rst_fit_forget_beside(struct rst_fit_search *s)
+/* Of two fits that are apart, the one that is not the best is `other`, if it may be as good and is better than that. */
+static void keep_other(struct rst_fit_search *s, double sum, const double *x)
+{
+    const double larger = fmax(sum, s->sum), smaller = fmin(sum, s->sum);
+    const double allowed = s->data->options.noise_known ? FAIR * LIKELY + smaller : FAIR * smaller;
+    if (!(larger <= allowed && larger < s->other_sum) || !is_apart(s, x)) return;
+    s->other_sum = larger;
+    memcpy(s->other, sum < s->sum ? s->logs : x, s->model.free * sizeof *x);
+}
+
+int rst_fit_judge_other(struct rst_fit_search *s)
 {
     const double left = (double)s->data->rows - (double)s->model.free;
+    struct rst_fit_search again;
+    if (!(s->other_sum < INFINITY) || left <= 0) return RESTITUTE_OK;
+    int status = rst_fit_search_create(s->data, &s->model, s->weight, 1, &again);
+    if (status) return status;
+    memcpy(again.logs, s->other, sizeof again.logs);
+    status = rst_fit_again(&again);
+    s->other_sum = INFINITY;
+    if (status >= 0 && again.converged) keep_other(s, again.sum, again.logs);
+    if (status >= 0 && again.sum < s->sum) {
+        s->sum = again.sum, s->converged = again.converged;
+        memcpy(s->logs, again.logs, sizeof s->logs);
+    }
+    rst_fit_search_release(&again);
     const double noise = s->data->options.noise_known ? 1 : s->sum / left;
-    if (!(left > 0 && s->beside_sum - s->sum <= LIKELY * noise)) s->beside_sum = INFINITY;
+    if (!(s->other_sum - s->sum <= LIKELY * noise)) s->other_sum = INFINITY;
+    return status;
 }
 
 /* A fit from x; kept if it is better than what is there. */
@@ -223,7 +239,7 @@ static int fit_from(struct rst_fit_search *s, double *x, int rounds, const doubl
     s->data->solver.tolerance = level[0];
     const int status = rst_fit_minimise(&least, x, &sum, &converged);
     if (status < 0) return status;
-    if (converged && s->sum < INFINITY && is_apart(s, x)) keep_beside(s, fmax(sum, s->sum), sum < s->sum ? s->logs : x);
+    if (converged) keep_other(s, sum, x);
     if (sum < s->sum) {
         s->sum = sum;
         s->converged = converged;

@@ -17,7 +17,7 @@ struct rst_fit_search {
     double *r;                            /* residuals at the best, without the weights */
     double logs[RESTITUTE_FIT_CONSTANTS]; /* the best */
     double sum;                           /* of its weighted squared residuals; infinite before the first start */
-    double beside[RESTITUTE_FIT_CONSTANTS], beside_sum; /* the best of another valley; infinite: none */
+    double other[RESTITUTE_FIT_CONSTANTS], other_sum; /* the best fit with other constants; infinite: none */
     int converged;
     int automatic; /* starts end when there were enough: the usual number, or one came to the impacts' precision */
     int enough;
@@ -33,8 +33,9 @@ int rst_fit_choose(struct rst_fit_search *search, size_t sets, double *logs);
 int rst_fit_scan(struct rst_fit_search *search);
 int rst_fit_local(struct rst_fit_search *search, size_t start);
 
-/* After the starts: a valley beside the best whose sum is larger than noise can explain is none. */
-void rst_fit_forget_beside(struct rst_fit_search *search);
+/* At the end: the other fit precisely, with all points and weights. It becomes the best if it is better, and is forgotten unless
+ * the noise explains what its sum is larger. */
+int rst_fit_judge_other(struct rst_fit_search *search);
 
 /* Again from the best, precisely: at the end, and after the weights changed. */
 int rst_fit_again(struct rst_fit_search *search);
@@ -54,7 +55,7 @@ struct rst_fit_certainty {
     double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];   /* directions, as of rst_fit_singular */
     double variance[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS]; /* covariance of the logarithms */
     int determined[RESTITUTE_FIT_CONSTANTS];
-    int elsewhere[RESTITUTE_FIT_CONSTANTS]; /* not, since they are others in the valley beside */
+    int otherwise[RESTITUTE_FIT_CONSTANTS]; /* not determined, since another value fits as well */
 };
 
 int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *certainty);

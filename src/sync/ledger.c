@@ -45,7 +45,7 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
         sink(problem, outcome);
         return RESTITUTE_OK;
     }
-    const double least = rst_ledger_elements * sqrt(fmax(1, problem->chi)); /* as in walk_refining */
+    const double least = rst_ledger_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
     const int64_t parts = 1 + (int64_t)fmin(least, rst_most_elements / 4) / run->normal.n_compression;
     if (rst_walk(motion, run, problem, sliding(problem, -outcome->velocity), parts, &walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");

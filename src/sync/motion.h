@@ -65,7 +65,7 @@ static inline struct rst_problem rst_without_slip(const struct rst_problem *prob
 /* What the polynomials of a run may miss: not below rounding, which narrower panels do not lessen. */
 double rst_roughness(int halvings);
 
-/* The same of U' over psi. */
+/* What pieces of U' over psi may miss: not more than a part of the tolerance. */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
 /* The tangential motion on a run: U' at the end, over psi as the problem has it; RST_LACKS_PIECES: it wants more than

@@ -20,13 +20,13 @@ static double rebound_of(const struct rst_run *run)
     return rst_last_panel(run)->velocity[rst_stages];
 }
 
-/* The rebound is the finest run's, and polynomials of the run before miss as little already as pieces of U' may. */
+/* The same rebound as of the finest run, and one run finer than the one whose polynomials miss what pieces of U' may. */
 static int is_as_good(const struct rst_problem *problem, const struct rst_run *run, int halvings,
                       const struct rst_run *finest)
 {
     const double change = fabs(rebound_of(run) - rebound_of(finest));
     const double swings = sqrt(fmax(1, problem->chi)); /* as in rst_motion_contact */
-    return problem->elements <= 0 && run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
+    return run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
            rst_roughness(halvings - 1) * swings <= rst_piece_part * problem->tolerance;
 }
 
@@ -38,7 +38,8 @@ static int ground_of_walk(const struct rst_motion *motion, const struct rst_prob
     for (; halvings > 0; halvings--) {
         const struct rst_run *coarser = &motion->run[halvings - 1];
         const int too_fine = 8 * motion->run[halvings].normal.n_compression > rst_most_elements;
-        if (coarser->found != motion->run[finest].found) break;
+        const int may = too_fine || problem->elements <= 0;
+        if (!may || coarser->found != motion->run[finest].found) break;
         if (!too_fine && !is_as_good(problem, coarser, halvings - 1, &motion->run[finest])) break;
     }
     return halvings;
