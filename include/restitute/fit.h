@@ -97,7 +97,7 @@ typedef struct restitute_fit_options {
     double reference_temperature; /**< where a_T = 1; NaN (default): that of the first point */
     double wlf_c1, wlf_c2;        /**< log10 a_T = -c1 (T - T_r)/(c2 + T - T_r); NaN (default): a_T of every other
                                        temperature is fitted. a_T multiplies all relaxation times */
-    int starts;                   /**< local fits from the best of the scan, 1 to 100; default 0: 6, and up to 8 while
+    int starts;                   /**< local fits from the best of the scan, 1 to 100; default 0: 5, and up to 8 while
                                      residuals are far too large */
     uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
     int threads;                  /**< as in @ref restitute_solve_many; default 1 */

@@ -31,7 +31,7 @@ static const struct poptOption own_options[] = {
     TEXT(FIT_WLF, "wlf", "C1:C2", "shifts of times by temperature; default: a free shift a temperature"),
     TEXT(FIT_NOISE, "noise", "RATIO", "with --dma: relative error of the moduli, in [1e-4, 0.5]; default 0.01"),
     OPTION_FLAG("tension", CODE_TENSION, "with --dma: the moduli are those of tension"),
-    TEXT(FIT_STARTS, "starts", "N", "local fits, 1 to 100; default 6, or 8 where residuals are large"),
+    TEXT(FIT_STARTS, "starts", "N", "local fits, 1 to 100; default 5, or 8 where residuals are large"),
     TEXT(FIT_SEED, "seed", "N", "of the scan for starts; default 1"),
     TEXT(FIT_THREADS, "threads", "N", "1 to 1024; default 1, all processors from 200 rows on"),
     TEXT(FIT_NAME, "name", "TEXT", "name in the material file; default the input's"),
