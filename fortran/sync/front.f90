@@ -29,6 +29,7 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
+  real(dp), parameter :: faded = 50 !! exp(-faded) is nothing, and exp is slow where it underflows
 
 contains
 
@@ -135,16 +136,18 @@ contains
     type(store_type), intent(in) :: store
     real(dp), intent(in) :: time, side, theta
     type(element_type), intent(out) :: element
-    real(dp) :: weight(0:stages), edge(of_edge), both(of_arm), arm(2), fade, answer
+    real(dp) :: weight(0:stages), edge(of_edge), both(of_arm), arm(2), ago, fade, answer
     integer(ip) :: k, record
     call find_record(store, theta, record, weight)
     edge = between(weight, store%record(record)%edge)
+    ago = time - edge(2)
     element%taken = 0
     element%force = 0
     answer = 0
     do k = 1, normal%n_arms
+      if (normal%rate(k)*ago > faded) cycle
       fade = 1
-      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*(time - edge(2)))
+      if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*ago)
       both = held_between(weight, store%held, k, record)
       arm = merge(both(:2), both(3:), side > 0)
       element%taken = element%taken + fade*arm(1)

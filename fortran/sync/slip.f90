@@ -1,7 +1,7 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, applied, &
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, weights_at, applied, &
                              factors_type, factorize, solution_of, &
                              has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
@@ -53,7 +53,10 @@ contains
       call solve_piece(normal, contact, store, panel, [x, to], .false., side, .false., ground, s, fails)
       event = nothing
       if (.not. fails) call next_event(contact, ground, side, s, event, place)
-      if (event /= nothing) then
+      if (event == slip_begins) then
+        fails = last_coefficient(s%w) > contact%roughness
+        if (.not. fails) call cut(normal, place, store, ground, s)
+      else if (event /= nothing) then
         to = x + place*(to - x)
         call end_at(normal, contact, store, [x, to], side, event, ground, s, fails)
       end if
@@ -221,7 +224,8 @@ contains
     do i = 1, stages
       if (s%centre(i) < merge(0.0_dp, -contact%roughness, abs(side) > 0)) then
         event = merge(stick_ends, slip_begins, abs(side) > 0)
-        place = first_rise(i, -s%centre)
+        if (event == stick_ends) place = first_rise(i, -s%centre)
+        if (event == slip_begins) place = first_rise(i, sign(1.0_dp, s%w(i))*s%w - ground%velocity)
         return
       end if
       if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
@@ -231,6 +235,44 @@ contains
       end if
     end do
   end subroutine next_event
+
+  !> A piece in stick without what is beyond a place on it: its polynomials stay what they are.
+  subroutine cut(normal, place, store, ground, s)
+    type(normal_type), intent(in) :: normal
+    real(dp), intent(in) :: place
+    type(store_type), intent(inout) :: store
+    type(ground_type), intent(inout) :: ground
+    type(solution_type), intent(inout) :: s
+    real(dp) :: weight(0:stages, 0:stages)
+    integer(ip) :: i, k
+    do i = 0, stages
+      weight(:, i) = weights_at(place*point(i))
+    end do
+    ground%to = ground%from + place*(ground%to - ground%from)
+    ground%place = restricted(weight, ground%place)
+    ground%angle = restricted(weight, ground%angle)
+    ground%radius = restricted(weight, ground%radius)
+    ground%time = restricted(weight, ground%time)
+    ground%velocity = restricted(weight, ground%velocity)
+    ground%pace = restricted(weight, ground%pace)
+    s%w = restricted(weight, s%w)
+    s%force = restricted(weight, s%force)
+    s%stick = ground%radius
+    do k = 1, normal%n_arms
+      store%now_z(:, k) = restricted(weight, store%now_z(:, k))
+      store%now_x(:, k) = restricted(weight, store%now_x(:, k))
+      store%now_l(:, k) = restricted(weight, store%now_l(:, k))
+    end do
+  end subroutine cut
+
+  pure function restricted(weight, y) result(z)
+    real(dp), intent(in) :: weight(0:stages, 0:stages), y(0:stages)
+    real(dp) :: z(0:stages)
+    integer(ip) :: i
+    do i = 0, stages
+      z(i) = sum(weight(:, i)*y)
+    end do
+  end function restricted
 
   !> U' and front of the piece on `ground` at the points of one that starts where it does and ends at `to`, as a guess.
   pure subroutine shorten(ground, to, rooted, s)
@@ -266,7 +308,7 @@ contains
     if (y(j - 1) < 0) place = root_between(j, y)
   end function first_rise
 
-  !> The piece that ends at an event: its end is moved by secants until what is zero at the event is.
+  !> The piece that ends as slip does: its end is moved by secants until what is zero at the event is.
   subroutine end_at(normal, contact, store, range, side, event, ground, s, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -294,8 +336,7 @@ contains
       call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
-      if (abs(miss) <= merge(at_edge*contact%roughness, contact%closeness, event == slip_leaves) &
-          *merge(1.0_dp, contact%stress, event == slip_begins)) return
+      if (abs(miss) <= merge(at_edge*contact%roughness, contact%closeness, event == slip_leaves)*contact%stress) return
       if (n == 1) then
         slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
         slope = slope/merge((to - range(1))*(1 - point(stages - 1))**2, (to - range(1))*(1 - point(stages - 1)), &
