@@ -1,7 +1,7 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, root_between, weights_at, applied, &
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, weights_at, applied, &
                              factors_type, factorize, solution_of, &
                              has_converged
   use rst_contact_views, only: normal_type, contact_type, store_type
@@ -95,7 +95,7 @@ contains
       end do
     end if
     call stick(normal, contact, ground, held, s%w, s%force, store, fails)
-    s%force(0) = 2*s%force(1) - s%force(2)
+    s%force(0) = start_of(s%force(1:))
     s%stick = ground%radius
     s%edge = 1
     s%centre = ground%velocity - abs(s%w)
