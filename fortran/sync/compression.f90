@@ -9,8 +9,8 @@ module rst_compression_panel
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, integrated, applied, factors_type, factorize, solution_of, &
                              has_converged, keeps_matrix
-  use rst_arms, only: solid_type, respond
-  use rst_panel, only: panel_type, mesh_type, mass_factor
+  use rst_arms, only: respond, advance
+  use rst_panel, only: panel_type, normal_type, mass_factor
   implicit none (type, external)
   private
   public :: compress
@@ -31,48 +31,51 @@ module rst_compression_panel
 
 contains
 
-  !> The panel from its values at its start, (0), and from those at its points as a guess. Unknown is F: rho follows from it.
-  pure subroutine compress(solid, g, rate, mesh, panel, memory, loading, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
-    type(mesh_type), intent(in) :: mesh
-    type(panel_type), intent(inout) :: panel
-    real(dp), dimension(0:stages, solid%n_arms), intent(inout) :: memory, loading  !! M_k and P_k
+  !> The panel n from its values at its start, (0), and from those at its points as a guess. Unknown is F: rho follows from it.
+  subroutine compress(normal, n, fails)
+    type(normal_type), intent(in) :: normal
+    integer(ip), intent(in) :: n
     logical, intent(out) :: fails
     type(motion_type) :: m
     type(slope_type) :: slope
     real(dp), dimension(stages) :: theta, force, step, turn
-    real(dp) :: change, previous, h, start
+    real(dp) :: change, previous, h, r, start
+    real(dp), pointer, contiguous :: loading(:, :), kernel(:, :, :) ! compilers would copy components of derived types
     integer(ip) :: i
-    h = panel%to - panel%from
-    start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/mesh%radius)**2)
-    theta = panel%from + point(1:)*h
+    loading(0:, 1:) => normal%loading(:, :, n)
+    kernel(1:, 0:, 1:) => normal%kernel(:, :, :, n)
+    r = normal%radius
+    associate (panel => normal%panel(n))
+      h = panel%to - panel%from
+      start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/r)**2)
+      theta = panel%from + point(1:)*h
+      force = panel%force(1:)
+    end associate
     m%sine = sin(theta)
     m%cosine = cos(theta)
-    force = panel%force(1:)
     previous = 1
     slope%wanted = .true.
     do i = 1, most_iterations
-      call follow(mesh%radius, h, start, force, m)
-      call load(solid, g, rate, mesh%radius, h, m, loading, slope, fails)
-      if (.not. fails .and. slope%wanted) call prepare(mesh%radius, h, m, slope, fails)
+      call follow(r, h, start, force, m)
+      call load(normal%eta, normal%g, normal%rate, [r, h], m, loading, kernel, slope, fails)
+      if (.not. fails .and. slope%wanted) call prepare(r, h, m, slope, fails)
       if (fails) return
       step = max(solution_of(slope%factors, m%force - force), -0.9_dp*force)
       force = force + step
-      turn = 2*mass_factor*mesh%radius**2*step/m%below ! of kappa
+      turn = 2*mass_factor*r**2*step/m%below ! of kappa
       change = maxval(abs(turn)*m%sine**2) + maxval(abs(integrated(0.0_dp, h*m%sine*m%cosine*turn/m%below)))
       fails = .not. change < 1.0e3_dp
       if (fails) return
-      if (has_converged(change, previous, mesh%closeness)) exit
+      if (has_converged(change, previous, normal%closeness)) exit
       slope%wanted = change > keeps_matrix*previous
       previous = change
     end do
     fails = i > most_iterations
     if (fails) return
     slope%wanted = .false.
-    call follow(mesh%radius, h, start, force, m)
-    call load(solid, g, rate, mesh%radius, h, m, loading, slope, fails)
-    if (.not. fails) call note(solid, g, rate, mesh%radius, h, m, panel, memory, fails)
+    call follow(r, h, start, force, m)
+    call load(normal%eta, normal%g, normal%rate, [r, h], m, loading, kernel, slope, fails)
+    if (.not. fails) call note(normal, r, h, m, n, fails)
   end subroutine compress
 
   !> rho for a force, d ln(rho)/dtheta = sin cos (1 - kappa)/(cos^2 + kappa sin^2).
@@ -86,36 +89,35 @@ contains
   end subroutine follow
 
   !> The force of that motion.
-  pure subroutine load(solid, g, rate, r, h, m, loading, slope, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), r, h
+  pure subroutine load(eta, g, rate, scale, m, loading, kernel, slope, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), scale(2)  !! scale: r, h
     type(motion_type), intent(inout) :: m
-    real(dp), intent(inout) :: loading(0:stages, solid%n_arms)
+    real(dp), intent(inout) :: loading(0:stages, size(g)), kernel(stages, 0:stages, size(g))
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
-    real(dp) :: kernel(stages, stages), decay(stages), span(stages), sweep(stages), to_span(stages)
+    real(dp) :: span(stages), sweep(stages), to_span(stages)
     integer(ip) :: j, k
-    span = h*pace_of(r, m)
-    sweep = r*m%rho**2*m%sine*m%cosine ! A D'
-    m%force = solid%eta*sweep
+    span = scale(2)*pace_of(scale(1), m)
+    sweep = scale(1)*m%rho**2*m%sine*m%cosine ! A D'
+    m%force = eta*sweep
     if (slope%wanted) slope%by_sweep = 0
     if (slope%wanted) slope%by_span = 0
     fails = .false.
-    do k = 1, solid%n_arms
-      call respond(rate(k), span, kernel, decay, fails)
+    do k = 1, size(g, kind=ip)
+      call respond(rate(k), span, kernel(:, :, k), fails)
       if (fails) return
-      loading(1:, k) = decay*loading(0, k) + applied(kernel, g(k)*span*sweep)
+      loading(1:, k) = kernel(:, 0, k)*loading(0, k) + applied(kernel(:, 1:, k), g(k)*span*sweep)
       m%force = m%force + loading(1:, k)
       if (.not. slope%wanted) cycle
       to_span = g(k)*sweep - rate(k)*loading(1:, k)
       do j = 1, stages
-        slope%by_sweep(:, j) = slope%by_sweep(:, j) + kernel(:, j)*(g(k)*span(j))
-        slope%by_span(:, j) = slope%by_span(:, j) + kernel(:, j)*to_span(j)
+        slope%by_sweep(:, j) = slope%by_sweep(:, j) + kernel(:, j, k)*(g(k)*span(j))
+        slope%by_span(:, j) = slope%by_span(:, j) + kernel(:, j, k)*to_span(j)
       end do
     end do
     if (.not. slope%wanted) return
     do j = 1, stages
-      slope%by_sweep(j, j) = slope%by_sweep(j, j) + solid%eta
+      slope%by_sweep(j, j) = slope%by_sweep(j, j) + eta
     end do
   end subroutine load
 
@@ -150,28 +152,25 @@ contains
   end subroutine prepare
 
   !> The motion, put into the panel, and M_k.
-  pure subroutine note(solid, g, rate, r, h, m, panel, memory, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), r, h
+  subroutine note(normal, r, h, m, n, fails)
+    type(normal_type), intent(in) :: normal
+    real(dp), intent(in) :: r, h
     type(motion_type), intent(in) :: m
-    type(panel_type), intent(inout) :: panel
-    real(dp), intent(inout) :: memory(0:stages, solid%n_arms)
+    integer(ip), intent(in) :: n
     logical, intent(out) :: fails
-    real(dp) :: kernel(stages, stages), decay(stages)
-    integer(ip) :: k
-    panel%radius(1:) = r*m%rho*m%sine
-    panel%depth(1:) = panel%radius(1:)**2
-    panel%velocity(1:) = m%rho*m%cosine
-    if (panel%to >= acos(0.0_dp)) panel%velocity(stages) = 0
-    panel%force(1:) = m%force
-    panel%pace(1:) = pace_of(r, m)
-    panel%time(1:) = integrated(panel%time(0), h*panel%pace(1:))
-    fails = .not. all(abs(panel%time) < huge(1.0_dp)) .or. any(panel%pace(1:) <= 0)
-    if (fails) return
-    do k = 1, solid%n_arms
-      call respond(rate(k), h*panel%pace(1:), kernel, decay, fails)
-      if (fails) return
-      memory(1:, k) = decay*memory(0, k) + applied(kernel, g(k)*h*panel%pace(1:)*panel%velocity(1:))
-    end do
+    real(dp), pointer, contiguous :: kernel(:, :, :), memory(:, :)
+    associate (panel => normal%panel(n))
+      panel%radius(1:) = r*m%rho*m%sine
+      panel%depth(1:) = panel%radius(1:)**2
+      panel%velocity(1:) = m%rho*m%cosine
+      if (panel%to >= acos(0.0_dp)) panel%velocity(stages) = 0
+      panel%force(1:) = m%force
+      panel%pace(1:) = pace_of(r, m)
+      panel%time(1:) = integrated(panel%time(0), h*panel%pace(1:))
+      fails = .not. all(abs(panel%time) < huge(1.0_dp)) .or. any(panel%pace(1:) <= 0)
+      kernel(1:, 0:, 1:) => normal%kernel(:, :, :, n)
+      memory(0:, 1:) => normal%memory(:, :, n)
+      call advance(normal%g, h*panel%pace(1:), kernel, panel%velocity(1:), memory)
+    end associate
   end subroutine note
 end module rst_compression_panel

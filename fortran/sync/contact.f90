@@ -3,7 +3,8 @@ module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
-  use rst_contact_views, only: normal_type, contact_type, piece_type, store_type
+  use rst_panel, only: normal_type
+  use rst_contact_views, only: contact_type, piece_type, store_type
   use rst_piece, only: ground_type, lay_ground, advance_memory
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
   implicit none (type, external)
@@ -238,14 +239,14 @@ contains
     s%stick = 0
     kept = 0
     do k = 1, normal%n_arms
-      kept = kept + store%decay(:, k)*store%now_l(0, k)
+      kept = kept + store%kernel(:, 0, k)*store%now_l(0, k)
     end do
     lasts = .false.
     call factorize(ground%answer, factors, fails)
     if (fails) return
     velocity = solution_of(factors, -kept)
     slip = velocity - (ground%velocity(1:) - side*s%w(1:))
-    call advance(normal%g, ground%span, store%kernel, store%decay, velocity, store%now_l)
+    call advance(normal%g, ground%span, store%kernel, velocity, store%now_l)
     lasts = .true.
     do i = 1, stages
       lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless*contact%stress

@@ -2,21 +2,12 @@
 module rst_contact_views
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages
-  use rst_panel, only: panel_type
   implicit none (type, external)
   private
-  public :: normal_type, contact_type, record_type, piece_type, store_type, of_edge, of_arm
+  public :: contact_type, record_type, piece_type, store_type, of_edge, of_arm
 
   !> Kinds of values of an element and of each of its arms, beside each other since one needs all of them at an angle.
   integer(ip), parameter :: of_edge = 4, of_arm = 4
-
-  !> The normal motion of a solid: eta, arms, panels, M_k and P_k at their points; n: panels of the compression and of all.
-  type :: normal_type
-    real(dp) :: eta
-    integer(ip) :: n_arms, n_compression, n_panels
-    real(dp), pointer, contiguous :: g(:), rate(:), memory(:, :, :), loading(:, :, :)
-    type(panel_type), pointer, contiguous :: panel(:)
-  end type normal_type
 
   !> The tangential problem. Twin of `struct sync_contact` in C.
   type, bind(c) :: contact_type
@@ -50,7 +41,8 @@ module rst_contact_views
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
     real(dp), pointer, contiguous :: held(:, :, :, :)                    !! (of_arm, 0:stages, arms, records): m_k, p_k for d = 1, for d = -1
-    real(dp), pointer, contiguous :: kernel(:, :, :), decay(:, :)        !! of the arms (module rst_arms)
+    real(dp), pointer, contiguous, dimension(:, :, :) :: kernel, room    !! (stages, 0:stages, arms): of the piece, as in
+                                                                         !! normal_type or in the room
     real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
   end type store_type
 end module rst_contact_views

@@ -9,7 +9,8 @@
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, products_at
-  use rst_contact_views, only: normal_type, store_type, of_edge, of_arm
+  use rst_panel, only: normal_type
+  use rst_contact_views, only: store_type, of_edge, of_arm
   implicit none (type, external)
   private
   public :: element_type, slack_type, look_at, find_front, held_by

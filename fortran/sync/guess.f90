@@ -3,8 +3,7 @@
 module rst_guess
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, differential, weights_at, applied
-  use rst_arms, only: solid_type
-  use rst_panel, only: panel_type, mesh_type, place_on, mass_factor
+  use rst_panel, only: panel_type, normal_type, place_on, mass_factor
   implicit none (type, external)
   private
   public :: guess_compression, guess_restitution
@@ -12,9 +11,8 @@ module rst_guess
 contains
 
   !> At first touch D' and A go as without a force, and F is that of a spring and the dashpot.
-  pure subroutine guess_compression(solid, mesh, known, panel)
-    type(solid_type), intent(in) :: solid
-    type(mesh_type), intent(in) :: mesh
+  pure subroutine guess_compression(normal, known, panel)
+    type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: known(:) !! panels of the coarser run or the one before; none at first touch
     type(panel_type), intent(inout) :: panel
     real(dp) :: theta(stages)
@@ -24,16 +22,16 @@ contains
       panel%force(1:) = max(panel%force(0), tiny(1.0_dp))
     else
       theta = panel%from + point(1:)*(panel%to - panel%from)
-      panel%radius(1:) = mesh%radius*sin(theta)
+      panel%radius(1:) = normal%radius*sin(theta)
       panel%velocity(1:) = cos(theta)
-      panel%force(1:) = panel%radius(1:)*(panel%radius(1:)**2 + solid%eta*panel%velocity(1:))
+      panel%force(1:) = panel%radius(1:)*(panel%radius(1:)**2 + normal%eta*panel%velocity(1:))
     end if
   end subroutine guess_compression
 
   !> After the turning point D' is linear in time. entered: when the edge passed the points in the compression.
-  pure subroutine guess_restitution(solid, g, rate, known, entered, panel)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), entered(stages)
+  pure subroutine guess_restitution(normal, known, entered, panel)
+    type(normal_type), intent(in) :: normal
+    real(dp), intent(in) :: entered(stages)
     type(panel_type), intent(in) :: known(:) !! panels of the coarser run or the one before; none at the turning point
     type(panel_type), intent(inout) :: panel
     real(dp) :: after(stages)
@@ -43,7 +41,7 @@ contains
       if (any(panel%pace(1:) <= 0)) panel%pace(1:) = max(panel%pace(0), tiny(1.0_dp))
     else
       do i = 1, stages
-        after(i) = first_return(solid, g, rate, panel%time(0) - entered(i))
+        after(i) = first_return(normal%eta, normal%g, normal%rate, panel%time(0) - entered(i))
       end do
       panel%pace(1:) = applied(differential, after)/(panel%from - panel%to)
       panel%pace(1:) = max(panel%pace(1:), 1.0e-3_dp*maxval(panel%pace(1:)))
@@ -76,18 +74,17 @@ contains
   !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
   !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0,
   !> E_k = exp(-(x + before)/tau_k). It rises with x; x = before solves the elastic one.
-  pure function first_return(solid, g, rate, before) result(x)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), before
+  pure function first_return(eta, g, rate, before) result(x)
+    real(dp), intent(in) :: eta, g(:), rate(:), before
     real(dp) :: x, low, high, excess, slope, z
     integer(ip) :: i, k
     low = 0
     high = before
     x = before
     do i = 1, 60
-      excess = solid%eta*x
-      slope = solid%eta
-      do k = 1, solid%n_arms
+      excess = eta*x
+      slope = eta
+      do k = 1, size(g, kind=ip)
         z = rate(k)*(x + before)
         if (z < 1.0e-3_dp) then
           excess = excess + g(k)*(x + before)*((x - before)/2 + z*(2*before - x)/6)

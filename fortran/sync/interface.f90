@@ -2,10 +2,9 @@
 module rst_sync_interface
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer, c_double, c_int64_t
   use rst_collocation, only: stages, weights_at
-  use rst_arms, only: solid_type
-  use rst_panel, only: panel_type, mesh_type
+  use rst_panel, only: panel_type, normal_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: normal_type, contact_type, store_type, of_arm
+  use rst_contact_views, only: contact_type, store_type, of_arm
   use rst_tangential_motion, only: follow_contact, find_velocity
   implicit none (type, external)
   private
@@ -13,33 +12,30 @@ module rst_sync_interface
 
   !> Twin of `struct sync_normal` in C: see normal_type.
   type, bind(c) :: normal_arrays_type
-    type(solid_type) :: solid
-    type(mesh_type) :: mesh
-    type(c_ptr) :: g, rate, panel, memory, loading
+    real(c_double) :: eta, radius, closeness, left
+    integer(c_int64_t) :: n_arms, n_compression, n_panels
+    type(c_ptr) :: g, rate, panel, memory, loading, kernel, entry
   end type normal_arrays_type
 
   !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; the arrays are those of store_type.
   type, bind(c) :: store_arrays_type
     integer(c_int64_t) :: capacity, n_records, n_pieces
-    type(c_ptr) :: record, piece, held, kernel, decay, now_z, now_x, now_l
+    type(c_ptr) :: record, piece, held, room, now_z, now_x, now_l
   end type store_arrays_type
 
 contains
 
-  !> The normal motion: fills the panels of `normal` and the counts of its mesh. entry: room for 2 stages times arms.
-  subroutine rst_follow_normal(control, normal, entry, found) bind(c, name="rst_follow_normal")
+  !> The normal motion: fills the panels of `normal`, of which there are control%capacity.
+  subroutine rst_follow_normal(control, normal, found) bind(c, name="rst_follow_normal")
     type(normal_control_type), intent(in) :: control
     type(normal_arrays_type), intent(inout) :: normal
-    real(c_double), intent(out) :: entry(stages, normal%solid%n_arms, 2)
     integer(c_int64_t), intent(out) :: found
-    real(c_double), pointer, contiguous :: g(:), rate(:), memory(:, :, :), loading(:, :, :)
-    type(panel_type), pointer, contiguous :: panel(:)
-    call c_f_pointer(normal%g, g, [normal%solid%n_arms])
-    call c_f_pointer(normal%rate, rate, [normal%solid%n_arms])
-    call c_f_pointer(normal%panel, panel, [control%capacity])
-    call c_f_pointer(normal%memory, memory, [1 + stages, normal%solid%n_arms, control%capacity])
-    call c_f_pointer(normal%loading, loading, [1 + stages, normal%solid%n_arms, control%capacity])
-    call follow_normal(normal%solid, g, rate, control, normal%mesh, panel, memory, loading, entry, found)
+    type(normal_type) :: n
+    n = view_normal(normal, control%capacity)
+    call follow_normal(control, n, found)
+    normal%left = n%left
+    normal%n_compression = n%n_compression
+    normal%n_panels = n%n_panels
   end subroutine rst_follow_normal
 
   !> The tangential motion on a normal one: U' at the end, and what module rst_tangential_motion found.
@@ -51,7 +47,7 @@ contains
     integer(c_int64_t), intent(out) :: found
     type(normal_type) :: n
     type(store_type) :: s
-    n = view_normal(normal)
+    n = view_normal(normal, normal%n_panels)
     s = view_store(store, n%n_arms)
     call follow_contact(n, contact, s, velocity, found)
     store%n_records = s%n_records
@@ -67,42 +63,50 @@ contains
     type(normal_type) :: n
     integer(c_int64_t) :: panel
     real(c_double) :: x
-    n = view_normal(normal)
+    n = view_normal(normal, normal%n_panels)
     call find_velocity(n, velocity, panel, x)
     angle = n%panel(panel)%from + x*(n%panel(panel)%to - n%panel(panel)%from)
     returning = merge(1_c_int64_t, 0_c_int64_t, panel > n%n_compression)
   end subroutine rst_find_velocity
 
-  function view_normal(normal) result(n)
+  function view_normal(normal, panels) result(n)
     type(normal_arrays_type), intent(in) :: normal
+    integer(c_int64_t), intent(in) :: panels
     type(normal_type) :: n
-    real(c_double), pointer, contiguous :: flat(:, :, :)
-    n%eta = normal%solid%eta
-    n%n_arms = normal%solid%n_arms
-    n%n_compression = normal%mesh%n_compression
-    n%n_panels = normal%mesh%n_panels
+    real(c_double), pointer, contiguous :: flat(:, :, :), kernels(:, :, :, :)
+    n%eta = normal%eta
+    n%radius = normal%radius
+    n%closeness = normal%closeness
+    n%left = normal%left
+    n%n_arms = normal%n_arms
+    n%n_compression = normal%n_compression
+    n%n_panels = normal%n_panels
     call c_f_pointer(normal%g, n%g, [n%n_arms])
     call c_f_pointer(normal%rate, n%rate, [n%n_arms])
-    call c_f_pointer(normal%panel, n%panel, [n%n_panels])
-    call c_f_pointer(normal%memory, flat, [1 + stages, n%n_arms, n%n_panels])
+    call c_f_pointer(normal%panel, n%panel, [panels])
+    call c_f_pointer(normal%memory, flat, [1 + stages, n%n_arms, panels])
     n%memory(0:, 1:, 1:) => flat
-    call c_f_pointer(normal%loading, flat, [1 + stages, n%n_arms, n%n_panels])
+    call c_f_pointer(normal%loading, flat, [1 + stages, n%n_arms, panels])
     n%loading(0:, 1:, 1:) => flat
+    call c_f_pointer(normal%kernel, kernels, [stages, 1 + stages, n%n_arms, panels])
+    n%kernel(1:, 0:, 1:, 1:) => kernels
+    call c_f_pointer(normal%entry, n%entry, [stages, n%n_arms, 2_c_int64_t])
   end function view_normal
 
   function view_store(store, n_arms) result(s)
     type(store_arrays_type), intent(in) :: store
     integer(c_int64_t), intent(in) :: n_arms
     type(store_type) :: s
-    real(c_double), pointer, contiguous :: flat(:, :, :, :), line(:, :)
+    real(c_double), pointer, contiguous :: flat(:, :, :, :), kernels(:, :, :), line(:, :)
     s%n_records = 0
     s%n_pieces = 0
     call c_f_pointer(store%record, s%record, [store%capacity])
     call c_f_pointer(store%piece, s%piece, [store%capacity])
     call c_f_pointer(store%held, flat, [of_arm, 1 + stages, n_arms, store%capacity])
     s%held(1:, 0:, 1:, 1:) => flat
-    call c_f_pointer(store%kernel, s%kernel, [stages, stages, n_arms])
-    call c_f_pointer(store%decay, s%decay, [stages, n_arms])
+    call c_f_pointer(store%room, kernels, [stages, 1 + stages, n_arms])
+    s%room(1:, 0:, 1:) => kernels
+    s%kernel => s%room
     call c_f_pointer(store%now_z, line, [1 + stages, n_arms])
     s%now_z(0:, 1:) => line
     call c_f_pointer(store%now_x, line, [1 + stages, n_arms])

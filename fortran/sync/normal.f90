@@ -6,8 +6,7 @@ module rst_normal_motion
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, last_coefficient
-  use rst_arms, only: solid_type
-  use rst_panel, only: panel_type, mesh_type, mass_factor
+  use rst_panel, only: panel_type, normal_type, mass_factor
   use rst_guess, only: guess_compression
   use rst_compression_panel, only: compress
   use rst_restitution_panel, only: rebound
@@ -16,7 +15,7 @@ module rst_normal_motion
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
   !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that
-  !> will not be faster than mesh%left; that the panels given are too few; nothing.
+  !> will not be faster than normal%left; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
   real(dp), parameter :: worth_telling = 1.0e-2_dp !! a rebound that is slower, though nothing else is known of it
@@ -38,20 +37,15 @@ module rst_normal_motion
 
 contains
 
-  !> From first touch to the end of contact. mesh%radius and mesh%closeness are given.
-  subroutine follow_normal(solid, g, rate, control, mesh, panel, memory, loading, entry, found)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
+  !> From first touch to the end of contact. Given are the solid, normal%radius and normal%closeness.
+  subroutine follow_normal(control, normal, found)
     type(normal_control_type), intent(in) :: control
-    type(mesh_type), intent(inout) :: mesh
-    type(panel_type), intent(inout) :: panel(control%capacity)
-    real(dp), intent(inout), dimension(0:stages, solid%n_arms, control%capacity) :: memory, loading  !! M_k and P_k
-    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room
+    type(normal_type), intent(inout) :: normal
     integer(ip), intent(out) :: found
     type(panel_type), pointer, contiguous :: coarse(:)
     nullify (coarse)
     if (control%n_coarse > 0) call c_f_pointer(control%coarse, coarse, [control%n_coarse])
-    mesh%n_panels = 0
+    normal%n_panels = 0
     call go_through(.false., found)
     if (found /= rebounds) return
     call go_through(.true., found)
@@ -69,35 +63,29 @@ contains
       width = widest
       fails = .false.
       do while (place < whole)
-        n = mesh%n_panels + 1
+        n = normal%n_panels + 1
         found = lacks_room
         if (n > control%capacity) return
-        if (back) width = min(width, width_at(whole - place, mesh%n_compression, panel))
+        if (back) width = min(width, width_at(whole - place, normal%n_compression, normal%panel))
         call halve_coarser(back, place, beside, width)
-        call begin(panel(max(1_ip, n - 1)), n, panel(n))
-        memory(0, :, n) = 0
-        loading(0, :, n) = 0
-        if (n > 1) then
-          memory(0, :, n) = memory(stages, :, n - 1)
-          loading(0, :, n) = loading(stages, :, n - 1)
-        end if
-        panel(n)%from = merge(whole - place, place, back)*unit
-        panel(n)%to = merge(whole - place - width, place + width, back)*unit
+        call begin(normal, n)
+        normal%panel(n)%from = merge(whole - place, place, back)*unit
+        normal%panel(n)%to = merge(whole - place - width, place + width, back)*unit
         call solve_panel(back, n, fails)
-        if (.not. fails) fails = missed(mesh%radius, panel(n), back) > control%roughness
+        if (.not. fails) fails = missed(normal%radius, normal%panel(n), back) > control%roughness
         if (fails) then
           width = width/2
           if (width > 0) cycle
           call give_up(found)
           return
         end if
-        mesh%n_panels = n
-        if (.not. back) mesh%n_compression = n
+        normal%n_panels = n
+        if (.not. back) normal%n_compression = n
         place = place + width
         if (.not. back) then
           found = stops
-          mesh%left = control%stop_speed
-          if (has_stopped(solid, g, control%stop_speed, panel(n), memory(:, :, n), loading(:, :, n))) return
+          normal%left = control%stop_speed
+          if (has_stopped(normal, control%stop_speed)) return
         end if
         if (width < widest .and. modulo(place, 2*width) == 0) width = 2*width
       end do
@@ -115,8 +103,8 @@ contains
       if (first <= last .and. .not. fails) then
         call solve_from(coarse(first:last), back, n, fails)
       else
-        first = merge(n, n - 1, n == merge(mesh%n_compression, 0_ip, back) + 1)
-        call solve_from(panel(first:n - 1), back, n, fails)
+        first = merge(n, n - 1, n == merge(normal%n_compression, 0_ip, back) + 1)
+        call solve_from(normal%panel(first:n - 1), back, n, fails)
       end if
     end subroutine solve_panel
 
@@ -126,10 +114,10 @@ contains
       integer(ip), intent(in) :: n
       logical, intent(out) :: fails
       if (back) then
-        call rebound(solid, g, rate, mesh, known, panel, memory, loading, entry, fails)
+        call rebound(normal, known, fails)
       else
-        call guess_compression(solid, mesh, known, panel(n))
-        call compress(solid, g, rate, mesh, panel(n), memory(:, :, n), loading(:, :, n), fails)
+        call guess_compression(normal, known, normal%panel(n))
+        call compress(normal, n, fails)
       end if
     end subroutine solve_from
 
@@ -149,14 +137,12 @@ contains
     !> Rounding ends the panels. What is left after the compression may be too slow to matter.
     subroutine give_up(found)
       integer(ip), intent(out) :: found
-      integer(ip) :: last
       found = does_not_converge
-      if (mesh%n_panels == 0) return
-      last = mesh%n_compression
-      mesh%left = fastest_later(g, panel(last), loading(stages, :, last))
-      if (.not. mesh%left < worth_telling) return
+      if (normal%n_panels == 0) return
+      normal%left = fastest_later(normal)
+      if (.not. normal%left < worth_telling) return
       found = stops
-      mesh%n_panels = last
+      normal%n_panels = normal%n_compression
     end subroutine give_up
   end subroutine follow_normal
 
@@ -183,25 +169,28 @@ contains
   end function width_at
 
   !> The start of a panel is the end of the one before, and the first one starts at first touch.
-  pure subroutine begin(before, n, panel)
-    type(panel_type), intent(in) :: before
+  subroutine begin(normal, n)
+    type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: n
-    type(panel_type), intent(inout) :: panel
-    if (n > 1) then
-      panel%radius(0) = before%radius(stages)
-      panel%time(0) = before%time(stages)
-      panel%depth(0) = before%depth(stages)
-      panel%velocity(0) = before%velocity(stages)
-      panel%force(0) = before%force(stages)
-      panel%pace(0) = before%pace(stages)
-    else
-      panel%radius(0) = 0
-      panel%time(0) = 0
-      panel%depth(0) = 0
-      panel%velocity(0) = 1
-      panel%force(0) = 0
-      panel%pace(0) = 0
-    end if
+    associate (panel => normal%panel)
+      panel(n)%radius(0) = 0
+      panel(n)%time(0) = 0
+      panel(n)%depth(0) = 0
+      panel(n)%velocity(0) = 1
+      panel(n)%force(0) = 0
+      panel(n)%pace(0) = 0
+      normal%memory(0, :, n) = 0
+      normal%loading(0, :, n) = 0
+      if (n == 1) return
+      panel(n)%radius(0) = panel(n - 1)%radius(stages)
+      panel(n)%time(0) = panel(n - 1)%time(stages)
+      panel(n)%depth(0) = panel(n - 1)%depth(stages)
+      panel(n)%velocity(0) = panel(n - 1)%velocity(stages)
+      panel(n)%force(0) = panel(n - 1)%force(stages)
+      panel(n)%pace(0) = panel(n - 1)%pace(stages)
+      normal%memory(0, :, n) = normal%memory(stages, :, n - 1)
+      normal%loading(0, :, n) = normal%loading(stages, :, n - 1)
+    end associate
   end subroutine begin
 
   !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
@@ -218,30 +207,31 @@ contains
 
   !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses
   !> up to twice their mean, or because the dashpot keeps them from letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
-  pure function has_stopped(solid, g, stop_speed, panel, memory, loading) result(yes)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), stop_speed
-    type(panel_type), intent(in) :: panel
-    real(dp), intent(in), dimension(0:stages, solid%n_arms) :: memory, loading
+  function has_stopped(normal, stop_speed) result(yes)
+    type(normal_type), intent(in) :: normal
+    real(dp), intent(in) :: stop_speed
     logical :: yes
+    real(dp) :: velocity
+    velocity = normal%panel(normal%n_compression)%velocity(stages)
     yes = .false.
-    if (panel%velocity(stages) >= stop_speed .or. .not. panel%velocity(stages) > 0) return
-    yes = stored(g, panel, loading(stages, :)) < stop_speed**2 .or. sum(memory(stages, :)) < stop_speed*solid%eta
+    if (velocity >= stop_speed .or. .not. velocity > 0) return
+    yes = stored(normal) < stop_speed**2 .or. sum(normal%memory(stages, :, normal%n_compression)) < stop_speed*normal%eta
   end function has_stopped
 
-  !> The square of the speed that springs could give the sphere, with stresses up to twice their mean.
-  pure function stored(g, panel, loading) result(energy)
-    real(dp), intent(in) :: g(:), loading(:)
-    type(panel_type), intent(in) :: panel
+  !> The square of the speed that springs could give the sphere after the last panel of the compression, with stresses up to twice
+  !> their mean.
+  function stored(normal) result(energy)
+    type(normal_type), intent(in) :: normal
     real(dp) :: energy
-    energy = 2*mass_factor*sum(loading**2/g)/panel%radius(stages)
+    integer(ip) :: last
+    last = normal%n_compression
+    energy = 2*mass_factor*sum(normal%loading(stages, :, last)**2/normal%g)/normal%panel(last)%radius(stages)
   end function stored
 
-  !> The speed that the sphere will not exceed after a panel of the compression, by its energy.
-  pure function fastest_later(g, panel, loading) result(speed)
-    real(dp), intent(in) :: g(:), loading(:)
-    type(panel_type), intent(in) :: panel
+  !> The speed that the sphere will not exceed after the last panel of the compression, by its energy.
+  function fastest_later(normal) result(speed)
+    type(normal_type), intent(in) :: normal
     real(dp) :: speed
-    speed = sqrt(panel%velocity(stages)**2 + stored(g, panel, loading))
+    speed = sqrt(normal%panel(normal%n_compression)%velocity(stages)**2 + stored(normal))
   end function fastest_later
 end module rst_normal_motion

@@ -4,7 +4,7 @@ module rst_panel
   use rst_collocation, only: stages, weights_at
   implicit none (type, external)
   private
-  public :: panel_type, mesh_type, place_on, find_angle, mass_factor
+  public :: panel_type, normal_type, place_on, find_angle, mass_factor
 
   real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
 
@@ -15,12 +15,17 @@ module rst_panel
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> How the motion is divided: the scale r of the radius in theta, when iterations end, the speed that a sphere that has stopped
-  !> will not exceed, panels of the compression and of all. Members of `struct sync_normal` in C.
-  type, bind(c) :: mesh_type
-    real(dp) :: radius, closeness, left
-    integer(ip) :: n_compression, n_panels
-  end type mesh_type
+  !> The normal motion of a solid, views of the caller's arrays: eta and arms; the scale r of the radius in theta, when iterations
+  !> end, the speed that a sphere that has stopped will not exceed; panels, their number in the compression and in all.
+  type :: normal_type
+    real(dp) :: eta, radius, closeness, left
+    integer(ip) :: n_arms, n_compression, n_panels
+    real(dp), pointer, contiguous :: g(:), rate(:)
+    type(panel_type), pointer, contiguous :: panel(:)
+    real(dp), pointer, contiguous, dimension(:, :, :) :: memory, loading !! (0:stages, arms, panels): M_k and P_k
+    real(dp), pointer, contiguous :: kernel(:, :, :, :)  !! (stages, 0:stages, arms, panels): of the arms (module rst_arms)
+    real(dp), pointer, contiguous :: entry(:, :, :)      !! (stages, arms, 2), room: M_k and P_k when the edge went in
+  end type normal_type
 
 contains
 

@@ -3,9 +3,9 @@ module rst_piece
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, factors_type, &
                              factorize, solution_of
-  use rst_arms, only: respond_all, advance
-  use rst_panel, only: mass_factor
-  use rst_contact_views, only: normal_type, contact_type, store_type
+  use rst_arms, only: respond_all, answer_of, advance
+  use rst_panel, only: normal_type, mass_factor
+  use rst_contact_views, only: contact_type, store_type
   implicit none (type, external)
   private
   public :: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
@@ -39,25 +39,59 @@ contains
     type(store_type), intent(inout) :: store
     type(ground_type), intent(out) :: ground
     logical, intent(out) :: fails
-    real(dp) :: weight(0:stages), x, slope, width
-    integer(ip) :: i, k
+    real(dp) :: slope(0:stages)
     ground%panel = panel
     ground%from = from
     ground%to = to
     ground%rooted = rooted
     ground%returning = panel > normal%n_compression
-    width = abs(normal%panel(panel)%to - normal%panel(panel)%from)
-    do i = 0, stages
-      slope = to - from
-      x = from + slope*point(i)
-      if (rooted) then
-        x = to - (to - from)*(1 - point(i))**2
-        slope = 2*(to - from)*(1 - point(i))
+    ground%place = from + (to - from)*point
+    slope = to - from
+    if (rooted) then
+      ground%place = to - (to - from)*(1 - point)**2
+      slope = 2*(to - from)*(1 - point)
+    end if
+    associate (on => normal%panel(panel))
+      ground%angle = on%from + ground%place*(on%to - on%from)
+      if (.not. (from > 0 .or. to < 1 .or. rooted)) then
+        call take_panel(normal, store, ground)
+        fails = .false.
+      else
+        call take_part(normal, store, ground)
+        ground%span = ground%pace(1:)*(abs(on%to - on%from)*slope(1:))
+        call respond_all(normal%rate, ground%span, store%kernel, fails)
       end if
-      ground%place(i) = x
-      associate (on => normal%panel(panel))
-        weight = weights_at(x)
-        ground%angle(i) = on%from + x*(on%to - on%from)
+    end associate
+    if (.not. fails) call answer_of(normal%eta, normal%g, ground%span, store%kernel, ground%answer)
+  end subroutine lay_ground
+
+  !> What is known on the whole panel.
+  subroutine take_panel(normal, store, ground)
+    type(normal_type), intent(in) :: normal
+    type(store_type), intent(inout) :: store
+    type(ground_type), intent(inout) :: ground
+    associate (on => normal%panel(ground%panel))
+      ground%radius = on%radius
+      ground%time = on%time
+      ground%velocity = on%velocity
+      ground%force = on%force
+      ground%pace = on%pace
+      ground%span = on%pace(1:)*abs(on%to - on%from)
+    end associate
+    store%now_z = normal%memory(:, :, ground%panel)
+    store%kernel(1:, 0:, 1:) => normal%kernel(:, :, :, ground%panel)
+  end subroutine take_panel
+
+  !> What its polynomials say at ground%place.
+  subroutine take_part(normal, store, ground)
+    type(normal_type), intent(in) :: normal
+    type(store_type), intent(inout) :: store
+    type(ground_type), intent(inout) :: ground
+    real(dp) :: weight(0:stages)
+    integer(ip) :: i, k
+    do i = 0, stages
+      associate (on => normal%panel(ground%panel))
+        weight = weights_at(ground%place(i))
         ground%radius(i) = sum(weight*on%radius)
         ground%time(i) = sum(weight*on%time)
         ground%velocity(i) = sum(weight*on%velocity)
@@ -65,12 +99,11 @@ contains
         ground%pace(i) = sum(weight*on%pace)
       end associate
       do k = 1, normal%n_arms
-        store%now_z(i, k) = sum(weight*normal%memory(:, k, panel))
+        store%now_z(i, k) = sum(weight*normal%memory(:, k, ground%panel))
       end do
-      ground%span(max(i, 1_ip)) = ground%pace(i)*width*slope  ! that of the start is written over
     end do
-    call respond_all(normal%eta, normal%g, normal%rate, ground%span, store%kernel, store%decay, ground%answer, fails)
-  end subroutine lay_ground
+    store%kernel => store%room
+  end subroutine take_part
 
   !> M_k in x at the points, from that at the start and U' = w.
   subroutine advance_memory(normal, ground, w, store)
@@ -78,7 +111,7 @@ contains
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: w(stages)
     type(store_type), intent(inout) :: store
-    call advance(normal%g, ground%span, store%kernel, store%decay, w, store%now_x)
+    call advance(normal%g, ground%span, store%kernel, w, store%now_x)
   end subroutine advance_memory
 
   !> All sticks: S at the points is linear in U', S = kept + response U'. While the contact grows
@@ -101,9 +134,9 @@ contains
     response = 0
     do k = 1, normal%n_arms
       if (ground%returning) then
-        kept = kept + ground%radius(1:)*store%decay(:, k)*store%now_x(0, k)
+        kept = kept + ground%radius(1:)*store%kernel(:, 0, k)*store%now_x(0, k)
       else
-        kept = kept + store%decay(:, k)*store%now_l(0, k)
+        kept = kept + store%kernel(:, 0, k)*store%now_l(0, k)
         do j = 1, stages
           response(:, j) = response(:, j) + store%kernel(:, j, k)*(normal%g(k)*ground%span(j)*ground%radius(j))
         end do
@@ -126,7 +159,7 @@ contains
     force(1:) = kept + applied(response, w(1:))
     call advance_memory(normal, ground, w(1:), store)
     if (ground%returning) return
-    call advance(normal%g, ground%span, store%kernel, store%decay, ground%radius(1:)*w(1:), store%now_l)
+    call advance(normal%g, ground%span, store%kernel, ground%radius(1:)*w(1:), store%now_l)
   end subroutine stick
 
   !> The polynomial through y at the place on the piece, which is between 0 and 1.

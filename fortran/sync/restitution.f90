@@ -8,9 +8,9 @@ module rst_restitution_panel
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, start_of, integrated, applied, composed, &
                              factors_type, factorize, solution_of, has_converged, keeps_matrix
-  use rst_arms, only: solid_type, respond
+  use rst_arms, only: respond
   use rst_guess, only: guess_restitution
-  use rst_panel, only: panel_type, mesh_type, find_angle, mass_factor
+  use rst_panel, only: panel_type, normal_type, find_angle, mass_factor
   implicit none (type, external)
   private
   public :: rebound
@@ -31,104 +31,103 @@ module rst_restitution_panel
 
 contains
 
-  !> The panel mesh%n_panels + 1 from its values at its start, (0), and from known panels as a guess.
-  pure subroutine rebound(solid, g, rate, mesh, known, panel, memory, loading, entry, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms)
-    type(mesh_type), intent(in) :: mesh
+  !> The panel after those there are, from its values at its start, (0), and from known panels as a guess.
+  subroutine rebound(normal, known, fails)
+    type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: known(:)
-    type(panel_type), intent(inout) :: panel(mesh%n_panels + 1)
-    real(dp), intent(inout) :: memory(0:stages, solid%n_arms, mesh%n_panels + 1)
-    real(dp), intent(in) :: loading(0:stages, solid%n_arms, mesh%n_compression)
-    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)  !! room: M_k and P_k when the edge went in
     logical, intent(out) :: fails
     type(motion_type) :: m
     type(slope_type) :: slope
     real(dp) :: step_v(stages), step_pace(stages), change, previous, h
-    integer(ip) :: i, new
-    new = mesh%n_panels + 1
-    h = panel(new)%from - panel(new)%to
-    call recall(solid, mesh, panel, memory, loading, panel(new), m, entry)
-    call guess_restitution(solid, g, rate, known, m%entered, panel(new))
-    m%v = panel(new)%velocity(1:)
-    m%pace = panel(new)%pace(1:)
-    previous = 1
-    slope%wanted = .true.
-    do i = 1, most_iterations
-      call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, slope, fails)
-      if (.not. fails .and. slope%wanted) call prepare(solid%eta, h, m, slope, fails)
+    real(dp), pointer, contiguous :: memory(:, :), kernel(:, :, :), entry(:, :, :) ! compilers would copy components
+    integer(ip) :: i, n
+    n = normal%n_panels + 1
+    memory(0:, 1:) => normal%memory(:, :, n)
+    kernel(1:, 0:, 1:) => normal%kernel(:, :, :, n)
+    entry => normal%entry
+    associate (panel => normal%panel(n))
+      h = panel%from - panel%to
+      call recall(normal, panel, m)
+      call guess_restitution(normal, known, m%entered, panel)
+      m%v = panel%velocity(1:)
+      m%pace = panel%pace(1:)
+      previous = 1
+      slope%wanted = .true.
+      do i = 1, most_iterations
+        call balance(normal%eta, normal%g, normal%rate, [h, panel%time(0)], memory, kernel, entry, m, slope, fails)
+        if (.not. fails .and. slope%wanted) call prepare(normal%eta, h, m, slope, fails)
+        if (fails) return
+        call newton(h, panel%velocity(0), m, slope, step_v, step_pace)
+        change = maxval(abs(step_v)) + maxval(abs(step_pace))/maxval(m%pace)
+        fails = .not. change < 1.0e6_dp
+        if (fails) return
+        m%v = m%v + step_v
+        if (panel%to > 0) step_pace(stages) = max(step_pace(stages), -0.9_dp*m%pace(stages)) ! at theta = 0 it is 0
+        step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
+        m%pace = m%pace + step_pace
+        if (has_converged(change, previous, normal%closeness)) exit
+        slope%wanted = change > keeps_matrix*previous
+        previous = change
+      end do
+      fails = i > most_iterations
       if (fails) return
-      call newton(h, panel(new)%velocity(0), m, slope, step_v, step_pace)
-      change = maxval(abs(step_v)) + maxval(abs(step_pace))/maxval(m%pace)
-      fails = .not. change < 1.0e6_dp
+      slope%wanted = .false.
+      call balance(normal%eta, normal%g, normal%rate, [h, panel%time(0)], memory, kernel, entry, m, slope, fails)
       if (fails) return
-      m%v = m%v + step_v
-      if (panel(new)%to > 0) step_pace(stages) = max(step_pace(stages), -0.9_dp*m%pace(stages)) ! at theta = 0 it is 0
-      step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
-      m%pace = m%pace + step_pace
-      if (has_converged(change, previous, mesh%closeness)) exit
-      slope%wanted = change > keeps_matrix*previous
-      previous = change
-    end do
-    fails = i > most_iterations
-    if (fails) return
-    slope%wanted = .false.
-    call balance(solid, g, rate, h, panel(new)%time(0), memory(:, :, new), entry, m, slope, fails)
-    if (.not. fails) call note(mesh, h, m, panel(new))
-    if (.not. fails) fails = .not. all(abs(panel(new)%time) < huge(1.0_dp))
+      call note(n == normal%n_compression + 1, h, m, panel)
+      fails = .not. all(abs(panel%time) < huge(1.0_dp))
+    end associate
   end subroutine rebound
 
   !> What the compression left at the angles of the points.
-  pure subroutine recall(solid, mesh, panel, memory, loading, new, m, entry)
-    type(solid_type), intent(in) :: solid
-    type(mesh_type), intent(in) :: mesh
-    type(panel_type), intent(in) :: panel(mesh%n_compression), new
-    real(dp), intent(in), dimension(0:stages, solid%n_arms, mesh%n_compression) :: memory, loading
+  subroutine recall(normal, new, m)
+    type(normal_type), intent(in) :: normal
+    type(panel_type), intent(in) :: new
     type(motion_type), intent(out) :: m
-    real(dp), intent(out) :: entry(stages, solid%n_arms, 2)
     real(dp) :: weight(0:stages)
     integer(ip) :: i, k, p
     do i = 1, stages
-      call find_angle(new%from + point(i)*(new%to - new%from), mesh%n_compression, panel, p, weight)
-      m%entered(i) = sum(weight*panel(p)%time)
-      m%radius(i) = sum(weight*panel(p)%radius)
-      do k = 1, solid%n_arms
-        entry(i, k, 1) = sum(weight*memory(:, k, p))
-        entry(i, k, 2) = sum(weight*loading(:, k, p))
+      call find_angle(new%from + point(i)*(new%to - new%from), normal%n_compression, normal%panel, p, weight)
+      m%entered(i) = sum(weight*normal%panel(p)%time)
+      m%radius(i) = sum(weight*normal%panel(p)%radius)
+      do k = 1, normal%n_arms
+        normal%entry(i, k, 1) = sum(weight*normal%memory(:, k, p))
+        normal%entry(i, k, 2) = sum(weight*normal%loading(:, k, p))
       end do
     end do
   end subroutine recall
 
   !> The sums at the points for D' and the pace, with memory and, if wanted, how the sum that is zero answers to both.
-  pure subroutine balance(solid, g, rate, h, start, memory, entry, m, slope, fails)
-    type(solid_type), intent(in) :: solid
-    real(dp), intent(in) :: g(solid%n_arms), rate(solid%n_arms), h, start
-    real(dp), intent(inout) :: memory(0:stages, solid%n_arms)
-    real(dp), intent(in) :: entry(stages, solid%n_arms, 2)
+  pure subroutine balance(eta, g, rate, span, memory, kernel, entry, m, slope, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), span(2)  !! span: h, and the time at the start
+    real(dp), intent(inout) :: memory(0:stages, size(g)), kernel(stages, 0:stages, size(g))
+    real(dp), intent(in) :: entry(stages, size(g), 2)
     type(motion_type), intent(inout) :: m
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
-    real(dp) :: kernel(stages, stages), decay(stages), left(stages), since(stages)
+    real(dp) :: left(stages), passes(stages), since(stages)
     integer(ip) :: k
-    since = integrated(start, h*m%pace) - m%entered
-    m%open = solid%eta*m%v
+    passes = span(1)*m%pace
+    since = integrated(span(2), passes) - m%entered
+    m%open = eta*m%v
     m%force = 0
     m%kept_rate = 0
     m%force_rate = 0
     if (slope%wanted) slope%by_v = 0
     if (slope%wanted) slope%by_pace = 0
     fails = .false.
-    do k = 1, solid%n_arms
-      call respond(rate(k), h*m%pace, kernel, decay, fails)
+    do k = 1, size(g, kind=ip)
+      call respond(rate(k), passes, kernel(:, :, k), fails)
       if (fails) return
-      memory(1:, k) = decay*memory(0, k) + applied(kernel, g(k)*h*m%pace*m%v)
+      memory(1:, k) = kernel(:, 0, k)*memory(0, k) + applied(kernel(:, 1:, k), g(k)*passes*m%v)
       left = 1
       if (rate(k) > 0) left = exp(-rate(k)*since)
       m%open = m%open + (memory(1:, k) - left*entry(:, k, 1))
       m%force = m%force + left*entry(:, k, 2)
       m%kept_rate = m%kept_rate + rate(k)*left*entry(:, k, 1)
       m%force_rate = m%force_rate + rate(k)*left*entry(:, k, 2)
-      if (slope%wanted) call add_answer(kernel, (g(k)*h)*m%pace, h*(g(k)*m%v - rate(k)*memory(1:, k)), slope)
+      if (slope%wanted) &
+        call add_answer(kernel(:, 1:, k), g(k)*passes, span(1)*(g(k)*m%v - rate(k)*memory(1:, k)), slope)
     end do
   end subroutine balance
 
@@ -173,15 +172,15 @@ contains
     step_v = miss + applied(slope%pull, step_pace)
   end subroutine newton
 
-  pure subroutine note(mesh, h, m, panel)
-    type(mesh_type), intent(in) :: mesh
+  pure subroutine note(is_first, h, m, panel)
+    logical, intent(in) :: is_first
     real(dp), intent(in) :: h
     type(motion_type), intent(in) :: m
     type(panel_type), intent(inout) :: panel
     panel%velocity(1:) = m%v
     panel%force(1:) = m%force
     panel%pace(1:) = m%pace
-    if (mesh%n_panels == mesh%n_compression) panel%pace(0) = start_of(m%pace)
+    if (is_first) panel%pace(0) = start_of(m%pace)
     panel%time(1:) = integrated(panel%time(0), h*m%pace)
     panel%radius(1:) = m%radius
     panel%depth(1:) = integrated(panel%depth(0), h*m%pace*m%v)

@@ -4,7 +4,8 @@ module rst_slip
   use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, weights_at, applied, &
                              factors_type, factorize, solution_of, &
                              has_converged
-  use rst_contact_views, only: normal_type, contact_type, store_type
+  use rst_panel, only: normal_type
+  use rst_contact_views, only: contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
   use rst_front, only: element_type, slack_type, look_at, find_front, held_by
   implicit none (type, external)

@@ -110,12 +110,12 @@ static int64_t first_capacity(int halvings)
     return INT64_C(8) << halvings;
 }
 
-/* Panels, M_k, P_k and what the restitution needs besides. */
+/* Panels, M_k, P_k, how arms respond on the panels, and what the restitution needs besides. */
 static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t capacity, double roughness)
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
-    const size_t panels = c * sizeof(struct sync_panel) / sizeof(double);
-    if (make_room(&run->room, &run->room_size, panels + 2 * points + 2 * rst_stages * n + 1)) return 1;
+    const size_t panels = c * sizeof(struct sync_panel) / sizeof(double), kernels = rst_stages * points;
+    if (make_room(&run->room, &run->room_size, panels + 2 * points + kernels + 2 * rst_stages * n + 1)) return 1;
     run->capacity = capacity;
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
@@ -125,7 +125,9 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
                                        .rate = motion->arms + motion->most_arms,
                                        .panel = (struct sync_panel *)run->room,
                                        .memory = run->room + panels,
-                                       .loading = run->room + panels + points};
+                                       .loading = run->room + panels + points,
+                                       .kernel = run->room + panels + 2 * points,
+                                       .entry = run->room + panels + 2 * points + kernels};
     return 0;
 }
 
@@ -169,8 +171,7 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
                                                     .coarse = coarser ? coarser->panel : NULL};
         run->found = RST_NOT_SOLVED;
         if (lay_out(motion, run, capacity, control.roughness)) return NULL;
-        rst_follow_normal(&control, &run->normal,
-                          run->normal.loading + rst_points * (size_t)motion->n_arms * (size_t)capacity, &run->found);
+        rst_follow_normal(&control, &run->normal, &run->found);
         if (run->found != RST_LACKS_ROOM || allowed == most) break;
         if (allowed < rst_most_panels) continue;
         run->found = RST_DOES_NOT_CONVERGE;
@@ -189,19 +190,18 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t records = c * sizeof(struct sync_record) / sizeof(double);
     const size_t pieces = c * sizeof(struct sync_piece) / sizeof(double);
-    const size_t now = rst_points * n, square = rst_stages * rst_stages * n;
+    const size_t now = rst_points * n;
     struct sync_store *s = &motion->store;
     if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + rst_values * points + square + rst_stages * n + 3 * now + 1))
+                  records + pieces + rst_values * points + rst_stages * now + 3 * now + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
     s->held = next += pieces;
-    s->kernel = next += rst_values * points;
-    s->decay = next += square;
-    s->now_z = next += rst_stages * n;
+    s->room = next += rst_values * points;
+    s->now_z = next += rst_stages * now;
     s->now_x = next += now;
     s->now_l = next + now;
     return 0;

@@ -27,13 +27,11 @@ struct sync_normal_control {
 
 /* Twin of normal_arrays_type. */
 struct sync_normal {
-    double eta;
-    int64_t n_arms;
-    double radius, closeness, left;
-    int64_t n_compression, n_panels;
+    double eta, radius, closeness, left;
+    int64_t n_arms, n_compression, n_panels;
     double *g, *rate;
     struct sync_panel *panel;
-    double *memory, *loading;
+    double *memory, *loading, *kernel, *entry;
 };
 
 /* Twin of contact_type. */
@@ -60,15 +58,14 @@ struct sync_store {
     int64_t capacity, n_records, n_pieces;
     struct sync_record *record;
     struct sync_piece *piece;
-    double *held, *kernel, *decay, *now_z, *now_x, *now_l;
+    double *held, *room, *now_z, *now_x, *now_l;
 };
 
 /* What rst_follow_normal and rst_follow_contact found. */
 enum { RST_REBOUNDS = 0, RST_STOPS = 1, RST_LACKS_ROOM = 2, RST_DOES_NOT_CONVERGE = 3 };
 enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2 };
 
-void rst_follow_normal(const struct sync_normal_control *control, struct sync_normal *normal, double *entry,
-                       int64_t *found);
+void rst_follow_normal(const struct sync_normal_control *control, struct sync_normal *normal, int64_t *found);
 void rst_follow_contact(const struct sync_normal *normal, const struct sync_contact *contact, struct sync_store *store,
                         double *velocity, int64_t *found);
 void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);

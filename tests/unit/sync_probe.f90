@@ -6,10 +6,10 @@ module sync_probe
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between, &
                              factors_type, factorize, solution_of
-  use rst_arms, only: solid_type, respond
-  use rst_panel, only: panel_type, mesh_type
+  use rst_arms, only: respond
+  use rst_panel, only: panel_type, normal_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: normal_type, contact_type, record_type, piece_type, store_type, of_arm
+  use rst_contact_views, only: contact_type, record_type, piece_type, store_type, of_arm
   use rst_front, only: element_type, slack_type, look_at, find_front
   use rst_tangential_motion, only: follow_contact
   implicit none (type, external)
@@ -17,14 +17,12 @@ module sync_probe
 
   integer(ip), parameter :: arms = 4, room = 300, points = stages + 1
 
-  type(solid_type) :: solid
-  type(mesh_type) :: mesh
   type(normal_type) :: normal
   type(store_type) :: store
-  real(dp), target :: g_room(arms), rate_room(arms), entry_room(2*stages*arms)
+  real(dp), target :: g_room(arms), rate_room(arms), entry_room(2*stages*arms), kernel_room(stages*points*arms*room)
   real(dp), target, dimension(points*arms*room) :: memory_room, loading_room
   real(dp), target :: held_room(of_arm*points*arms*room)
-  real(dp), target :: kernel_room(stages*stages*arms), decay_room(stages*arms)
+  real(dp), target :: response_room(stages*points*arms)
   real(dp), target, dimension(points*arms) :: now_z_room, now_x_room, now_l_room
   type(panel_type), target :: panel_room(room)
   type(record_type), target :: record_room(room)
@@ -72,8 +70,11 @@ contains
     real(c_double), intent(in) :: span(stages)
     real(c_double), intent(out) :: kernel(stages, stages), decay(stages)
     integer(c_int64_t) :: failed
+    real(dp) :: both(stages, 0:stages)
     logical :: fails
-    call respond(rate, span, kernel, decay, fails)
+    call respond(rate, span, both, fails)
+    kernel = both(:, 1:)
+    decay = both(:, 0)
     failed = merge(1_ip, 0_ip, fails)
   end function probe_respond
 
@@ -86,14 +87,12 @@ contains
     integer(c_int64_t) :: found
     type(normal_control_type) :: control
     call hold(eta, n, g, rate)
-    mesh%radius = sqrt(0.4_dp*depth)
-    mesh%closeness = 1.0e-12_dp
+    normal%radius = sqrt(0.4_dp*depth)
+    normal%closeness = 1.0e-12_dp
     control = normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, halvings=halvings, capacity=room, &
                                   n_coarse=0_ip, n_coarse_compression=0_ip, coarse=c_null_ptr)
-    call follow_normal(solid, g_room(:n), rate_room(:n), control, mesh, panel_room, memory_room, loading_room, entry_room, found)
-    normal%n_compression = mesh%n_compression
-    normal%n_panels = mesh%n_panels
-    counts = [mesh%n_compression, mesh%n_panels]
+    call follow_normal(control, normal, found)
+    counts = [normal%n_compression, normal%n_panels]
   end function probe_normal
 
   !> The solid, and the views of the rooms that its number of arms asks for.
@@ -103,7 +102,6 @@ contains
     real(dp), intent(in) :: g(n), rate(n)
     g_room(:n) = g
     rate_room(:n) = rate
-    solid = solid_type(eta, n)
     normal%eta = eta
     normal%n_arms = n
     normal%g => g_room(:n)
@@ -111,13 +109,15 @@ contains
     normal%panel => panel_room
     normal%memory(0:stages, 1:n, 1:room) => memory_room
     normal%loading(0:stages, 1:n, 1:room) => loading_room
+    normal%kernel(1:stages, 0:stages, 1:n, 1:room) => kernel_room
+    normal%entry(1:stages, 1:n, 1:2) => entry_room
     store%n_records = 0
     store%n_pieces = 0
     store%record => record_room
     store%piece => piece_room
     store%held(1:of_arm, 0:stages, 1:n, 1:room) => held_room
-    store%kernel(1:stages, 1:stages, 1:n) => kernel_room
-    store%decay(1:stages, 1:n) => decay_room
+    store%room(1:stages, 0:stages, 1:n) => response_room
+    store%kernel => store%room
     store%now_z(0:stages, 1:n) => now_z_room
     store%now_x(0:stages, 1:n) => now_x_room
     store%now_l(0:stages, 1:n) => now_l_room
