@@ -24,6 +24,7 @@ module rst_slip
   real(dp), parameter :: at_edge = 0.1_dp
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
+  real(dp), parameter :: roughly = 0.1_dp       !! `near` of slack_type for the first of Newton's steps that has no guess
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
 
   !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in
@@ -128,7 +129,7 @@ contains
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1 .and. .not. warm) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, near, edge(i), i, s)
+        call slacken(normal, store, ground, side, merge(roughly, near, n == 1 .and. .not. warm), edge(i), i, s)
       end do
       do j = 1, stages
         matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
@@ -141,7 +142,7 @@ contains
       change = maxval(abs(step))
       fails = .not. change < 1.0e3_dp
       if (fails) return
-      if (has_converged(change, previous, contact%closeness)) exit
+      if (has_converged(change, previous, contact%closeness) .and. (n > 1 .or. warm)) exit
       previous = change
     end do
     fails = n > most_iterations
