@@ -54,8 +54,8 @@ contains
     end do
   end subroutine answer_of
 
-  !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v. (Pointers, here and above, since
-  !> compilers would copy components of derived types.)
+  !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v. (Pointers, here and above,
+  !> since compilers would copy components of derived types.)
   subroutine advance(g, span, kernel, v, y)
     real(dp), intent(in) :: span(stages), v(stages)
     real(dp), pointer, contiguous, intent(in) :: g(:), kernel(:, :, :), y(:, :)
