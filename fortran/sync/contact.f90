@@ -233,7 +233,11 @@ contains
     type(factors_type) :: factors
     integer(ip) :: i, k
     logical :: fails
-    call lay_ground(normal, panel, from, 1.0_dp, .false., store, ground, fails)
+    ground%panel = panel
+    ground%from = from
+    ground%to = 1
+    ground%rooted = .false.
+    call lay_ground(normal, store, ground, fails)
     s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
     s%force = side*ground%force
     s%stick = 0

@@ -10,8 +10,8 @@ module rst_piece
   private
   public :: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
 
-  !> The normal motion at the start of a piece and at its points; span: time per x of the piece; answer: of the stress of an
-  !> element in stick to U'.
+  !> A piece: its panel, the part of it, whether in the root of what is left; the normal motion at its start and at its points;
+  !> span: time per x of the piece; answer: of the stress of an element in stick to U'.
   type :: ground_type
     integer(ip) :: panel
     real(dp) :: from, to
@@ -29,31 +29,25 @@ contains
     push = 2*mass_factor*contact%chi
   end function push_factor
 
-  !> The ground of the piece from x = from to x = to of a panel. In a rooted piece x is
+  !> The ground of the piece from x = ground%from to x = ground%to of a panel, which are given. In a rooted piece x is
   !> to - (to - from) (1 - y)^2 with y from 0 to 1.
-  subroutine lay_ground(normal, panel, from, to, rooted, store, ground, fails)
+  subroutine lay_ground(normal, store, ground, fails)
     type(normal_type), intent(in) :: normal
-    integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: from, to
-    logical, intent(in) :: rooted
     type(store_type), intent(inout) :: store
-    type(ground_type), intent(out) :: ground
+    type(ground_type), intent(inout) :: ground
     logical, intent(out) :: fails
-    real(dp) :: slope(0:stages)
-    ground%panel = panel
-    ground%from = from
-    ground%to = to
-    ground%rooted = rooted
-    ground%returning = panel > normal%n_compression
-    ground%place = from + (to - from)*point
-    slope = to - from
-    if (rooted) then
-      ground%place = to - (to - from)*(1 - point)**2
-      slope = 2*(to - from)*(1 - point)
+    real(dp) :: slope(0:stages), width
+    width = ground%to - ground%from
+    ground%returning = ground%panel > normal%n_compression
+    ground%place = ground%from + width*point
+    slope = width
+    if (ground%rooted) then
+      ground%place = ground%to - width*(1 - point)**2
+      slope = 2*width*(1 - point)
     end if
-    associate (on => normal%panel(panel))
+    associate (on => normal%panel(ground%panel))
       ground%angle = on%from + ground%place*(on%to - on%from)
-      if (.not. (from > 0 .or. to < 1 .or. rooted)) then
+      if (.not. (ground%from > 0 .or. ground%to < 1 .or. ground%rooted)) then
         call take_panel(normal, store, ground)
         fails = .false.
       else

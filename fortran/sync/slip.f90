@@ -52,7 +52,11 @@ contains
     to = 1
     found = sticks_again
     do
-      call solve_piece(normal, contact, store, panel, [x, to], .false., side, .false., ground, s, fails)
+      ground%panel = panel
+      ground%from = x
+      ground%to = to
+      ground%rooted = .false.
+      call solve_piece(normal, contact, store, side, .false., ground, s, fails)
       event = nothing
       if (.not. fails) call next_event(contact, ground, side, s, event, place)
       if (event == slip_begins) then
@@ -60,7 +64,7 @@ contains
         if (.not. fails) call cut(normal, place, store, ground, s)
       else if (event /= nothing) then
         to = x + place*(to - x)
-        call end_at(normal, contact, store, [x, to], side, event, ground, s, fails)
+        call end_at(normal, contact, store, to, side, event, ground, s, fails)
       end if
       if (.not. fails) then
         if (.not. s%returns .and. last_coefficient(s%w) <= contact%roughness) exit
@@ -72,19 +76,19 @@ contains
     found = solved
   end subroutine take_piece
 
-  subroutine solve_piece(normal, contact, store, panel, range, rooted, side, warm, ground, s, fails)
+  !> The piece of which `ground` has the range.
+  subroutine solve_piece(normal, contact, store, side, warm, ground, s, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
-    integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: range(2), side
-    logical, intent(in) :: rooted, warm
-    type(ground_type), intent(out) :: ground
+    real(dp), intent(in) :: side
+    logical, intent(in) :: warm  !! s%w and s%front are a guess
+    type(ground_type), intent(inout) :: ground
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     real(dp) :: held(stages)
     integer(ip) :: i
-    call lay_ground(normal, panel, range(1), range(2), rooted, store, ground, fails)
+    call lay_ground(normal, store, ground, fails)
     if (fails) return
     if (abs(side) > 0) then
       call slip_behind(normal, contact, store, ground, side, warm, s, fails)
@@ -111,7 +115,7 @@ contains
     type(store_type), intent(inout) :: store
     type(ground_type), intent(in) :: ground
     real(dp), intent(in) :: side
-    logical, intent(in) :: warm  !! s%w and s%front are a guess
+    logical, intent(in) :: warm
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     type(element_type) :: edge(0:stages)
@@ -310,39 +314,39 @@ contains
     if (y(j - 1) < 0) place = root_between(j, y)
   end function first_rise
 
-  !> The piece that ends as slip does: its end is moved by secants until what is zero at the event is.
-  subroutine end_at(normal, contact, store, range, side, event, ground, s, fails)
+  !> The piece that ends where stick or slip does, about at x = guess: its end is moved by secants until what is zero there is.
+  subroutine end_at(normal, contact, store, guess, side, event, ground, s, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
-    real(dp), intent(in) :: range(2), side
+    real(dp), intent(in) :: guess, side
     integer(ip), intent(in) :: event
     type(ground_type), intent(inout) :: ground
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: fails
     real(dp) :: to, miss, to_before, miss_before, slope
-    integer(ip) :: n, panel
-    panel = ground%panel
-    to = range(2)
+    integer(ip) :: n
+    to = guess
     to_before = 0
     miss_before = 0
     do n = 1, most_secants
       fails = .false.
-      if (to - range(1) <= empty) then
-        ground%to = range(1)
+      if (to - ground%from <= empty) then
+        ground%to = ground%from
         s%w = s%w(0)
         s%returns = .false.
         return
       end if
       call shorten(ground, to, event == stick_ends, s)
-      call solve_piece(normal, contact, store, panel, [range(1), to], event == stick_ends, side, .true., ground, s, fails)
+      ground%to = to
+      ground%rooted = event == stick_ends
+      call solve_piece(normal, contact, store, side, .true., ground, s, fails)
       if (fails) return
       miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
       if (abs(miss) <= merge(at_edge*contact%roughness, contact%closeness, event == slip_leaves)*contact%stress) return
       if (n == 1) then
         slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
-        slope = slope/merge((to - range(1))*(1 - point(stages - 1))**2, (to - range(1))*(1 - point(stages - 1)), &
-                            event == stick_ends)
+        slope = slope/(to - ground%place(stages - 1))
       else
         slope = (miss - miss_before)/(to - to_before)
       end if
@@ -350,7 +354,7 @@ contains
       miss_before = miss
       fails = .not. abs(slope) > 0
       if (fails) return
-      to = max(range(1), to - miss/slope)
+      to = max(ground%from, to - miss/slope)
       if (to > 1) to = 0.5_dp*(1 + to_before)
     end do
     fails = .true.
