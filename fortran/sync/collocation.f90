@@ -7,7 +7,7 @@ module rst_collocation
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: stages, point, integral, differential, weights_at, products_at, last_coefficient, integrated, start_of, root_between
+  public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
   public :: shifted_inverse
   public :: applied, composed, factors_type, factorize, solution_of, has_converged, keeps_matrix
 
@@ -62,17 +62,9 @@ module rst_collocation
 
 contains
 
-  !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other points. At a point that is
-  !> the value there, to the last bit, by a division by their sum, which is 1 but for rounding.
+  !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other points. At a point it is the
+  !> value there to the last bit: weights are scaled to the sum 1, which they have but for rounding.
   pure function weights_at(x) result(weight)
-    real(dp), intent(in) :: x
-    real(dp) :: weight(0:stages)
-    weight = products_at(x)
-    weight = weight*(2 - (((weight(0) + weight(1)) + (weight(2) + weight(3))) + ((weight(4) + weight(5)) + weight(6))))
-  end function weights_at
-
-  !> The same but for rounding, where that time counts.
-  pure function products_at(x) result(weight)
     real(dp), intent(in) :: x
     real(dp) :: weight(0:stages), a(0:stages), first, middle, last
     a = x - point
@@ -81,7 +73,8 @@ contains
     last = a(5)*a(6)
     weight = barycentric*[a(1)*(middle*last), a(0)*(middle*last), a(3)*a(4)*(first*last), a(2)*a(4)*(first*last), &
                           a(2)*a(3)*(first*last), a(6)*(first*middle), a(5)*(first*middle)]
-  end function products_at
+    weight = weight*(2 - (((weight(0) + weight(1)) + (weight(2) + weight(3))) + ((weight(4) + weight(5)) + weight(6))))
+  end function weights_at
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
   pure function last_coefficient(y) result(c)

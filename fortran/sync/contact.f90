@@ -54,7 +54,8 @@ contains
       end if
       x = ground%to
       if (event == slip_begins) side = sign(1.0_dp, velocity)
-      if (event == slip_begins .and. store%n_records == 0) event = stick_ends ! nothing has stuck
+      if (event == slip_begins .and. (store%n_records == 0 .or. sum(store%now_z(stages, :) - side*store%now_x(0, :)) &
+                                      < weightless*contact%stress)) event = stick_ends ! nothing has stuck, or but in rounding
       if (event == stick_ends) exit
       if (event == slip_leaves) side = -side
       if (x >= 1) then
@@ -237,7 +238,9 @@ contains
     ground%from = from
     ground%to = 1
     ground%rooted = .false.
+    lasts = .false.
     call lay_ground(normal, store, ground, fails)
+    if (fails) return
     s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
     s%force = side*ground%force
     s%stick = 0
@@ -245,7 +248,6 @@ contains
     do k = 1, normal%n_arms
       kept = kept + store%kernel(:, 0, k)*store%now_l(0, k)
     end do
-    lasts = .false.
     call factorize(ground%answer, factors, fails)
     if (fails) return
     velocity = solution_of(factors, -kept)

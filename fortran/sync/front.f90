@@ -8,7 +8,7 @@
 !> It is zero at c, and the slack force is H = int_0^c y dX = sum_k E_k p_k(t_c), p_k = P_k - d P_k^x.
 module rst_front
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, products_at
+  use rst_collocation, only: stages, weights_at
   use rst_panel, only: normal_type
   use rst_contact_views, only: store_type, of_edge, of_arm
   implicit none (type, external)
@@ -126,7 +126,7 @@ contains
       if (theta >= store%record(middle)%from) record = middle
     end do
     associate (r => store%record(record))
-      weight = products_at((theta - r%from)/(r%end - r%from))
+      weight = weights_at((theta - r%from)/(r%end - r%from))
     end associate
   end subroutine find_record
 

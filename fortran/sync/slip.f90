@@ -24,7 +24,6 @@ module rst_slip
   real(dp), parameter :: at_edge = 0.1_dp
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
   real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
-  real(dp), parameter :: roughly = 0.1_dp       !! `near` of slack_type for the first of Newton's steps that has no guess
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
 
   !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in
@@ -133,7 +132,7 @@ contains
       call advance_memory(normal, ground, s%w(1:), store)
       do i = 1, stages
         if (n == 1 .and. .not. warm) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, merge(roughly, near, n == 1 .and. .not. warm), edge(i), i, s)
+        call slacken(normal, store, ground, side, near, edge(i), i, s)
       end do
       do j = 1, stages
         matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
@@ -146,7 +145,7 @@ contains
       change = maxval(abs(step))
       fails = .not. change < 1.0e3_dp
       if (fails) return
-      if (has_converged(change, previous, contact%closeness) .and. (n > 1 .or. warm)) exit
+      if (has_converged(change, previous, contact%closeness)) exit
       previous = change
     end do
     fails = n > most_iterations
@@ -228,10 +227,14 @@ contains
     place = 1
     if (contact%no_slip /= 0) return
     do i = 1, stages
-      if (s%centre(i) < merge(0.0_dp, -contact%roughness, abs(side) > 0)) then
-        event = merge(stick_ends, slip_begins, abs(side) > 0)
-        if (event == stick_ends) place = first_rise(i, -s%centre)
-        if (event == slip_begins) place = first_rise(i, sign(1.0_dp, s%w(i))*s%w - ground%velocity)
+      if (.not. abs(side) > 0 .and. s%centre(i) < -contact%roughness) then
+        event = slip_begins ! the branch of |U'| at this point: where U' changes its sign, |U'| is no polynomial
+        place = first_rise(i, sign(1.0_dp, s%w(i))*s%w - ground%velocity)
+        return
+      end if
+      if (abs(side) > 0 .and. s%centre(i) < 0) then
+        event = stick_ends
+        place = first_rise(i, -s%centre)
         return
       end if
       if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
@@ -242,21 +245,23 @@ contains
     end do
   end subroutine next_event
 
-  !> A piece in stick without what is beyond a place on it: its polynomials stay what they are.
+  !> Keep a piece in stick up to a place on it, 0 to 1: the same polynomials at new points. Not kept up are force, span and answer
+  !> of the ground, and centre, edge and front.
   subroutine cut(normal, place, store, ground, s)
     type(normal_type), intent(in) :: normal
     real(dp), intent(in) :: place
     type(store_type), intent(inout) :: store
     type(ground_type), intent(inout) :: ground
     type(solution_type), intent(inout) :: s
-    real(dp) :: weight(0:stages, 0:stages)
+    real(dp) :: weight(0:stages, 0:stages), up_to
     integer(ip) :: i, k
+    up_to = merge(place, 0.0_dp, place*(ground%to - ground%from) > empty)
     do i = 0, stages
-      weight(:, i) = weights_at(place*point(i))
+      weight(:, i) = weights_at(up_to*point(i))
     end do
-    ground%to = ground%from + place*(ground%to - ground%from)
-    ground%place = restricted(weight, ground%place)
-    ground%angle = restricted(weight, ground%angle)
+    ground%to = ground%from + up_to*(ground%to - ground%from)
+    ground%angle = ground%angle(0) + up_to*(ground%angle - ground%angle(0))
+    ground%place = ground%place(0) + up_to*(ground%place - ground%place(0))
     ground%radius = restricted(weight, ground%radius)
     ground%time = restricted(weight, ground%time)
     ground%velocity = restricted(weight, ground%velocity)

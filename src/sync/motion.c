@@ -235,7 +235,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
     const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->psi,
-                                         .roughness = roughness * scale / swings,
+                                         .roughness = fmax(rst_least_roughness, roughness * scale / swings),
                                          .noise = rst_noise * rst_roughness(halvings),
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),

@@ -54,6 +54,9 @@ static const double rst_acceptance = 0.9;
 /* Velocities are known to that in a run, by rounding, and slower rebounds are lost in it. */
 static const double rst_rounding = 1e-13, rst_slowest = 1e-10;
 
+/* What pieces of U' may miss at least: D' is known to that, as it is about 1. Finer ones would follow rounding. */
+static const double rst_least_roughness = 1e-15;
+
 /* e_x differs from that without slip by at most this times psi. */
 static const double rst_change_by_slip = 2;
 
