@@ -26,6 +26,7 @@ contains
     fails = .not. all(abs(kernel(:, 0)) <= huge(1.0_dp))
   end subroutine respond
 
+  !> All arms.
   subroutine respond_all(rate, span, kernel, fails)
     real(dp), intent(in) :: span(stages)
     real(dp), pointer, contiguous, intent(in) :: rate(:), kernel(:, :, :)

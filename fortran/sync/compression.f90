@@ -57,7 +57,7 @@ contains
     slope%wanted = .true.
     do i = 1, most_iterations
       call follow(r, h, start, force, m)
-      call load(normal%eta, normal%g, normal%rate, [r, h], m, loading, kernel, slope, fails)
+      call load(normal%eta, normal%g, normal%rate, r, h, m, loading, kernel, slope, fails)
       if (.not. fails .and. slope%wanted) call prepare(r, h, m, slope, fails)
       if (fails) return
       step = max(solution_of(slope%factors, m%force - force), -0.9_dp*force)
@@ -74,7 +74,7 @@ contains
     if (fails) return
     slope%wanted = .false.
     call follow(r, h, start, force, m)
-    call load(normal%eta, normal%g, normal%rate, [r, h], m, loading, kernel, slope, fails)
+    call load(normal%eta, normal%g, normal%rate, r, h, m, loading, kernel, slope, fails)
     if (.not. fails) call note(normal, r, h, m, n, fails)
   end subroutine compress
 
@@ -89,16 +89,16 @@ contains
   end subroutine follow
 
   !> The force of that motion.
-  pure subroutine load(eta, g, rate, scale, m, loading, kernel, slope, fails)
-    real(dp), intent(in) :: eta, g(:), rate(:), scale(2)  !! scale: r, h
+  pure subroutine load(eta, g, rate, r, h, m, loading, kernel, slope, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), r, h
     type(motion_type), intent(inout) :: m
     real(dp), intent(inout) :: loading(0:stages, size(g)), kernel(stages, 0:stages, size(g))
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
     real(dp) :: span(stages), sweep(stages), to_span(stages)
     integer(ip) :: j, k
-    span = scale(2)*pace_of(scale(1), m)
-    sweep = scale(1)*m%rho**2*m%sine*m%cosine ! A D'
+    span = h*pace_of(r, m)
+    sweep = r*m%rho**2*m%sine*m%cosine ! A D'
     m%force = eta*sweep
     if (slope%wanted) slope%by_sweep = 0
     if (slope%wanted) slope%by_span = 0

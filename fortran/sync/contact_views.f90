@@ -41,8 +41,8 @@ module rst_contact_views
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
     real(dp), pointer, contiguous :: held(:, :, :, :)                    !! (of_arm, 0:stages, arms, records): m_k, p_k for d = 1, for d = -1
-    real(dp), pointer, contiguous, dimension(:, :, :) :: kernel, room    !! (stages, 0:stages, arms): of the piece, as in
-                                                                         !! normal_type or in the room
+    !> (stages, 0:stages, arms). kernel: of the piece, either its panel's in normal_type or the room
+    real(dp), pointer, contiguous, dimension(:, :, :) :: kernel, room
     real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
   end type store_type
 end module rst_contact_views

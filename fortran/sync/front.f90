@@ -30,7 +30,7 @@ module rst_front
 
   integer(ip), parameter :: most_iterations = 60
   real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  real(dp), parameter :: faded = 50 !! exp(-faded) is nothing, and exp is slow where it underflows
+  real(dp), parameter :: faded = 50 !! exp(-faded) is below rounding; beyond 708 it underflows, which is slow
 
 contains
 

@@ -15,8 +15,8 @@ module rst_panel
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> The normal motion of a solid, views of the caller's arrays: eta and arms; the scale r of the radius in theta, when iterations
-  !> end, the speed that a sphere that has stopped will not exceed; panels, their number in the compression and in all.
+  !> The normal motion of a solid, views of the caller's arrays. radius: the scale r of A in theta; closeness: when iterations end;
+  !> left: the speed that a sphere that has stopped will not exceed.
   type :: normal_type
     real(dp) :: eta, radius, closeness, left
     integer(ip) :: n_arms, n_compression, n_panels

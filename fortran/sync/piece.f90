@@ -37,7 +37,9 @@ contains
     type(ground_type), intent(inout) :: ground
     logical, intent(out) :: fails
     real(dp) :: slope(0:stages), width
+    logical :: is_whole
     width = ground%to - ground%from
+    is_whole = .not. (ground%rooted .or. ground%from > 0 .or. ground%to < 1)
     ground%returning = ground%panel > normal%n_compression
     ground%place = ground%from + width*point
     slope = width
@@ -47,7 +49,7 @@ contains
     end if
     associate (on => normal%panel(ground%panel))
       ground%angle = on%from + ground%place*(on%to - on%from)
-      if (.not. (ground%from > 0 .or. ground%to < 1 .or. ground%rooted)) then
+      if (is_whole) then
         call take_panel(normal, store, ground)
         fails = .false.
       else
@@ -59,7 +61,7 @@ contains
     if (.not. fails) call answer_of(normal%eta, normal%g, ground%span, store%kernel, ground%answer)
   end subroutine lay_ground
 
-  !> What is known on the whole panel.
+  !> What is known on the whole panel: the motion, M_k in store%now_z, and the arms' kernels.
   subroutine take_panel(normal, store, ground)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(inout) :: store
@@ -76,7 +78,7 @@ contains
     store%kernel(1:, 0:, 1:) => normal%kernel(:, :, :, ground%panel)
   end subroutine take_panel
 
-  !> What its polynomials say at ground%place.
+  !> What its polynomials say of the motion and of M_k at ground%place. Kernels are to be found.
   subroutine take_part(normal, store, ground)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(inout) :: store

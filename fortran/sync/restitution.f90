@@ -17,8 +17,10 @@ module rst_restitution_panel
 
   integer(ip), parameter :: most_iterations = 25
 
-  !> At the points: time of entry of the edge, its radius, D', pace, the sums above over k, and of rate_k times their terms.
+  !> The time at the start of the panel. At the points: time of entry of the edge, its radius, D', pace, the sums above over k, and
+  !> of rate_k times their terms.
   type :: motion_type
+    real(dp) :: start
     real(dp), dimension(stages) :: entered, radius, v, pace, open, force, kept_rate, force_rate
   end type motion_type
 
@@ -54,7 +56,7 @@ contains
       previous = 1
       slope%wanted = .true.
       do i = 1, most_iterations
-        call balance(normal%eta, normal%g, normal%rate, [h, panel%time(0)], memory, kernel, entry, m, slope, fails)
+        call balance(normal%eta, normal%g, normal%rate, h, memory, kernel, entry, m, slope, fails)
         if (.not. fails .and. slope%wanted) call prepare(normal%eta, h, m, slope, fails)
         if (fails) return
         call newton(h, panel%velocity(0), m, slope, step_v, step_pace)
@@ -72,7 +74,7 @@ contains
       fails = i > most_iterations
       if (fails) return
       slope%wanted = .false.
-      call balance(normal%eta, normal%g, normal%rate, [h, panel%time(0)], memory, kernel, entry, m, slope, fails)
+      call balance(normal%eta, normal%g, normal%rate, h, memory, kernel, entry, m, slope, fails)
       if (fails) return
       call note(n == normal%n_compression + 1, h, m, panel)
       fails = .not. all(abs(panel%time) < huge(1.0_dp))
@@ -86,6 +88,7 @@ contains
     type(motion_type), intent(out) :: m
     real(dp) :: weight(0:stages)
     integer(ip) :: i, k, p
+    m%start = new%time(0)
     do i = 1, stages
       call find_angle(new%from + point(i)*(new%to - new%from), normal%n_compression, normal%panel, p, weight)
       m%entered(i) = sum(weight*normal%panel(p)%time)
@@ -98,17 +101,17 @@ contains
   end subroutine recall
 
   !> The sums at the points for D' and the pace, with memory and, if wanted, how the sum that is zero answers to both.
-  pure subroutine balance(eta, g, rate, span, memory, kernel, entry, m, slope, fails)
-    real(dp), intent(in) :: eta, g(:), rate(:), span(2)  !! span: h, and the time at the start
+  pure subroutine balance(eta, g, rate, h, memory, kernel, entry, m, slope, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), h
     real(dp), intent(inout) :: memory(0:stages, size(g)), kernel(stages, 0:stages, size(g))
     real(dp), intent(in) :: entry(stages, size(g), 2)
     type(motion_type), intent(inout) :: m
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
-    real(dp) :: left(stages), passes(stages), since(stages)
+    real(dp) :: left(stages), span(stages), since(stages)
     integer(ip) :: k
-    passes = span(1)*m%pace
-    since = integrated(span(2), passes) - m%entered
+    span = h*m%pace
+    since = integrated(m%start, span) - m%entered
     m%open = eta*m%v
     m%force = 0
     m%kept_rate = 0
@@ -117,9 +120,9 @@ contains
     if (slope%wanted) slope%by_pace = 0
     fails = .false.
     do k = 1, size(g, kind=ip)
-      call respond(rate(k), passes, kernel(:, :, k), fails)
+      call respond(rate(k), span, kernel(:, :, k), fails)
       if (fails) return
-      memory(1:, k) = kernel(:, 0, k)*memory(0, k) + applied(kernel(:, 1:, k), g(k)*passes*m%v)
+      memory(1:, k) = kernel(:, 0, k)*memory(0, k) + applied(kernel(:, 1:, k), g(k)*span*m%v)
       left = 1
       if (rate(k) > 0) left = exp(-rate(k)*since)
       m%open = m%open + (memory(1:, k) - left*entry(:, k, 1))
@@ -127,7 +130,7 @@ contains
       m%kept_rate = m%kept_rate + rate(k)*left*entry(:, k, 1)
       m%force_rate = m%force_rate + rate(k)*left*entry(:, k, 2)
       if (slope%wanted) &
-        call add_answer(kernel(:, 1:, k), g(k)*passes, span(1)*(g(k)*m%v - rate(k)*memory(1:, k)), slope)
+        call add_answer(kernel(:, 1:, k), g(k)*span, h*(g(k)*m%v - rate(k)*memory(1:, k)), slope)
     end do
   end subroutine balance
 
