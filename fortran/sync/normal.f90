@@ -42,7 +42,8 @@ contains
     type(normal_control_type), intent(in) :: control
     type(normal_type), intent(inout) :: normal
     integer(ip), intent(out) :: found
-    type(panel_type), pointer, contiguous :: coarse(:)
+    type(panel_type), pointer, contiguous :: panel(:), coarse(:)
+    panel => normal%panel
     nullify (coarse)
     if (control%n_coarse > 0) call c_f_pointer(control%coarse, coarse, [control%n_coarse])
     normal%n_panels = 0
@@ -66,13 +67,13 @@ contains
         n = normal%n_panels + 1
         found = lacks_room
         if (n > control%capacity) return
-        if (back) width = min(width, width_at(whole - place, normal%n_compression, normal%panel))
+        if (back) width = min(width, width_at(whole - place, normal%n_compression, panel))
         call halve_coarser(back, place, beside, width)
         call begin(normal, n)
-        normal%panel(n)%from = merge(whole - place, place, back)*unit
-        normal%panel(n)%to = merge(whole - place - width, place + width, back)*unit
+        panel(n)%from = merge(whole - place, place, back)*unit
+        panel(n)%to = merge(whole - place - width, place + width, back)*unit
         call solve_panel(back, n, fails)
-        if (.not. fails) fails = missed(normal%radius, normal%panel(n), back) > control%roughness
+        if (.not. fails) fails = missed(normal%radius, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
           if (width > 0) cycle
@@ -104,7 +105,7 @@ contains
         call solve_from(coarse(first:last), back, n, fails)
       else
         first = merge(n, n - 1, n == merge(normal%n_compression, 0_ip, back) + 1)
-        call solve_from(normal%panel(first:n - 1), back, n, fails)
+        call solve_from(panel(first:n - 1), back, n, fails)
       end if
     end subroutine solve_panel
 
@@ -116,7 +117,7 @@ contains
       if (back) then
         call rebound(normal, known, fails)
       else
-        call guess_compression(normal, known, normal%panel(n))
+        call guess_compression(normal, known, panel(n))
         call compress(normal, n, fails)
       end if
     end subroutine solve_from

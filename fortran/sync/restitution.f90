@@ -86,13 +86,15 @@ contains
     type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: new
     type(motion_type), intent(out) :: m
+    type(panel_type), pointer, contiguous :: panel(:)
     real(dp) :: weight(0:stages)
     integer(ip) :: i, k, p
+    panel => normal%panel
     m%start = new%time(0)
     do i = 1, stages
-      call find_angle(new%from + point(i)*(new%to - new%from), normal%n_compression, normal%panel, p, weight)
-      m%entered(i) = sum(weight*normal%panel(p)%time)
-      m%radius(i) = sum(weight*normal%panel(p)%radius)
+      call find_angle(new%from + point(i)*(new%to - new%from), normal%n_compression, panel, p, weight)
+      m%entered(i) = sum(weight*panel(p)%time)
+      m%radius(i) = sum(weight*panel(p)%radius)
       do k = 1, normal%n_arms
         normal%entry(i, k, 1) = sum(weight*normal%memory(:, k, p))
         normal%entry(i, k, 2) = sum(weight*normal%loading(:, k, p))

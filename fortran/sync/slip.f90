@@ -253,7 +253,7 @@ contains
     type(store_type), intent(inout) :: store
     type(ground_type), intent(inout) :: ground
     type(solution_type), intent(inout) :: s
-    real(dp) :: weight(0:stages, 0:stages), up_to
+    real(dp) :: weight(0:stages, 0:stages), now(0:stages), up_to
     integer(ip) :: i, k
     up_to = merge(place, 0.0_dp, place*(ground%to - ground%from) > empty)
     do i = 0, stages
@@ -270,9 +270,12 @@ contains
     s%force = restricted(weight, s%force)
     s%stick = ground%radius
     do k = 1, normal%n_arms
-      store%now_z(:, k) = restricted(weight, store%now_z(:, k))
-      store%now_x(:, k) = restricted(weight, store%now_x(:, k))
-      store%now_l(:, k) = restricted(weight, store%now_l(:, k))
+      now = store%now_z(:, k) ! compilers would copy components of derived types
+      store%now_z(:, k) = restricted(weight, now)
+      now = store%now_x(:, k)
+      store%now_x(:, k) = restricted(weight, now)
+      now = store%now_l(:, k)
+      store%now_l(:, k) = restricted(weight, now)
     end do
   end subroutine cut
 
