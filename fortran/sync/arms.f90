@@ -32,6 +32,7 @@ contains
     real(dp), pointer, contiguous, intent(in) :: rate(:), kernel(:, :, :)
     logical, intent(out) :: fails
     integer(ip) :: k
+    fails = .false.
     do k = 1, size(rate, kind=ip)
       call respond(rate(k), span, kernel(:, :, k), fails)
       if (fails) return
