@@ -7,7 +7,8 @@
 !> The sums over elements and over time lean on the normal problem, whose force N and impulse are known: each is
 !> the share of friction that is used, by the trapezoidal rule, times the known one. So full slip is exact.
 !>
-!> To call follow_elements: fill walk, level(0:end) and, with walk%prescribed, shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
+!> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with walk%prescribed,
+!> shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
 !> contain. Results: shear(0:end) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
 module rst_sync_walk
   use rst_precision, only: dp, ip
@@ -43,10 +44,11 @@ module rst_sync_walk
 
 contains
 
-  pure subroutine follow_elements(walk, g, tau, level, shear, term, body, stress, ledger)
+  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
+    real(dp), intent(in) :: memory(walk%n_terms, 0:2*walk%n)  !! M_k at the levels
     type(walk_shear_type), intent(inout) :: shear(0:2*walk%n)
     type(walk_term_type), intent(out) :: term(0:walk%n_terms)
     real(dp), intent(out) :: body(0:walk%capacity - 1, columns)
@@ -57,15 +59,17 @@ contains
     integer(ip) :: l
     body = 0
     stress = 0
-    term%normal = 0
     do l = 0, min(walk%start, walk%end)  ! gross slip
       shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force)
     end do
     do l = 0, walk%end - 1
       call measure_step(walk, g, tau, l, level(l + 1)%step, term, step)
+      term(0)%normal = walk%g_inf*level(l)%depth
+      term(1:)%normal = memory(:, l)
       if (l < walk%n) &
         call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress, account)
-      call advance_normal(walk, level(l:l + 1), term)
+      term(0)%normal = walk%g_inf*level(l + 1)%depth
+      term(1:)%normal = memory(:, l + 1)
       call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
       call step_normal(walk, l, level, step, body, account)
       if (l >= walk%start) &
@@ -74,16 +78,6 @@ contains
     end do
     call close_accounts(walk, level(min(walk%start, walk%end))%velocity, account, ledger)
   end subroutine follow_elements
-
-  !> M_k at the end of the step, by the same D' as elements, linear in time: polynomials of M_k in time miss arms that are much faster
-  !> than a panel where it starts from 0.
-  pure subroutine advance_normal(walk, level, term)
-    type(walk_type), intent(in) :: walk
-    type(walk_level_type), intent(in) :: level(0:1)
-    type(walk_term_type), intent(inout) :: term(0:walk%n_terms)
-    term%normal = term%decay*term%normal + term%from_start*level(0)%velocity + term%from_end*level(1)%velocity
-    term(0)%normal = walk%g_inf*level(1)%depth
-  end subroutine advance_normal
 
   !> Element j is touched. It moves with the contact point unless that is faster than the sphere: then it slips at
   !> once. Arms that relax within the step are dashpots to it.

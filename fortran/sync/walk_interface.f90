@@ -9,16 +9,17 @@ module rst_sync_walk_interface
 
 contains
 
-  pure subroutine rst_follow_elements(walk, g, tau, level, shear, term, body, stress, ledger) &
+  pure subroutine rst_follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger) &
     bind(c, name="rst_follow_elements")
     type(walk_type), intent(in) :: walk
     real(c_double), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
+    real(c_double), intent(in) :: memory(walk%n_terms, 0:2*walk%n)
     type(walk_shear_type), intent(inout) :: shear(0:2*walk%n)
     type(walk_term_type), intent(out) :: term(0:walk%n_terms)
     real(c_double), intent(out) :: body(0:walk%capacity - 1, columns)
     real(c_double), intent(out) :: stress(0:walk%capacity - 1, 0:walk%n_terms, 2)
     type(ledger_type), intent(out) :: ledger
-    call follow_elements(walk, g, tau, level, shear, term, body, stress, ledger)
+    call follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
   end subroutine rst_follow_elements
 end module rst_sync_walk_interface

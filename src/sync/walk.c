@@ -15,7 +15,7 @@ struct ladder {
 
 /* What the walk works on. */
 struct room {
-    double *mark, *time, *body, *stress;
+    double *mark, *time, *memory, *body, *stress;
     struct walk_level *level;
     struct walk_shear *shear;
     struct walk_term *term;
@@ -28,7 +28,7 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     const size_t capacity = (n + walk_lanes) / walk_lanes * walk_lanes;
     const size_t of_level = sizeof(struct walk_level) / sizeof(double), of_shear = sizeof(struct walk_shear) / sizeof(double);
     const size_t of_term = sizeof(struct walk_term) / sizeof(double);
-    const size_t count = marks + levels * (1 + of_level + of_shear) + (terms + 1) * of_term +
+    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + (terms + 1) * of_term +
                          capacity * (walk_columns + 2 * (terms + 1));
     if (count > motion->walk_size) {
         double *larger = malloc(count * sizeof(double));
@@ -42,7 +42,8 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     r->time = r->mark + marks;
     r->level = (struct walk_level *)(r->time + levels);
     r->shear = (struct walk_shear *)((double *)r->level + levels * of_level);
-    r->term = (struct walk_term *)((double *)r->shear + levels * of_shear);
+    r->memory = (double *)r->shear + levels * of_shear;
+    r->term = (struct walk_term *)(r->memory + levels * terms);
     r->body = (double *)r->term + (terms + 1) * of_term;
     r->stress = r->body + capacity * walk_columns;
     return 0;
@@ -89,9 +90,12 @@ static double value(const double *weight, const double *y)
     return sum;
 }
 
-/* The level at an angle on a panel, without its step. */
-static void set_level(const struct sync_panel *panel, double angle, struct walk_level *level, double *time)
+/* The level at an angle on a panel, without its step. The first arms may be a spring, which the walk has apart. */
+static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, struct walk_level *level,
+                      double *time, double *memory)
 {
+    const struct sync_panel *panel = &normal->panel[p];
+    const size_t first = (size_t)normal->n_arms - terms;
     double weight[rst_points];
     rst_sync_weights_at((angle - panel->from) / (panel->to - panel->from), weight);
     level->radius = value(weight, panel->radius);
@@ -99,9 +103,15 @@ static void set_level(const struct sync_panel *panel, double angle, struct walk_
     level->velocity = value(weight, panel->velocity);
     level->force = value(weight, panel->force);
     *time = value(weight, panel->time);
+    for (size_t k = 0; k < terms; k++)
+        memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
+    /* where M_k starts from 0 an arm much faster than the panel is at g tau D' at once */
+    for (size_t k = 0; k < terms && p == 0; k++)
+        if (normal->rate[first + k] * panel->time[1] > 30) memory[k] += weight[0] * normal->g[first + k] / normal->rate[first + k];
 }
 
-static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, struct room *r)
+static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, size_t terms,
+                       struct room *r)
 {
     const int64_t n = ladder->n_marks * ladder->parts;
     int64_t p = 0;
@@ -110,7 +120,7 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
         while (p < normal->n_panels - 1 &&
                (p < normal->n_compression ? angle > normal->panel[p].to || l > n : angle < normal->panel[p].to))
             p++;
-        set_level(&normal->panel[p], angle, &r->level[l], &r->time[l]);
+        set_level(normal, p, angle, terms, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
         if (l > n) r->level[l].radius = r->level[2 * n - l].radius;
         r->level[l].step = l > 0 ? r->time[l] - r->time[l - 1] : 0;
     }
@@ -127,7 +137,7 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
     struct ladder ladder = {.parts = parts, .mark = r.mark};
     set_marks(normal, problem, sliding, &ladder);
     const int64_t n = ladder.n_marks * parts, end = normal->n_panels > normal->n_compression ? 2 * n : n;
-    set_levels(normal, &ladder, end, &r);
+    set_levels(normal, &ladder, end, terms, &r);
     const struct walk w = {.n = n,
                            .n_terms = s->n_terms,
                            .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
@@ -138,7 +148,7 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
                            .psi = problem->psi,
                            .g_inf = s->g_inf,
                            .eta = s->eta};
-    rst_follow_elements(&w, s->g, s->tau, r.level, r.shear, r.term, r.body, r.stress, &walk->ledger);
+    rst_follow_elements(&w, s->g, s->tau, r.level, r.memory, r.shear, r.term, r.body, r.stress, &walk->ledger);
     walk->n = n;
     walk->velocity = r.shear[end].velocity;
     walk->time = r.time;

@@ -28,10 +28,10 @@ struct walk_term {
 
 enum { walk_columns = 6, walk_lanes = 8 };
 
-/* Sizes: level and shear 2 n + 1, term n_terms + 1, body capacity walk_columns,
+/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity walk_columns,
  * stress 2 capacity (n_terms + 1). */
 void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
-                         struct walk_shear *shear, struct walk_term *term, double *body, double *stress,
-                         struct euler_ledger *ledger);
+                         const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,
+                         double *stress, struct euler_ledger *ledger);
 
 #endif

@@ -21,10 +21,12 @@ struct solid {
     double g[most_terms], tau[most_terms];
 };
 
+/* memory: n_terms values a level. */
 struct motion {
     int n;
     double a_max;
     struct walk_level level[2 * most_nodes + 1];
+    double memory[(2 * most_nodes + 1) * most_terms];
 };
 
 /* Where the compression was: time and M_k when the edge was at an angle of the fine grid. */
@@ -141,6 +143,7 @@ static inline void note_level(const struct solid *s, struct motion *m, int l, do
 {
     double force = l == 2 * m->n ? 0 : normal_force(s, a, y);
     m->level[l] = (struct walk_level){step, a, y[1], y[2], force};
+    memcpy(m->memory + l * s->n, y + 3 + s->n, (size_t)s->n * sizeof *y);
 }
 
 /* The angles from pi/2 at first touch to 0: node n1 is at phi1, and nodes are even on both sides of it. */
