@@ -105,9 +105,11 @@ static void set_level(const struct sync_normal *normal, int64_t p, double angle,
     *time = value(weight, panel->time);
     for (size_t k = 0; k < terms; k++)
         memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
-    /* where M_k starts from 0 an arm much faster than the panel is at g tau D' at once */
+    /* Where M_k starts from 0 an arm much faster than the panel is at g tau D' at once: what it lacks at the first point is
+     * exp(-30), rounding. Slower arms keep their polynomial, which is better where slip is a thin ring. */
     for (size_t k = 0; k < terms && p == 0; k++)
-        if (normal->rate[first + k] * panel->time[1] > 30) memory[k] += weight[0] * normal->g[first + k] / normal->rate[first + k];
+        if (normal->rate[first + k] * panel->time[1] > 30)
+            memory[k] += weight[0] * normal->g[first + k] / normal->rate[first + k];
 }
 
 static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, size_t terms,
