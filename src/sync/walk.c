@@ -90,6 +90,19 @@ static double value(const double *weight, const double *y)
     return sum;
 }
 
+/* What the polynomial of M_k lacks on the first panel. There M_k starts from 0, and a fast arm is soon at g tau D'. So M_k is
+ * smooth but for -g tau exp(-s/tau), of which the polynomial has what collocation makes of it: kernel(:, 0) of rst_arms, which
+ * is as good as exp for arms that are slow on the panel. */
+static double first_layer(const struct sync_normal *normal, size_t k, const double *weight, double time)
+{
+    const struct sync_panel *panel = &normal->panel[0];
+    const double tau = 1 / normal->rate[k], *fade = normal->kernel + rst_stages * rst_points * k;
+    double collocated = weight[0];
+    for (int i = 0; i < rst_stages; i++)
+        collocated += weight[i + 1] * fade[i];
+    return normal->g[k] * fmin(tau, panel->time[rst_stages]) * (collocated - exp(-time / tau));
+}
+
 /* The level at an angle on a panel, without its step. The first arms may be a spring, which the walk has apart. */
 static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, struct walk_level *level,
                       double *time, double *memory)
@@ -105,11 +118,8 @@ static void set_level(const struct sync_normal *normal, int64_t p, double angle,
     *time = value(weight, panel->time);
     for (size_t k = 0; k < terms; k++)
         memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
-    /* Where M_k starts from 0 an arm much faster than the panel is at g tau D' at once: what it lacks at the first point is
-     * exp(-30), rounding. Slower arms keep their polynomial, which is better where slip is a thin ring. */
     for (size_t k = 0; k < terms && p == 0; k++)
-        if (normal->rate[first + k] * panel->time[1] > 30)
-            memory[k] += weight[0] * normal->g[first + k] / normal->rate[first + k];
+        memory[k] += first_layer(normal, first + k, weight, *time);
 }
 
 static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, size_t terms,
