@@ -15,7 +15,7 @@ static const double rst_share_of_change = 0.5;
 static const double rst_share_by_chance = 0.1, rst_regular = 0.5;
 
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
-static const double rst_least_estimate = 0.003;
+static const double rst_least_estimate = 0.01;
 
 /* What pieces of U' may miss, as a part of the tolerance, and the part of that which an estimate gets. */
 static const double rst_piece_part = 0.3;
