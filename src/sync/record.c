@@ -16,14 +16,6 @@ struct trace {
     const struct rst_walk *walk;    /* NULL: not by elements */
 };
 
-static double value(const double *weight, const double *y)
-{
-    double sum = 0;
-    for (int j = 0; j < rst_points; j++)
-        sum += weight[j] * y[j];
-    return sum;
-}
-
 /* Where on a panel the time is: time rises with x. */
 static double place_of(const struct sync_panel *panel, double time)
 {
@@ -33,7 +25,7 @@ static double place_of(const struct sync_panel *panel, double time)
     for (int i = 0; i < 60 && high - low > 1e-15; i++) {
         const double x = 0.5 * (low + high);
         rst_sync_weights_at(x, weight);
-        if (value(weight, panel->time) < time)
+        if (rst_value_of(weight, panel->time) < time)
             low = x;
         else
             high = x;
@@ -64,9 +56,9 @@ static void follow_pieces(const struct trace *trace, int64_t panel, double x, in
     double weight[rst_points], y = (x - piece->from) / (piece->to - piece->from);
     if (piece->rooted) y = 1 - sqrt(fmax(0, 1 - y));
     rst_sync_weights_at(fmin(1, fmax(0, y)), weight);
-    sample->shear_velocity = value(weight, piece->velocity);
-    sample->shear_force = 15.0 / 8.0 * value(weight, piece->force);
-    sample->stick_radius = fmin(sample->contact_radius, fmax(0, value(weight, piece->stick)));
+    sample->shear_velocity = rst_value_of(weight, piece->velocity);
+    sample->shear_force = 15.0 / 8.0 * rst_value_of(weight, piece->force);
+    sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick)));
 }
 
 /* Between levels U' is a line. The walk does not say where the front is: the stick radius is 0 where all slips. */
@@ -93,10 +85,10 @@ static void sample_at(const struct trace *trace, double time, int64_t *p, int64_
     const double x = place_of(panel, time);
     rst_sync_weights_at(x, weight);
     *sample = (struct rst_sample){.time = time,
-                                  .indentation = value(weight, panel->depth),
-                                  .contact_radius = fmax(0, value(weight, panel->radius)),
-                                  .normal_force = 15.0 / 8.0 * fmax(0, value(weight, panel->force)),
-                                  .velocity = value(weight, panel->velocity)};
+                                  .indentation = rst_value_of(weight, panel->depth),
+                                  .contact_radius = fmax(0, rst_value_of(weight, panel->radius)),
+                                  .normal_force = 15.0 / 8.0 * fmax(0, rst_value_of(weight, panel->force)),
+                                  .velocity = rst_value_of(weight, panel->velocity)};
     if (trace->store)
         follow_pieces(trace, *p, x, at, sample);
     else if (trace->walk)

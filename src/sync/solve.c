@@ -86,11 +86,8 @@ static double largest_force(const struct sync_normal *normal)
             }
     for (int64_t p = first; p <= last && p < normal->n_panels; p++)
         for (int i = 0; i <= samples; i++) {
-            double force = 0;
             rst_sync_weights_at((double)i / samples, weight);
-            for (int j = 0; j < rst_points; j++)
-                force += weight[j] * normal->panel[p].force[j];
-            largest = fmax(largest, force);
+            largest = fmax(largest, rst_value_of(weight, normal->panel[p].force));
         }
     return largest;
 }

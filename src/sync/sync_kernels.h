@@ -71,4 +71,13 @@ void rst_follow_contact(const struct sync_normal *normal, const struct sync_cont
 void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);
 void rst_sync_weights_at(double x, double *weight);
 
+/* What the polynomial through the points of a panel is where these are the weights. */
+static inline double rst_value_of(const double *weight, const double *y)
+{
+    double sum = 0;
+    for (int j = 0; j < rst_points; j++)
+        sum += weight[j] * y[j];
+    return sum;
+}
+
 #endif

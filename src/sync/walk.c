@@ -82,14 +82,6 @@ static double angle_of(const struct ladder *ladder, int64_t i)
     return ladder->mark[m] + (ladder->mark[m + 1] - ladder->mark[m]) * (double)rest / (double)ladder->parts;
 }
 
-static double value(const double *weight, const double *y)
-{
-    double sum = 0;
-    for (int j = 0; j < rst_points; j++)
-        sum += weight[j] * y[j];
-    return sum;
-}
-
 /* What the polynomial of M_k lacks on the first panel. There M_k starts from 0, and a fast arm is soon at g tau D'. So M_k is
  * smooth but for -g tau exp(-s/tau), of which the polynomial has what collocation makes of it: kernel(:, 0) of rst_arms, which
  * is as good as exp for arms that are slow on the panel. */
@@ -111,13 +103,13 @@ static void set_level(const struct sync_normal *normal, int64_t p, double angle,
     const size_t first = (size_t)normal->n_arms - terms;
     double weight[rst_points];
     rst_sync_weights_at((angle - panel->from) / (panel->to - panel->from), weight);
-    level->radius = value(weight, panel->radius);
-    level->depth = value(weight, panel->depth);
-    level->velocity = value(weight, panel->velocity);
-    level->force = value(weight, panel->force);
-    *time = value(weight, panel->time);
+    level->radius = rst_value_of(weight, panel->radius);
+    level->depth = rst_value_of(weight, panel->depth);
+    level->velocity = rst_value_of(weight, panel->velocity);
+    level->force = rst_value_of(weight, panel->force);
+    *time = rst_value_of(weight, panel->time);
     for (size_t k = 0; k < terms; k++)
-        memory[k] = value(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
+        memory[k] = rst_value_of(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
     for (size_t k = 0; k < terms && p == 0; k++)
         memory[k] += first_layer(normal, first + k, weight, *time);
 }
