@@ -309,13 +309,13 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 }
 
 /* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
- * being blocked, it slides slower and slower without a closed form. */
+ * being blocked, it creeps on or slides slower and slower, without a closed form. */
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)
 {
     const int slides = problem->mode == RST_FRICTIONLESS ||
                        (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
-    if (!slides && 2 * problem->chi <= 1 && problem->mode == RST_PARTIAL_SLIP)
+    if (!slides && 2 * problem->chi <= 1)
         return rst_report(
             error, RESTITUTE_ERROR_DOMAIN,
             "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",

@@ -230,6 +230,7 @@ static void sinking_spheres_are_told(void **state)
     CHECK(s.result.error_ex >= 1e-6 && s.result.error_ex < 1e-4, "%g", s.result.error_ex);
     restitute_solver *solver = make(cvode_to(1e-4));
     refused(solver, impact_on(maxwell, 0.4, 0.5), RESTITUTE_ERROR_DOMAIN, "euler or sync");
+    refused(solver, impact_on(maxwell, 0.4, 0), RESTITUTE_ERROR_DOMAIN, "euler or sync");
     restitute_solver_destroy(solver);
     restitute_material_destroy(maxwell);
 }
