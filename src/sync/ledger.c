@@ -46,7 +46,7 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
         return RESTITUTE_OK;
     }
     const double least = rst_ledger_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
-    const int64_t parts = 1 + (int64_t)fmin(least, rst_most_elements / 4) / run->normal.n_compression;
+    const int64_t parts = 1 + (int64_t)least / run->normal.n_compression;
     if (rst_walk(motion, run, problem, sliding(problem, -outcome->velocity), parts, &walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     outcome->ledger = walk.ledger;

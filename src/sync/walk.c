@@ -15,7 +15,7 @@ struct ladder {
 
 /* What the walk works on. */
 struct room {
-    double *mark, *time, *memory, *body, *stress;
+    double *mark, *time, *memory, *left, *body, *stress; /* left: of each term's first layer (see first_layer) */
     struct walk_level *level;
     struct walk_shear *shear;
     struct walk_term *term;
@@ -28,7 +28,7 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     const size_t capacity = (n + walk_lanes) / walk_lanes * walk_lanes;
     const size_t of_level = sizeof(struct walk_level) / sizeof(double), of_shear = sizeof(struct walk_shear) / sizeof(double);
     const size_t of_term = sizeof(struct walk_term) / sizeof(double);
-    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + (terms + 1) * of_term +
+    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + terms + (terms + 1) * of_term +
                          capacity * (walk_columns + 2 * (terms + 1));
     if (count > motion->walk_size) {
         double *larger = malloc(count * sizeof(double));
@@ -43,7 +43,8 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     r->level = (struct walk_level *)(r->time + levels);
     r->shear = (struct walk_shear *)((double *)r->level + levels * of_level);
     r->memory = (double *)r->shear + levels * of_shear;
-    r->term = (struct walk_term *)(r->memory + levels * terms);
+    r->left = r->memory + levels * terms;
+    r->term = (struct walk_term *)(r->left + terms);
     r->body = (double *)r->term + (terms + 1) * of_term;
     r->stress = r->body + capacity * walk_columns;
     return 0;
@@ -82,22 +83,30 @@ static double angle_of(const struct ladder *ladder, int64_t i)
     return ladder->mark[m] + (ladder->mark[m + 1] - ladder->mark[m]) * (double)rest / (double)ladder->parts;
 }
 
-/* What the polynomial of M_k lacks on the first panel. There M_k starts from 0, and a fast arm is soon at g tau D'. So M_k is
- * smooth but for -g tau exp(-s/tau), of which the polynomial has what collocation makes of it: kernel(:, 0) of rst_arms, which
- * is as good as exp for arms that are slow on the panel. */
-static double first_layer(const struct sync_normal *normal, size_t k, const double *weight, double time)
+/* At the points of a panel, what is left there of the stress that an arm has at its start. */
+static const double *fading_on(const struct sync_normal *normal, int64_t p, size_t k)
 {
-    const struct sync_panel *panel = &normal->panel[0];
-    const double tau = 1 / normal->rate[k], *fade = normal->kernel + rst_stages * rst_points * k;
+    return normal->kernel + rst_stages * rst_points * ((size_t)normal->n_arms * (size_t)p + k);
+}
+
+/* What the polynomial of M_k lacks on the panel p. M_k starts from 0, and that of a fast arm is soon g tau D': smooth but for
+ * -g tau exp(-s/tau), of which the panels have what collocation makes of it, kernel(:, 0) of rst_arms times what it left of it
+ * at the start of the panel. For an arm that is slow on the first panel both are the same but for rounding. */
+static double first_layer(const struct sync_normal *normal, int64_t p, size_t k, double left, const double *weight,
+                          double time)
+{
+    const double tau = 1 / normal->rate[k], slow = 100 * normal->panel[0].time[rst_stages];
+    const double *fade = fading_on(normal, p, k);
     double collocated = weight[0];
+    if (tau > slow) return 0;
     for (int i = 0; i < rst_stages; i++)
         collocated += weight[i + 1] * fade[i];
-    return normal->g[k] * fmin(tau, panel->time[rst_stages]) * (collocated - exp(-time / tau));
+    return normal->g[k] * tau * (left * collocated - exp(-time / tau));
 }
 
 /* The level at an angle on a panel, without its step. The first arms may be a spring, which the walk has apart. */
-static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, struct walk_level *level,
-                      double *time, double *memory)
+static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, const double *left,
+                      struct walk_level *level, double *time, double *memory)
 {
     const struct sync_panel *panel = &normal->panel[p];
     const size_t first = (size_t)normal->n_arms - terms;
@@ -109,22 +118,27 @@ static void set_level(const struct sync_normal *normal, int64_t p, double angle,
     level->force = rst_value_of(weight, panel->force);
     *time = rst_value_of(weight, panel->time);
     for (size_t k = 0; k < terms; k++)
-        memory[k] = rst_value_of(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k));
-    for (size_t k = 0; k < terms && p == 0; k++)
-        memory[k] += first_layer(normal, first + k, weight, *time);
+        memory[k] = rst_value_of(weight, normal->memory + rst_points * ((size_t)normal->n_arms * (size_t)p + first + k)) +
+                    first_layer(normal, p, first + k, left[k], weight, *time);
 }
 
 static void set_levels(const struct sync_normal *normal, const struct ladder *ladder, int64_t end, size_t terms,
                        struct room *r)
 {
     const int64_t n = ladder->n_marks * ladder->parts;
+    const size_t first = (size_t)normal->n_arms - terms;
     int64_t p = 0;
+    for (size_t k = 0; k < terms; k++)
+        r->left[k] = 1;
     for (int64_t l = 0; l <= end; l++) {
         const double angle = angle_of(ladder, l <= n ? l : 2 * n - l);
         while (p < normal->n_panels - 1 &&
-               (p < normal->n_compression ? angle > normal->panel[p].to || l > n : angle < normal->panel[p].to))
+               (p < normal->n_compression ? angle > normal->panel[p].to || l > n : angle < normal->panel[p].to)) {
+            for (size_t k = 0; k < terms; k++)
+                r->left[k] *= fading_on(normal, p, first + k)[rst_stages - 1];
             p++;
-        set_level(normal, p, angle, terms, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
+        }
+        set_level(normal, p, angle, terms, r->left, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
         if (l > n) r->level[l].radius = r->level[2 * n - l].radius;
         r->level[l].step = l > 0 ? r->time[l] - r->time[l - 1] : 0;
     }

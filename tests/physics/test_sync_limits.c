@@ -447,8 +447,16 @@ static void friction_work_has_the_first_layer_of_fast_arms(void **state)
     for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
         const restitute_ledger ledger = solve_impact(sync_to(tolerance), impact_of(7.8, 1.0000462, 1.723, 1.74e-5)).ledger;
         CHECK_NEAR(ledger.friction_x, 1.330e-4, 1.3e-6, "at %g", tolerance);
-        CHECK_NEAR(ledger.residual_x, 0, 1e-5, "at %g", tolerance);
+        CHECK_NEAR(ledger.residual_x, 0, 2e-5, "at %g", tolerance);
     }
+}
+
+/* What collocation leaves of the layer at the end of the first panel goes on in the next ones: without that, 3.4e-5. */
+static void first_layer_goes_on_in_later_panels(void **state)
+{
+    (void)state;
+    const struct restitute_ledger ledger = solve_impact(sync_to(1e-3), impact_of(54.9, 4.09, 0.158, 7.86e-3)).ledger;
+    CHECK_NEAR(ledger.residual_x, 0, 1e-5, "in x");
 }
 
 /* Without slip U' swings forty times in this contact, and errors of single pieces stay in it: at 1e-3 e_x was off by 4.8e-3 with
@@ -587,6 +595,7 @@ int main(void)
         cmocka_unit_test(swings_without_slip_are_followed_at_large_chi),
         cmocka_unit_test(elements_feel_fast_arms_as_a_front_does),
         cmocka_unit_test(friction_work_has_the_first_layer_of_fast_arms),
+        cmocka_unit_test(first_layer_goes_on_in_later_panels),
         cmocka_unit_test(pieces_do_not_follow_rounding),
         cmocka_unit_test(stiff_dashpots_keep_the_sphere_from_swinging),
         cmocka_unit_test(slip_may_end_as_the_sphere_turns),
