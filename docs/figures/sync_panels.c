@@ -21,16 +21,14 @@ static struct sync_record record[room];
 static struct sync_piece piece[room];
 static double memory[rst_points * arms * room], loading[rst_points * arms * room],
     held[rst_values * rst_points * arms * room];
-static double entry[2 * rst_stages * arms], kernel[rst_stages * rst_stages * arms], decay[rst_stages * arms],
-    now_z[rst_points * arms], now_x[rst_points * arms], now_l[rst_points * arms];
+static double kernel[rst_stages * rst_points * arms * room], entry[2 * rst_stages * arms],
+    kernel_of_piece[rst_stages * rst_points * arms], now_z[rst_points * arms], now_x[rst_points * arms], now_l[rst_points * arms];
 
 static double at(double x, const double y[rst_points])
 {
-    double weight[rst_points], sum = 0;
+    double weight[rst_points];
     rst_sync_weights_at(x, weight);
-    for (int i = 0; i < rst_points; i++)
-        sum += weight[i] * y[i];
-    return sum;
+    return rst_value_of(weight, y);
 }
 
 static void print_curves(const struct sync_store *store)
@@ -81,17 +79,18 @@ int main(int argc, char **argv)
                                  .rate = rate,
                                  .panel = panel,
                                  .memory = memory,
-                                 .loading = loading};
+                                 .loading = loading,
+                                 .kernel = kernel,
+                                 .entry = entry};
     struct sync_store store = {.capacity = room,
                                .record = record,
                                .piece = piece,
                                .held = held,
-                               .kernel = kernel,
-                               .decay = decay,
+                               .room = kernel_of_piece,
                                .now_z = now_z,
                                .now_x = now_x,
                                .now_l = now_l};
-    rst_follow_normal(&control, &normal, entry, &found);
+    rst_follow_normal(&control, &normal, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);
     if (found != RST_SOLVED) return 1;
