@@ -10,7 +10,8 @@ module rst_guess
 
 contains
 
-  !> At first touch D' and A go as without a force, and F is that of a spring and the dashpot.
+  !> At first touch D' and A go as without a force, and F is that of the dashpot and of a spring as strong as the scale r says
+  !> (kappa = 1 at the turning point).
   pure subroutine guess_compression(normal, known, panel)
     type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: known(:) !! panels of the coarser run or the one before; none at first touch
@@ -24,7 +25,7 @@ contains
       theta = panel%from + point(1:)*(panel%to - panel%from)
       panel%radius(1:) = normal%radius*sin(theta)
       panel%velocity(1:) = cos(theta)
-      panel%force(1:) = panel%radius(1:)*(panel%radius(1:)**2 + normal%eta*panel%velocity(1:))
+      panel%force(1:) = sin(theta)**3/(2*mass_factor*normal%radius**2) + normal%eta*panel%radius(1:)*panel%velocity(1:)
     end if
   end subroutine guess_compression
 

@@ -459,6 +459,25 @@ static void first_layer_goes_on_in_later_panels(void **state)
     CHECK_NEAR(ledger.residual_x, 0, 1e-5, "in x");
 }
 
+/* Fluids that are weak in the units of the problem, so that the sphere is 1e32 deep in them when it stops: Newton's steps began
+ * with the force of a spring of modulus 1, and no panel converged. */
+static void fluids_of_any_scale_stop_the_sphere(void **state)
+{
+    const double tau[] = {1.747355321491428e-26, 1e-10, 1e-30}, g[] = {1.8880055218676865e-23, 1e-30, 1e-30};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        restitute_material *solid = NULL;
+        assert_int_equal(restitute_material_prony(0, 0, 1, &tau[i], &g[i], 0.5, &solid, NULL), RESTITUTE_OK);
+        restitute_impact impact = impact_of(2, 0.5, 0, 0);
+        impact.solid = solid;
+        const struct solution s = solve_impact(sync_to(1e-5), impact);
+        CHECK(s.status == RESTITUTE_NO_REBOUND, "fluid %d: status %d", i, s.status);
+        CHECK_NEAR(s.result.ez, 0, 1e-5, "fluid %d", i);
+        CHECK_NEAR(s.result.ex, 0, 1e-5, "fluid %d", i);
+        restitute_material_destroy(solid);
+    }
+}
+
 /* Without slip U' swings forty times in this contact, and errors of single pieces stay in it: at 1e-3 e_x was off by 4.8e-3 with
  * an estimate of 4e-4. */
 static void swings_without_slip_are_followed_at_large_chi(void **state)
@@ -596,6 +615,7 @@ int main(void)
         cmocka_unit_test(elements_feel_fast_arms_as_a_front_does),
         cmocka_unit_test(friction_work_has_the_first_layer_of_fast_arms),
         cmocka_unit_test(first_layer_goes_on_in_later_panels),
+        cmocka_unit_test(fluids_of_any_scale_stop_the_sphere),
         cmocka_unit_test(pieces_do_not_follow_rounding),
         cmocka_unit_test(stiff_dashpots_keep_the_sphere_from_swinging),
         cmocka_unit_test(slip_may_end_as_the_sphere_turns),
