@@ -1,4 +1,4 @@
-!> The compression phase without elements (THEORY 4.4): how deep, how long.
+!> The compression phase without elements (docs/sync.md, section 1): how deep, how long.
 !>
 !> While the contact grows, P_k = int_0^A y_k dX obeys P_k' = g_k A D' - P_k/tau_k with A = sqrt(D), and the force
 !> per unit of dX is (2/3) G_inf D^(3/2) + eta A D' + sum P_k. One state a relaxation time, whatever the foundation.
@@ -41,7 +41,7 @@ contains
   !> relaxation time, however short, limits the step. About 1 % accurate: it sizes the foundation and its steps.
   !>
   !> `stress` is workspace for n_terms values. `sinks` is 1 when the kinetic energy and all that the foundation
-  !> could still give back are below rest_speed**2: such a sphere rebounds slower than rest_speed, if ever (THEORY 4.9).
+  !> could still give back are below rest_speed**2: such a sphere rebounds slower than rest_speed, if ever (theory.md, 6).
   pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
     real(dp), intent(in) :: g_inf, eta, rest_speed
     integer(ip), intent(in) :: n_terms, can_sink

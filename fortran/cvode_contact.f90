@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The normal side for the method `cvode`: rates of the sphere's motion and of the memory that drives it (THEORY 4.4 to 4.6, 4.11).
+!> The normal side for the method `cvode`: rates of the sphere's motion and of the memory that drives it (sync.md, 1).
 !>
 !> States are the depth D, its velocity and, a relaxation time, the stress of a term that follows the sphere
 !> (M' = g D' - M/tau) and its integral over the elements in contact (P' = g A D' - P/tau, compression only). Those of single

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The elements of the method `cvode` and their tangential force (THEORY 2, 3 and 7).
+!> The elements of the method `cvode` and their tangential force (docs/theory.md, sections 2 and 3; docs/cvode.md).
 !>
 !> Between the instants at which it begins to stick or to slip, all that an element is follows from the states of the sphere:
 !>

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where the energy goes at an instant, for the ledger of the method `cvode` (THEORY 4.8).
+!> Where the energy goes at an instant, for the ledger of the method `cvode` (docs/theory.md, section 8).
 !>
 !> In units of the normal impact energy, with U in place of D for the tangential side:
 !>

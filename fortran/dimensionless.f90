@@ -1,4 +1,4 @@
-!> Scales and dimensionless numbers of an impact, (22)-(25), THEORY 3 and 9.
+!> Scales and dimensionless numbers of an impact, (22)-(25), docs/theory.md, sections 2 and 10.
 module rst_dimensionless
   use rst_precision, only: dp
   implicit none (type, external)
@@ -47,7 +47,7 @@ contains
     theta = sqrt(32.0_dp/15.0_dp)*delta1
   end function theta_from_delta1
 
-  !> psi_c (31), an identity (THEORY 4.2): from it on the contact slips to the end.
+  !> psi_c (31), an identity (docs/theory.md, section 4): from it on the contact slips to the end.
   pure function critical_psi(chi, ez) result(psi_c)
     real(dp), intent(in) :: chi, ez
     real(dp) :: psi_c

@@ -1,11 +1,11 @@
-!> The paper's method: the MDR foundation (9)-(17) and explicit Euler for the sphere, in the units of THEORY 3.
+!> The paper's method: the MDR foundation (9)-(17) and explicit Euler for the sphere, in the units of docs/theory.md, section 2.
 !>
 !> A step moves the sphere with the velocities it has, asks the foundation for its forces, and only then changes the
 !> velocities. Phases: compression (elements enter), restitution (elements leave, outermost first), done.
 !> The tangential side has its own mode, so that a scene pays only for what it has:
 !>   frictionless      nothing to do
-!>   gross_slip        q = f everywhere (THEORY 4.1): no tangential element states until all elements stick at once
-!>                     (THEORY 4.3); for psi >= psi_c that never happens and (27) follows by itself
+!>   gross_slip        q = f everywhere (docs/theory.md, section 4): no tangential element states until all elements stick at once
+!>                     (docs/theory.md, section 4); for psi >= psi_c that never happens and (27) follows by itself
 !>   partial_slip      return mapping, element by element
 !>   no_slip           the limit psi -> 0: all elements in contact stick
 module rst_euler
@@ -249,7 +249,7 @@ contains
     state%shear_velocity = state%shear_velocity - scene%step*mass_factor*2*scene%chi*state%shear_force
   end subroutine accelerate_sphere
 
-  !> Gross slip ends everywhere at once when U' = D' (THEORY 4.3): every element then has q = f, u_x = D - X^2 and the
+  !> Gross slip ends everywhere at once when U' = D' (theory.md, 4): every element then has q = f, u_x = D - X^2 and the
   !> same stresses in x as in z.
   pure subroutine start_sticking(scene, x2, yz, u, yx, q, state)
     type(scene_type), intent(in) :: scene
@@ -272,7 +272,7 @@ contains
   end subroutine start_sticking
 
   !> A rebound so slow that a step is lost in the rounding of the indentation would never end.
-  !> Compression ends when the sphere turns. Without an equilibrium modulus it may never do so (THEORY 4.9): then it
+  !> Compression ends when the sphere turns. Without an equilibrium modulus it may never do so (theory.md, 6): then it
   !> ends when the kinetic energy and what the springs hold together could not bring back rest_speed.
   pure subroutine judge_phase(scene, g, x2, yz, advance_z, state)
     type(scene_type), intent(in) :: scene

@@ -13,7 +13,7 @@ module rst_foundation
 
 contains
 
-  !> Profile height at the elements, which stand at the middle of cells of width dx: X_j^2 in the units of THEORY 3.
+  !> Profile height at the elements, which stand at the middle of cells of width dx: X_j^2 in the units of theory.md, 2.
   pure subroutine place_elements(n, dx, x2)
     integer(ip), intent(in) :: n
     real(dp), intent(in) :: dx

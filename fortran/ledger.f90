@@ -1,4 +1,4 @@
-!> Where the impact energy goes (THEORY 4.8), one account for z and one for x, kept only on request.
+!> Where the impact energy goes (docs/theory.md, section 8), one account for z and one for x, kept only on request.
 !>
 !> In z the unit is the normal impact energy: 1 = D'(end)^2 + viscous + left_behind. In x it is that energy too, with U in
 !> place of D: psi^2 = U'(end)^2 + friction + viscous + left_behind. `left_behind` is what elements still hold when

@@ -1,4 +1,4 @@
-!> Merging of relaxation times that a contact of a given length cannot feel (THEORY 4.7, Prony limits).
+!> Merging of relaxation times that a contact of a given length cannot feel (docs/theory.md, section 7).
 !>
 !> A term that hardly relaxes within the contact joins G_inf; one that has long relaxed joins eta at constant g tau.
 !> Costs are bounds on the energy of the change in units of the impact energy, with D' <= 1:

@@ -56,7 +56,7 @@ contains
   !>
   !> For position-first Euler, v <- v - h K f, the characteristic polynomial
   !> (z-1)^2 + h^2 K z [g_inf + sum b (z-1)/(z-a)] passes z = -1 at h^2 K step_stiffness(h) = 4
-  !> (elastic: h omega = 2; Kelvin-Voigt: h K eta = 2, THEORY 5). The left side grows with h: bisection in log h.
+  !> (elastic: h omega = 2; Kelvin-Voigt: h K eta = 2, docs/theory.md, section 4). The left side grows with h: bisection in log h.
   pure function largest_stable_step(coupling, g_inf, eta, n_terms, g, tau) result(h)
     real(dp), intent(in) :: coupling, g_inf, eta  !! coupling K: velocity change per unit of time and stiffness
     integer(ip), intent(in) :: n_terms

@@ -1,4 +1,4 @@
-!> Two generalised Maxwell chains in series, as one chain: what two bodies of unlike materials are to each other (THEORY 9).
+!> Two generalised Maxwell chains in series, as one chain: what two bodies of unlike materials are to each other (theory.md, 10).
 !>
 !> With the operational modulus M(s) = m_inf + sum_k m_k s/(s + p_k) + eta s, p_k = 1/tau_k, compliances add:
 !> 1/M = 1/M_1 + 1/M_2. The relaxation rates of the pair are the zeros x of F(x) = M_1(-x) + M_2(-x). F falls from +inf to

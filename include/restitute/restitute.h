@@ -77,7 +77,7 @@ RESTITUTE_API const char *restitute_version(void);
  *  Immutable after creation, shared freely by threads, destroyed by @ref restitute_material_destroy. */
 typedef struct restitute_material restitute_material;
 
-/** General solid: a Prony series, with a dashpot in parallel if wanted (THEORY 1). All the others are cases of it.
+/** General solid: a Prony series, with a dashpot in parallel if wanted (theory.md, 1). All the others are cases of it.
  *
  *  @param equilibrium_modulus  G_inf, Pa, in [1e-30, 1e30] or 0
  *  @param parallel_viscosity   eta_inf, Pa s, in [1e-60, 1e60] or 0
@@ -115,7 +115,7 @@ RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, d
 
 /** What two bodies of unlike materials are to each other: one solid, for a @ref restitute_scene in which one body deforms.
  *
- *  Compliances add (THEORY 9): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned back into one Prony
+ *  Compliances add (theory.md, 10): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned back into one Prony
  *  series. Exact if both are incompressible or nu_1 = nu_2 and elastically similar; for other pairs normal and
  *  tangential problem are coupled in truth, which is neglected, as usual. How much is told by Dundurs' constant
  *
@@ -236,7 +236,7 @@ typedef struct restitute_numbers {
 
 RESTITUTE_API void restitute_numbers_init(restitute_numbers *numbers);
 
-/** Dimensionless numbers and scales of a scene (22)-(24), THEORY 3 and 9. Nothing is solved.
+/** Dimensionless numbers and scales of a scene (22)-(24), docs/theory.md, sections 2 and 10. Nothing is solved.
  *
  *      restitute_numbers numbers; restitute_numbers_init(&numbers);
  *      restitute_scene_numbers(&scene, &numbers, &error);              // numbers.delta1, numbers.time, ... */
@@ -293,7 +293,7 @@ RESTITUTE_API void restitute_solver_destroy(restitute_solver *solver);
 
 /* ------------------------------------------------------------------------------------------------------- results */
 
-/** Assumptions of the model that a result strains, bits of restitute_result.flags (THEORY 4a). X(name, bit, text) */
+/** Assumptions of the model that a result strains, bits of restitute_result.flags (theory.md, 11). X(name, bit, text) */
 #define RESTITUTE_FLAG_LIST(X)                                                                                         \
     X(FAST, 1, "the speed is not small against the shear wave speed: waves carry energy away")                         \
     X(LARGE_CONTACT, 2, "the contact is not small against the sphere: the half-space model overrates the depth")       \
@@ -335,7 +335,7 @@ typedef struct restitute_result {
 
 RESTITUTE_API void restitute_result_init(restitute_result *result);
 
-/** Where the energy went (THEORY 4.8), as fractions of the energy that came in: of (1/2) m v_z0^2 in z, and of the
+/** Where the energy went (docs/theory.md, section 8), as fractions of the energy that came in: of (1/2) m v_z0^2 in z, and of the
  *  energy of the contact point's tangential motion in x. Each account adds up to 1 - residual. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
@@ -531,7 +531,7 @@ RESTITUTE_API int restitute_pair(double chi, double psi, double delta1, double g
 /** One call: the pair of a scene with default options. Model limits that it passes stand in the message of `error`. */
 RESTITUTE_API int restitute_scene_pair(const restitute_scene *scene, double *ez, double *ex, restitute_error *error);
 
-/** psi_c = 2 chi (1 + ez) - ez (1 if 2 chi <= 1): from it on the contact slips to the end (31), exactly (THEORY 4.2), and
+/** psi_c = 2 chi (1 + ez) - ez (1 if 2 chi <= 1): from it on the contact slips to the end (31), exactly (theory.md, 4), and
  *  ex = 2 chi (1 + ez)/psi - 1 (27). NaN if chi is not > 0 or ez is not in [0, 1]. */
 RESTITUTE_API double restitute_critical_psi(double chi, double ez);
 

@@ -138,7 +138,7 @@ typedef struct restitute_table_contact {
     size_t struct_size;  /**< set by @ref restitute_table_contact_init */
     double speed_factor; /**< speed in the table over speed of this contact */
     double psi_factor;   /**< psi v_n/|v_t| (22); 0: no slip, infinity: no friction */
-    double radius, mass; /**< m, kg: effective ones (THEORY 9) of this contact */
+    double radius, mass; /**< m, kg: effective ones (docs/theory.md, section 10) of this contact */
     double touch_gap;    /**< as in @ref restitute_contact; default 1e-6. May be changed */
 } restitute_table_contact;
 

@@ -1,5 +1,5 @@
 /* The impact in steps of time: velocity Verlet for the sphere (5), in each step the normal problem for p and then the
- * tangential one for tau (THEORY 8). All is of second order in the step.
+ * tangential one for tau (docs/bem.md). All is of second order in the step.
  *   D'' = -(15/64) int p dA,   U'' = -(15/32) chi int tau dA,   u_x = (3/2) U where it sticks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"

@@ -28,7 +28,7 @@ static int check_impact(const restitute_impact *impact, restitute_error *error)
     return status;
 }
 
-/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (THEORY 3), and its limits. Beyond 1e-50 and 1e50,
+/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (theory.md, 2), and its limits. Beyond 1e-50 and 1e50,
  * so that g and tau keep within the bounds of ranges.h, the limit differs by less than 1e-20: of a dashpot by
  * gamma theta^2, see rst_merge_terms, of an elastic solid by theta or 1/gamma. */
 static void standard_solid(double delta1, double gamma, struct rst_solid *solid)

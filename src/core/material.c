@@ -1,4 +1,4 @@
-/* Linear-viscoelastic solids: G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta delta(t) (THEORY 1).
+/* Linear-viscoelastic solids: G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta delta(t) (docs/theory.md, section 1).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "material.h"
 

@@ -56,7 +56,7 @@ static double clamp(double value, double low, double high)
     return fmin(high, fmax(low, value));
 }
 
-/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (THEORY 4.8); the method's error may be on the wrong side. */
+/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (theory.md, 8); the method's error may be on the wrong side. */
 void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome,
                       const struct rst_units *units, int64_t terms_merged, double merging_bound,
                       restitute_result *result)

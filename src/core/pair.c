@@ -1,4 +1,4 @@
-/* Two bodies of unlike materials as one solid (THEORY 9).
+/* Two bodies of unlike materials as one solid (docs/theory.md, section 10).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>

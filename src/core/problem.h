@@ -1,4 +1,4 @@
-/* One impact as every method sees it: in the units of THEORY 3, with friction, sliding and solid settled.
+/* One impact as every method sees it: in the units of docs/theory.md, section 2, with friction, sliding and solid settled.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_PROBLEM_H
 #define RST_PROBLEM_H

@@ -1,4 +1,4 @@
-/* From spheres in SI units to the dimensionless problem (22)-(24), THEORY 9.
+/* From spheres in SI units to the dimensionless problem (22)-(24), docs/theory.md, sections 2 and 10.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stddef.h>

@@ -26,7 +26,7 @@ static const double merging_share = 0.1;
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
 static const double depth_margin = 1.2;
 
-/* Time to the largest indentation over that indentation, elastic (THEORY 4.7: half of 2.943). Others are checked by
+/* Time to the largest indentation over that indentation, elastic (half of the contact time 2.943 T). Others are checked by
  * the contact time that comes out. */
 static const double elastic_compression = 1.47;
 

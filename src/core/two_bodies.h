@@ -1,4 +1,4 @@
-/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back (THEORY 9). Shared by
+/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back (theory.md, 10). Shared by
  * the calls that solve an impact and those that look it up.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TWO_BODIES_H

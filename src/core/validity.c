@@ -1,4 +1,4 @@
-/* How far a scene strains the assumptions of the model (3), (4), THEORY 4a.
+/* How far a scene strains the assumptions of the model (3), (4), docs/theory.md, section 11.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "validity.h"
 

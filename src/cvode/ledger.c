@@ -1,4 +1,4 @@
-/* The energy ledger of the method cvode (THEORY 4.8): the run once more, with what dissipates and what leaves added up
+/* The energy ledger of the method cvode (theory.md, 8): the run once more, with what dissipates and what leaves added up
  * by the trapezium rule over CVODE's steps and over the elements that leave.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>

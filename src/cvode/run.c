@@ -1,4 +1,4 @@
-/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it (THEORY 4.3).
+/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it (docs/theory.md, section 4).
  *
  * CVODE starts anew at first touch, when gross slip ends, at the largest indentation, where the formula of the force
  * changes, and where elements that stick again would otherwise have been taken to slip for too long a part of a step.
@@ -574,7 +574,7 @@ static int extend_trace(struct run *run, double from)
 }
 
 /* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units
- * of the impact energy: below rest_speed^2 the sphere stays (THEORY 4.9). */
+ * of the impact energy: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
 static int is_lost(const struct run *run)
 {
     const struct rst_solid *s = &run->setup->solid;

@@ -44,7 +44,7 @@ static const int64_t elements_of_log = 64;
  * estimated any more. */
 static const double stiff = 30, too_stiff = 300;
 
-/* Estimate of the largest indentation: energy balance with the modulus of that age (THEORY 4.4 has the exact motion).
+/* Estimate of the largest indentation: energy balance with the modulus of that age (docs/sync.md has the exact motion).
  * It gives scales, on which nothing depends but the work. */
 static double likely_depth(const struct rst_solid *s)
 {
@@ -308,7 +308,7 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
                       problem->tolerance, outcome->error_ez, outcome->error_ex);
 }
 
-/* The sphere stays (THEORY 4.9). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
+/* The sphere stays (theory.md, 6). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
  * being blocked, it creeps on or slides slower and slower, without a closed form. */
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)

@@ -216,7 +216,7 @@ static void history_ends_with_the_pair(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* A Maxwell body with a short tau (THEORY 4.9); nothing is left to slide with 2 chi > 1. */
+/* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2 chi > 1. */
 static void sinking_spheres_are_told(void **state)
 {
     const double tau[] = {0.2}, g[] = {1};

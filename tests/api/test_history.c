@@ -94,7 +94,7 @@ static void forces_are_what_changes_the_velocities(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* THEORY 4.6: F = (15/8) ((2/3) D^(3/2) + theta sqrt(D) D') while a Kelvin-Voigt contact grows. Whole cells would make it ripple by
+/* F = (15/8) ((2/3) D^(3/2) + theta sqrt(D) D') while a Kelvin-Voigt contact grows. Whole cells would make it ripple by
  * up to dx/2 of the edge force, three per cent here; integrated to the true edge it is as good as the step. */
 static void reported_force_does_not_ripple_with_the_elements(void **state)
 {

@@ -29,7 +29,7 @@ for event in entry exit gross-slip-end stick-to-slip turn contact-end; do
 done
 [ "$(grep -c ,gross-slip-end, e.csv)" = 1 ] || fail "gross slip ends more than once"
 awk -F, 'NR > 2 && $1 < before { exit 1 } NR > 1 { before = $1 }' e.csv || fail "events are not in order"
-# THEORY 4.3; the tolerance is 1e-3
+# docs/theory.md, section 4; the tolerance is 1e-3
 near "$(awk -F, '$2 == "gross-slip-end" { print $5 }' e.csv)" "$(awk 'BEGIN { print (2 * 1.1667 - 2) / (2 * 1.1667 - 1) }')" 1e-3
 expect 0 history $scene --velocity 1 --angle 30 --events e.csv --output h.csv
 has e.csv time_s position_m normal_velocity_m_s

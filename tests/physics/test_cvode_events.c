@@ -70,7 +70,7 @@ static void events_come_in_order_and_change_nothing(void **state)
     CHECK_NEAR(-last->tangential_velocity / 0.8, s.result.ex, 1e-3, "the run with most elements");
 }
 
-/* THEORY 4.3: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, whatever the solid; elastic: D from the energy. */
+/* theory.md, 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, whatever the solid; elastic: D from the energy. */
 static void gross_slip_ends_once_and_everywhere(void **state)
 {
     const double cases[][3] = {{1.5, 0, 1}, {2.5, 0, 1}, {2, 1, 1}, {1.5, 0.3, 0}, {2.6, 0.5, 0.1}};
@@ -90,7 +90,7 @@ static void gross_slip_ends_once_and_everywhere(void **state)
     }
 }
 
-/* psi_c is exact (THEORY 4.2): just below it gross slip ends, just above it does not. */
+/* psi_c is exact (docs/theory.md, section 4): just below it gross slip ends, just above it does not. */
 static void gross_slip_lasts_from_the_critical_psi_on(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void gross_slip_lasts_from_the_critical_psi_on(void **state)
 }
 
 /* Elastic: all elements that slip do so with U' - D' or U' + D', so they stick again together when that vanishes. Edge slip begins
- * when |U'| reaches D', for psi = 0.9 at D = 0.96 (THEORY 4.10: two digits). */
+ * when |U'| reaches D', for psi = 0.9 at D = 0.96 (two digits). */
 static void elastic_elements_stick_again_together(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
 /* The method `cvode` where relaxation is fastest against the impact, gamma = 1e-6, beside the reduced normal equations, integrated here by
  * Runge and Kutta's formulas in small steps and with steps twice as large, which tells the error of that.
  *
- * Kelvin-Voigt (THEORY 4.6), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta sqrt(D) D']
+ * Kelvin-Voigt (docs/sync.md, (3) and (9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta sqrt(D) D']
  *                             restitution:  D'' = -(5/4) (D + theta D')^(3/2), until D + theta D' = 0
- * Standard solid (THEORY 4.4 and 4.5), A = sqrt(B) the edge, B = D in compression:
+ * Standard solid (the same), A = sqrt(B) the edge, B = D in compression:
  *     D'' = -(15/8) [A D - A^3/3 + P/gamma],  P' = A D' - P/tau + w A'
  *     restitution: w = gamma (B - D),  B' = [D' (1 + 1/gamma) - w/(gamma tau)] / (1 + exp(-(s - t_A)/tau)/gamma), until B = 0;
  *     t_A: when D was B in compression.

@@ -106,7 +106,7 @@ static void prony_with_dashpot_agrees_with_sync(void **state)
 }
 
 /* gamma = 1e-6: relaxation within 1e-12 or 1e-3 of the scale of time. The normal problem is that of sync, without elements, and for
- * the weak damping that of the limit of THEORY 4.7, 1 - 1.891706 theta (theta = 1.5e-6, the next term is of the order of its
+ * the weak damping that of the limit 1 - 1.891706 theta (theta = 1.5e-6, the next term is of the order of its
  * square). */
 static void stiff_corner_agrees_with_sync(void **state)
 {

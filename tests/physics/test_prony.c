@@ -104,7 +104,7 @@ static void check_same(const restitute_material *a, const restitute_material *b,
     }
 }
 
-/* THEORY 4.7. The tolerances are the size of what is left of the term: g t/tau, g tau^2, g. */
+/* docs/theory.md, section 7. The tolerances are the size of what is left of the term: g t/tau, g tau^2, g. */
 static void limits_of_single_terms_hold(void **state)
 {
     (void)state;
