@@ -186,7 +186,7 @@ contains
   end subroutine keep
 
   !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its slack y
-  !> stays 0, which asks for the velocity v, and it slips with v - r.
+  !> stays 0, which asks for the velocity v, and it slips with v - v_d.
   subroutine slide(normal, contact, store, panel, x, side, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

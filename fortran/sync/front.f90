@@ -1,9 +1,9 @@
 !> The front of slip (docs/sync.md): the stick radius c as the edge of the corrective contact.
 !>
 !> With the side d = 1 or -1 of the slip, the slack y = f - d q of an element that has stuck since the edge reached it at the time
-!> t_X is that of a contact with the velocity r = D' - d U' in place of D':
+!> t_X is that of a contact with the velocity v_d = D' - d U' in place of D':
 !>
-!>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta r,  m_k = M_k - d M_k^x,  E_k = exp(-(s - t_X)/tau_k)
+!>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta v_d,  m_k = M_k - d M_k^x,  E_k = exp(-(s - t_X)/tau_k)
 !>
 !> It is zero at c, and the slack force is H = int_0^c y dX = sum_k E_k p_k(t_c), p_k = P_k - d P_k^x.
 module rst_front
@@ -131,7 +131,7 @@ contains
   end subroutine find_record
 
   !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
-  !> dy/dtheta = -r ds/dtheta sum_k g_k E_k.
+  !> dy/dtheta = -v_d ds/dtheta sum_k g_k E_k.
   subroutine look_at(normal, store, time, side, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store

@@ -1,6 +1,6 @@
 /* The tuned numbers of the method `sync`, fifteen, and its limits. Those of the estimates are calibrated by the target
- * sync-campaign (docs/sync.md, "How the error is estimated"). Where iterations end, and what is rounding to them, is said at
- * the heads of the files in fortran/sync.
+ * sync-campaign (docs/sync.md, section 9). Thresholds of one loop, as where its iterations end, are at the heads of the files in
+ * fortran/sync.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_TUNING_H
 #define RST_SYNC_TUNING_H
@@ -14,7 +14,8 @@ static const double rst_share_of_change = 0.5;
  * changes fall regularly, by a factor that is so close to 4. */
 static const double rst_share_by_chance = 0.1, rst_regular = 0.5;
 
-/* Two runs may agree by chance, so that no estimate is below this part of the tolerance. */
+/* Two runs may agree by chance, so that no estimate is below this part of the tolerance. A coarser run that differs by no more
+ * will do for walks. */
 static const double rst_least_estimate = 0.01;
 
 /* What pieces of U' may miss, as a part of the tolerance, and the part of that which an estimate gets. */
@@ -22,11 +23,11 @@ static const double rst_piece_part = 0.3;
 
 /* ---- resolution */
 
-/* What polynomials may miss in the first run, and by what that falls from run to run: less than 2^-6, which halved panels
- * give where all is smooth, so that only panels that are not smooth are halved further. */
+/* What polynomials may miss in the first run, and the factor from run to run. Halved panels give 2^-6 where all is smooth; this
+ * asks for less, so that only panels that are not smooth are halved further. */
 static const double rst_first_roughness = 1e-2, rst_roughness_falls = 1.0 / 32;
 
-/* Part of the roughness below which slack is none. */
+/* Part of the roughness below which slack is none, and a front is at rest. */
 static const double rst_noise = 0.01;
 
 /* Panels of the first run are at most (pi/2)/2^halvings wide: halvings = 1 for tolerances from that on, one more for each
@@ -54,10 +55,10 @@ static const double rst_acceptance = 0.9;
 /* Velocities are known to that in a run, by rounding, and slower rebounds are lost in it. */
 static const double rst_rounding = 1e-13, rst_slowest = 1e-10;
 
-/* What pieces of U' may miss at least: D' is known to that, as it is about 1. Finer ones would follow rounding. */
+/* What pieces of U' may miss at least: the rounding of single values of D', which is about 1. Finer ones would follow that. */
 static const double rst_least_roughness = 1e-15;
 
-/* e_x differs from that without slip by at most this times psi. */
+/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not proven. */
 static const double rst_change_by_slip = 2;
 
 /* Panels of a motion that is not lost in rounding; elements of the last walk, and of the one that keeps the ledger. */
