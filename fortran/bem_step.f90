@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The loops over cells of one time step (docs/bem.md): a_el along the surface, d0 into it and along it over mu, moduli in G_r.
+!> The loops over cells of one time step (docs/bem.md). Units: a_el along the surface, d0 into it and along it over mu, moduli
+!> in G_r.
 !> With f = K p, the displacement is u = C f - h, where C and h (the memory of the solid) are known when the step begins.
 module rst_bem_step
   use rst_precision, only: dp, ip
