@@ -173,7 +173,7 @@ RESTITUTE_API int restitute_material_series(const restitute_material *material, 
 typedef struct restitute_impact {
     size_t struct_size;              /**< set by @ref restitute_impact_init */
     double chi;                      /**< in [1/3, 1000]; default 7/6 */
-    double psi;                      /**< in [0, 1e12], below 1e-12 taken as 0; default 0 */
+    double psi;                      /**< in [0, 1e12], within 1e-12 of 0 or 1 taken as that; default 0 */
     double delta1;                   /**< in [0, 1e12], below 1e-50 taken as 0; default 0; not used with `solid` */
     double gamma;                    /**< in [0, infinity], below 1e-50 taken as 0, above 1e50 as infinity; default
                                         infinity; not used with `solid` */

@@ -60,14 +60,19 @@ static void given_solid(const restitute_material *material, struct rst_solid *so
     }
 }
 
-void rst_set_sliding(double psi, struct rst_problem *problem)
+/* psi this close to 0 or 1 is that value: a few roundings of the caller, some 1e-15, do not decide on how a contact begins,
+ * nor does the end of gross slip, 1 - D' = (psi - 1)/(2 chi - 1), drown in the rounding of D' (chi <= 1000). It changes
+ * e_x by less than any tolerance: |de_x/dpsi| <= 2 on both sides of 1. */
+static const double psi_rounding = 1e-12;
+
+void rst_set_sliding(double given, struct rst_problem *problem)
 {
-    const double sticking = 1e-12; /* a slip annulus so thin changes e_x by less than any tolerance */
-    problem->psi = psi > sticking && !isinf(psi) ? psi : 1;
-    problem->mode = isinf(psi)       ? RST_FRICTIONLESS
-                    : psi > 1        ? RST_GROSS_SLIP
-                    : psi > sticking ? RST_PARTIAL_SLIP
-                                     : RST_NO_SLIP;
+    const double psi = fabs(given - 1) <= psi_rounding ? 1 : given;
+    problem->psi = psi > psi_rounding && !isinf(psi) ? psi : 1;
+    problem->mode = isinf(psi)           ? RST_FRICTIONLESS
+                    : psi > 1            ? RST_GROSS_SLIP
+                    : psi > psi_rounding ? RST_PARTIAL_SLIP
+                                         : RST_NO_SLIP;
 }
 
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error)

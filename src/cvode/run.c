@@ -114,7 +114,7 @@ static void call_roots(void *owner, double t, const double *y, double *value)
     const struct elements *e = &run->elements;
     evaluate(run, t, y, run->scratch);
     value[ROOT_PHASE] = run->scene.restitution ? run->contact.square : y[1];
-    value[ROOT_SLIP_END] = y[1] - run->slip_end;
+    value[ROOT_SLIP_END] = run->shears ? 1 : y[1] - run->slip_end; /* behind it D' may stay there: refused by CVODE */
     value[ROOT_ENTRY] = value[ROOT_EXIT] = 1;
     if (run->log && run->setup->n_nodes > 0) {
         if (!run->scene.restitution && run->next_entry < run->setup->n_nodes)

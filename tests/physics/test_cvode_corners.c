@@ -51,12 +51,56 @@ static void gross_slip_may_end_at_the_turning_point(void **state)
     }
 }
 
+/* Without the ledger, which takes as long as a hundred pairs at large chi. */
+static double ex_of(restitute_options options, const restitute_impact *impact)
+{
+    restitute_solver *solver;
+    restitute_result result;
+    restitute_error error;
+    restitute_result_init(&result);
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_solve(solver, impact, &result, NULL, NULL, &error) >= 0, "%s", error.message);
+    restitute_solver_destroy(solver);
+    return result.ex;
+}
+
+/* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1, or by rounding 1. An end
+ * that is missed gives e_x off by up to 2: 1e-2 is enough. */
+static void gross_slip_may_end_at_first_touch(void **state)
+{
+    const double chi[] = {0.51, 7.0 / 6, 14.5, 1000}, eps = 2.220446049250313e-16;
+    const double above[] = {eps, 6 * eps, 20 * eps, 1e-13, 1.1e-12, 1e-9};
+    (void)state;
+    for (size_t i = 0; i < sizeof above / sizeof *above; i++)
+        for (int k = 0; k < 8; k++) {
+            const restitute_impact impact = impact_of(chi[k / 2], 1 + above[i], k % 2 ? 0.3 : 0, 0.1);
+            const double ex = ex_of(sync_to(1e-3), &impact);
+            CHECK_NEAR(ex_of(cvode_to(1e-2), &impact), ex, 1.1e-2, "chi %g, psi - 1 = %g, delta1 %g", impact.chi,
+                       above[i], impact.delta1);
+        }
+}
+
+/* Just below psi_c it ends where the contact does: D' hardly changes any more. */
+static void gross_slip_may_end_with_the_contact(void **state)
+{
+    (void)state;
+    for (double off = 1e-15; off < 1e-3; off *= 10)
+        for (int i = 0; i < 3; i++) {
+            restitute_impact impact = impact_of(1.743 + i, 1e9, 0.5 * i, 1);
+            const double ez = solve_impact(cvode_to(1e-5), impact).result.ez;
+            impact.psi = restitute_critical_psi(impact.chi, ez) * (1 - off);
+            compare(impact);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slip_passes_through_a_contact_that_relaxes_at_once),
         cmocka_unit_test(strong_friction_leaves_thin_rings_of_slip),
         cmocka_unit_test(gross_slip_may_end_at_the_turning_point),
+        cmocka_unit_test(gross_slip_may_end_at_first_touch),
+        cmocka_unit_test(gross_slip_may_end_with_the_contact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -199,6 +199,25 @@ static void gross_slip_ends_everywhere_at_once(void **state)
         }
 }
 
+/* Rounding of the caller does not decide on how a contact begins: psi within 1e-12 of 1 is 1, to the bit. */
+static void psi_within_rounding_of_1_is_1(void **state)
+{
+    (void)state;
+    const double eps = 2.220446049250313e-16, off[] = {-9e-13, -eps, eps, 5 * eps, 20 * eps, 9e-13};
+    restitute_options options[] = {as_told(16, 0), to_tolerance(1e-5)};
+    options[1].method = restitute_method_sync();
+    for (int m = 0; m < 2; m++)
+        for (int k = 0; k < n_solids; k++)
+            for (int i = 0; i < n_chis; i++) {
+                const double ex = solve_impact(options[m], impact_with(&solids[k], chis[i], 1)).result.ex;
+                for (size_t j = 0; j < sizeof off / sizeof *off; j++) {
+                    const double near = solve_impact(options[m], impact_with(&solids[k], chis[i], 1 + off[j])).result.ex;
+                    CHECK(near == ex, "%s, chi %g, psi - 1 = %g: %.17g, not %.17g", solids[k].name, chis[i], off[j],
+                          near, ex);
+                }
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -207,6 +226,7 @@ int main(void)
         cmocka_unit_test(psi_c_is_2_chi_1_plus_ez_minus_ez),
         cmocka_unit_test(contact_begins_in_stick_if_and_only_if_psi_is_at_most_1),
         cmocka_unit_test(gross_slip_ends_everywhere_at_once),
+        cmocka_unit_test(psi_within_rounding_of_1_is_1),
     };
     return cmocka_run_group_tests(tests, make_solids, destroy_solids);
 }
