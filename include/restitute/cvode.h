@@ -16,7 +16,9 @@
  *
  *  A failure of CVODE itself is ERROR_INTEGRATOR with CVODE's words in the message. The method chooses its steps: `time_step`
  *  must be 0. `elements` gives the number of elements over the largest contact radius, 4 to 16384; half as many are run for the error
- *  estimate. CVODE allocates its own memory in every call; where there is none left, what SUNDIALS does is its own matter.
+ *  estimate. CVODE allocates its own memory in every call. Where there is none left, that is ERROR_MEMORY. Two functions of
+ *  SUNDIALS 6.4 do more: SUNContext_Create crashes where the table of its logger is missing, and CVodeCreate writes to
+ *  standard error.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */

@@ -19,7 +19,15 @@
 
 enum { TEXT_SIZE = 200 };
 
+/* Vectors of an integrator: CVODE 6.4 takes 25, and one that took more than there are would work in no call at all. */
+enum { VECTORS = 64 };
+
 struct integrator {
+    struct _generic_N_Vector_Ops operations; /* of all vectors; first, so that these lead to their integrator */
+    struct _generic_N_Vector vector[VECTORS];
+    struct _N_VectorContent_Serial content[VECTORS];
+    double *values;
+    int vectors; /* in use */
     struct integrator_system system;
     SUNContext context;
     void *cvode;
@@ -94,6 +102,41 @@ static int call_weights(N_Vector y, N_Vector weight, void *data)
     return 0;
 }
 
+/* Where there is no memory, N_VClone writes to the vector that is missing, and CVodeInit and CVodeFree both destroy those that
+ * there are. So all are allocated at once, before CVODE asks, and stay until the end. */
+static N_Vector clone_vector(N_Vector like)
+{
+    struct integrator *g = (struct integrator *)like->ops;
+    return g->vectors < VECTORS ? &g->vector[g->vectors++] : NULL;
+}
+
+static void keep_vector(N_Vector vector)
+{
+    (void)vector;
+}
+
+/* Nonzero: no memory. */
+static int make_vectors(struct integrator *g)
+{
+    const size_t n = (size_t)g->system.n_states;
+    N_Vector serial = N_VNewEmpty_Serial(g->system.n_states, g->context);
+    g->values = calloc(VECTORS * n, sizeof *g->values);
+    if (serial) {
+        g->operations = *serial->ops;
+        N_VDestroy(serial);
+    }
+    if (!serial || !g->values) return 1;
+    g->operations.nvclone = clone_vector;
+    g->operations.nvdestroy = keep_vector;
+    for (size_t i = 0; i < VECTORS; i++) {
+        g->content[i] = (struct _N_VectorContent_Serial){.length = g->system.n_states, .data = g->values + i * n};
+        g->vector[i] =
+            (struct _generic_N_Vector){.content = &g->content[i], .ops = &g->operations, .sunctx = g->context};
+    }
+    g->y = &g->vector[g->vectors++];
+    return 0;
+}
+
 /* The linear solver: it holds its matrix itself, and CVODE tells it gamma and where it is. */
 static SUNLinearSolver_Type linear_type(SUNLinearSolver solver)
 {
@@ -145,7 +188,9 @@ static int make_solvers(struct integrator *g)
     if (!g->nonlinear) return RESTITUTE_ERROR_MEMORY;
     const int status = status_of(CVodeSetNonlinearSolver(g->cvode, g->nonlinear));
     if (status || adams) return status;
-    return make_linear(g) ? RESTITUTE_ERROR_MEMORY : status_of(CVodeSetLinearSolver(g->cvode, g->linear, NULL));
+    if (make_linear(g)) return RESTITUTE_ERROR_MEMORY;
+    const int flag = CVodeSetLinearSolver(g->cvode, g->linear, NULL);
+    return flag == CVLS_MEM_FAIL ? RESTITUTE_ERROR_MEMORY : status_of(flag);
 }
 
 static int watch_roots(struct integrator *g)
@@ -182,8 +227,7 @@ int rst_integrator_create(const struct integrator_system *system, double t, cons
     g->system = *system;
     g->direction = malloc(roots * sizeof *g->direction);
     g->events = calloc(roots, sizeof *g->events);
-    if (g->direction && g->events && make_context(g) == 0) g->y = N_VNew_Serial(system->n_states, g->context);
-    if (g->y) {
+    if (g->direction && g->events && make_context(g) == 0 && make_vectors(g) == 0) {
         memcpy(NV_DATA_S(g->y), y, (size_t)system->n_states * sizeof *y);
         for (size_t i = 0; i < roots; i++)
             g->direction[i] = -1;
@@ -205,8 +249,8 @@ void rst_integrator_destroy(struct integrator *g)
     if (g->cvode) CVodeFree(&g->cvode);
     if (g->nonlinear) SUNNonlinSolFree(g->nonlinear);
     if (g->linear) SUNLinSolFreeEmpty(g->linear);
-    if (g->y) N_VDestroy(g->y);
     if (g->context) SUNContext_Free(&g->context);
+    free(g->values);
     free(g->direction);
     free(g->events);
     free(g);

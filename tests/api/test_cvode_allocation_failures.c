@@ -1,0 +1,83 @@
+/* Every allocation of the method cvode fails in turn, those of CVODE too: ERROR_MEMORY, outputs untouched, and the same
+ * solver gives the right result afterwards, bit by bit, and leaves nothing behind. Only those of SUNContext_Create are
+ * spared: SUNDIALS 6.4 crashes there (cvode.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
+#include "../support/failing_allocator.h"
+
+#include "../support/cvode.h"
+
+enum { samples = 20, events = 30 };
+
+static restitute_solver *solver;
+static restitute_impact impact;
+static restitute_error error;
+static int keeps_ledger;
+
+static void create(void)
+{
+    const restitute_options options = cvode_to(0.1);
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+}
+
+static void destroy(void)
+{
+    restitute_solver_destroy(solver);
+}
+
+struct outputs {
+    restitute_result result;
+    restitute_ledger ledger;
+    restitute_history history;
+    restitute_cvode_events events;
+    restitute_cvode_event event[events];
+    double force[samples];
+};
+
+static int solve(struct given *given)
+{
+    static struct outputs o, fresh;
+    int status;
+    memset(&o, 0, sizeof o); /* the padding too */
+    restitute_result_init(&o.result);
+    restitute_ledger_init(&o.ledger);
+    restitute_history_init(&o.history);
+    restitute_cvode_events_init(&o.events);
+    o.history.capacity = samples;
+    o.history.tangential_force = o.force;
+    o.events.capacity = events;
+    o.events.event = o.event;
+    memcpy(&fresh, &o, sizeof o);
+    ARMED(status, restitute_cvode_solve(solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history,
+                                        &o.events, &error));
+    CHECK(status >= 0 || memcmp(&o, &fresh, sizeof o) == 0, "outputs touched");
+    if (status < 0) return status;
+    give(given, o.result.ez);
+    give(given, o.result.ex);
+    give(given, o.ledger.friction_x);
+    give(given, (double)o.events.count);
+    for (int i = 0; i < samples; i++)
+        give(given, o.force[i]);
+    for (int i = 0; i < events; i++)
+        give(given, o.event[i].time);
+    return status;
+}
+
+static void method_cvode(void **state)
+{
+    (void)state;
+    if (!CAN_FAIL) skip();
+    spare("SUNContext_Create");
+    impact = impact_of(7.0 / 6, 1.5, 0.3, 1e-3); /* gross slip, and backward differentiation */
+    fail_each_allocation(&(struct subject){"without a ledger", create, solve, destroy, 32, 0});
+    impact = impact_of(7.0 / 6, 0.5, 1, 1); /* stick, and Adams' formulas */
+    keeps_ledger = 1;
+    fail_each_allocation(&(struct subject){"with a ledger", create, solve, destroy, 12, 0});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(method_cvode)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
