@@ -60,9 +60,9 @@ static void given_solid(const restitute_material *material, struct rst_solid *so
     }
 }
 
-/* psi this close to 0 or 1 is that value: a few roundings of the caller, some 1e-15, do not decide on how a contact begins,
- * nor does the end of gross slip, 1 - D' = (psi - 1)/(2 chi - 1), drown in the rounding of D' (chi <= 1000). It changes
- * e_x by less than any tolerance: |de_x/dpsi| <= 2 on both sides of 1. */
+/* psi this close to 0 or 1 is that value. The caller's rounding, some 1e-15, does not decide on how a contact begins, and
+ * the end of gross slip, 1 - D' = (psi - 1)/(2 chi - 1), is not lost in the rounding of D' (chi <= 1000). e_x changes by
+ * less than any tolerance: |de_x/dpsi| <= 2 on both sides of 1. */
 static const double psi_rounding = 1e-12;
 
 void rst_set_sliding(double given, struct rst_problem *problem)

@@ -102,8 +102,8 @@ static int call_weights(N_Vector y, N_Vector weight, void *data)
     return 0;
 }
 
-/* Where there is no memory, N_VClone writes to the vector that is missing, and CVodeInit and CVodeFree both destroy those that
- * there are. So all are allocated at once, before CVODE asks, and stay until the end. */
+/* Where there is no memory, N_VClone writes to the vector that is missing, and CVodeInit and CVodeFree both destroy
+ * those that there are. So all are allocated at once, before CVODE asks, and stay until the end. */
 static N_Vector clone_vector(N_Vector like)
 {
     struct integrator *g = (struct integrator *)like->ops;

@@ -64,8 +64,8 @@ static double ex_of(restitute_options options, const restitute_impact *impact)
     return result.ex;
 }
 
-/* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1, or by rounding 1. An end
- * that is missed gives e_x off by up to 2: 1e-2 is enough. */
+/* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1, or by rounding 1. If
+ * that end is missed, e_x is off by up to 2: 1e-2 is enough. */
 static void gross_slip_may_end_at_first_touch(void **state)
 {
     const double chi[] = {0.51, 7.0 / 6, 14.5, 1000}, eps = 2.220446049250313e-16;

@@ -211,9 +211,10 @@ static void psi_within_rounding_of_1_is_1(void **state)
             for (int i = 0; i < n_chis; i++) {
                 const double ex = solve_impact(options[m], impact_with(&solids[k], chis[i], 1)).result.ex;
                 for (size_t j = 0; j < sizeof off / sizeof *off; j++) {
-                    const double near = solve_impact(options[m], impact_with(&solids[k], chis[i], 1 + off[j])).result.ex;
-                    CHECK(near == ex, "%s, chi %g, psi - 1 = %g: %.17g, not %.17g", solids[k].name, chis[i], off[j],
-                          near, ex);
+                    const restitute_impact next = impact_with(&solids[k], chis[i], 1 + off[j]);
+                    const double found = solve_impact(options[m], next).result.ex;
+                    CHECK(found == ex, "%s, chi %g, psi - 1 = %g: %.17g, not %.17g", solids[k].name, chis[i], off[j],
+                          found, ex);
                 }
             }
 }

@@ -30,8 +30,8 @@
 #endif
 
 /* Allocations are counted while armed, with `ours_alone` those that our libraries and libcsv ask for themselves; number
- * `failing` fails, and with `for_good` all behind it, but none below `spared`, a function of a library that crashes then.
- * `live`: blocks not yet freed. One thread. Volatile, since compilers take malloc for a function that changes no variable. */
+ * `failing` fails, and with `for_good` all behind it. None fails within the function `spared`, see spare(). `live`: blocks
+ * not yet freed. One thread. Volatile, since compilers take malloc for a function that changes no variable. */
 static volatile struct {
     int armed, ours_alone, for_good;
     long count, failing, live;
@@ -127,6 +127,7 @@ SEEN_BY_LIBRARIES void free(void *block)
 }
 #endif
 
+/* From now on nothing fails within this function, of a library that would crash. */
 static inline void spare(const char *function)
 {
 #if CAN_FAIL
