@@ -73,10 +73,10 @@ static void gross_slip_may_end_at_first_touch(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof above / sizeof *above; i++)
         for (int k = 0; k < 8; k++) {
-            const restitute_impact impact = impact_of(chi[k / 2], 1 + above[i], k % 2 ? 0.3 : 0, 0.1);
+            const restitute_impact impact = impact_of(chi[k / 2], 1 + above[i], 0.3, k % 2 ? 0.1 : 0);
             const double ex = ex_of(sync_to(1e-3), &impact);
-            CHECK_NEAR(ex_of(cvode_to(1e-2), &impact), ex, 1.1e-2, "chi %g, psi - 1 = %g, delta1 %g", impact.chi,
-                       above[i], impact.delta1);
+            CHECK_NEAR(ex_of(cvode_to(1e-2), &impact), ex, 1.1e-2, "chi %g, psi - 1 = %g, gamma %g", impact.chi,
+                       above[i], impact.gamma);
         }
 }
 
