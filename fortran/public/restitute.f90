@@ -132,6 +132,7 @@ module restitute
     integer(c_int64_t) :: elements = 0
     real(c_double) :: time_step = 0
     integer(c_int64_t) :: max_updates = 0
+    real(c_double) :: time_limit = 0
     real(c_double) :: speed_limit = 0, radius_limit = 0, displacement_limit = 0, dundurs_limit = 0
   end type restitute_options
 

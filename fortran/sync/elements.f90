@@ -15,12 +15,10 @@ module rst_sync_walk
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
   use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
-                                   c_force, measure_step, relax, friction_force, move_elements, weighted_sum
+                                   c_force, mass_factor, measure_step, relax, friction_force, move_elements, weighted_sum
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, walk_level_type, walk_shear_type, columns, follow_elements
-
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
 
   !> The normal motion at a level; step: time since the level before. Twin of `struct walk_level` in C.
   type, bind(c) :: walk_level_type
@@ -56,14 +54,16 @@ contains
     type(ledger_type), intent(out) :: ledger
     type(account_type) :: account
     type(step_type) :: step
+    real(dp) :: stuck
     integer(ip) :: l
     body = 0
     stress = 0
     do l = 0, min(walk%start, walk%end)  ! gross slip
       shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force)
     end do
+    stuck = 0
     do l = 0, walk%end - 1
-      call measure_step(walk, g, tau, l, level(l + 1)%step, term, step)
+      call measure_step(walk, g, tau, l, level(l + 1)%step, stuck, term, step)
       term(0)%normal = walk%g_inf*level(l)%depth
       term(1:)%normal = memory(:, l)
       if (l < walk%n) &
@@ -73,7 +73,7 @@ contains
       call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
       call step_normal(walk, l, level, step, body, account)
       if (l >= walk%start) &
-        call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account)
+        call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account, stuck)
       if (l >= walk%n) call leave_contact(walk, step%last, term, body(:, c_weight), stress, account)
     end do
     call close_accounts(walk, level(min(walk%start, walk%end))%velocity, account, ledger)
@@ -138,7 +138,7 @@ contains
   end subroutine step_normal
 
   !> From level l to the next one in x.
-  pure subroutine step_shear(walk, l, level, shear, term, step, body, stress, account)
+  pure subroutine step_shear(walk, l, level, shear, term, step, body, stress, account, stuck)
     type(walk_type), intent(in) :: walk
     integer(ip), intent(in) :: l
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
@@ -147,6 +147,7 @@ contains
     type(step_type), intent(in) :: step
     real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms)
     type(account_type), intent(inout) :: account
+    real(dp), intent(out) :: stuck  !! weight of the elements that stick
     type(rim_type) :: rim
     real(dp) :: share, friction, work
     body(0:step%top, c_trial) = body(0:step%top, c_trial) &
@@ -161,7 +162,7 @@ contains
     share = merge(level(l + 1)%force/max(share, tiny(share)), 1.0_dp, share > 0)
     if (walk%no_slip /= 0) body(0:step%top, c_limit) = huge(1.0_dp)
     if (walk%no_slip /= 0) rim%limit = huge(1.0_dp)
-    call find_velocity(walk, level(l:l + 1), share, rim, step, body, shear)
+    call find_velocity(walk, level(l:l + 1), share, rim, step, body, shear, stuck)
     call move_elements(walk, term, step, shear%velocity, body, stress, friction, work)
     account%friction = account%friction + friction
     account%work_x = account%work_x + work
@@ -171,7 +172,7 @@ contains
   !>
   !> U'(1) = U'(0) - push ((1 - w) S(0) + w S(1)), where push makes the impulse of N exact. w = 1/2 + z/12 + ... is
   !> exact for U'' = -z U'/h: with 1/2, U' would swing where dashpots hold the sphere within a step (large z).
-  pure subroutine find_velocity(walk, level, share, rim, step, body, shear)
+  pure subroutine find_velocity(walk, level, share, rim, step, body, shear, stuck)
     type(walk_type), intent(in) :: walk
     type(walk_level_type), intent(in) :: level(0:1)
     real(dp), intent(in) :: share  !! N over its sum
@@ -179,6 +180,7 @@ contains
     type(step_type), intent(in) :: step
     real(dp), intent(in) :: body(0:walk%capacity - 1, columns)
     type(walk_shear_type), intent(inout) :: shear(0:1)
+    real(dp), intent(out) :: stuck  !! weight of the elements that stick, as the force has it
     integer(ip), parameter :: most_trials = 60  !! halvings that exhaust all digits
     real(dp), parameter :: tolerance = 1.0e-13_dp  !! of psi: above rounding
     type(memory_type) :: m
@@ -186,7 +188,7 @@ contains
     integer(ip) :: trial
     m = memory_of(2*mass_factor*walk%chi*step%h*step%viscous*max(level(0)%radius, level(1)%radius))
     w = m%phi2/m%phi1
-    push = 2*walk%chi*(level(0)%velocity - level(1)%velocity)/((1 - w)*level(0)%force + w*level(1)%force)
+    push = step%swing/step%h*2*walk%chi*(level(0)%velocity - level(1)%velocity)/((1 - w)*level(0)%force + w*level(1)%force)
     v = shear(0)%velocity
     if (level(0)%force > 0) v = v - 2*walk%chi*(level(0)%velocity - level(1)%velocity)*shear(0)%force/level(0)%force
     if (walk%prescribed /= 0) v = shear(1)%velocity
@@ -208,6 +210,7 @@ contains
       if (abs(change) <= tolerance*walk%psi) exit
     end do
     shear(1) = walk_shear_type(v, force)
+    stuck = slope/step%end_response
   end subroutine find_velocity
 
   !> What an element took up and does not hold when it leaves was dissipated in it. Gross slip, until the sphere had

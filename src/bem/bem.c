@@ -304,10 +304,11 @@ static int solve_as_told(struct impact *impact, struct rst_outcome *outcome, res
     return met(impact, outcome) ? RESTITUTE_OK : not_reached(impact, outcome, error);
 }
 
-/* A run costs about ten times the one before. */
-static int too_much(const struct impact *impact, int64_t last)
+/* A run costs about ten times the one before, which began with `left` seconds. */
+static int too_much(const struct impact *impact, int64_t last, double left)
 {
-    return (double)impact->updates + 10 * (double)last > (double)impact->problem->max_updates;
+    return rst_lacks_time(impact->problem, 10, left) ||
+           (double)impact->updates + 10 * (double)last > (double)impact->problem->max_updates;
 }
 
 static int solve_refining(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
@@ -321,6 +322,7 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
     for (double elements = first_elements; elements <= most_elements; elements *= 2) {
         step = duration / steps_wanted(impact, elements);
         const int64_t before = impact->updates;
+        const double left = rst_time_left(impact->problem);
         end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
         if (end == BEM_NO_MEMORY) break;
         if ((end == BEM_REBOUND || end == BEM_SUNK) && coarse.end == end) {
@@ -333,7 +335,7 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
             found = 1;
         }
         coarse = run;
-        if (too_much(impact, impact->updates - before)) break;
+        if (too_much(impact, impact->updates - before, left)) break;
     }
     return found ? not_reached(impact, outcome, error) : no_result(impact, end, step, error);
 }
@@ -417,11 +419,11 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
 }
 
 const struct restitute_method rst_bem_base_method = {
-    .name = "bem", .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record};
+    .name = "bem", .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record};
 
 #define BASE(its_name)                                                                                                 \
     {                                                                                                                  \
-        .name = its_name, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record         \
+        .name = its_name, .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record         \
     }
 static const struct bem_method standard = {.base = BASE("bem")};
 static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),

@@ -31,6 +31,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_ELEMENTS] = "elements",
     [TEXT_TIME_STEP] = "time-step",
     [TEXT_MAX_UPDATES] = "max-updates",
+    [TEXT_TIME_LIMIT] = "time-limit",
     [TEXT_FORMAT] = "format",
     [TEXT_INPUT] = "input",
     [TEXT_OUTPUT] = "output",
@@ -70,6 +71,8 @@ static struct poptOption solution_options[] = {
     OPTION("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP",
           "in T, or in s with a material; > 0; default chosen; not with sync"),
     OPTION("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
+    OPTION("time-limit", CODE_TEXT + TEXT_TIME_LIMIT, "SECONDS",
+          "processor time an impact may take; 0 (default): 1, no limit with --elements, --time-step or bem"),
     OPTION("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
           "normal speed over wave speed that is told; default 0.1"),
     OPTION("radius-limit", CODE_TEXT + TEXT_RADIUS_LIMIT, "RATIO",
@@ -204,6 +207,7 @@ static bool read_solver(struct settings *settings, struct reason *why)
         !read_bounded(settings, TEXT_ELEMENTS, 4, 1e6, true, &elements, why) ||
         !read_bounded(settings, TEXT_TIME_STEP, 1e-300, 1e300, false, &step, why) ||
         !read_bounded(settings, TEXT_MAX_UPDATES, 1, 1e18, true, &updates, why) ||
+        !read_bounded(settings, TEXT_TIME_LIMIT, 0, INFINITY, false, &solver->time_limit, why) ||
         !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why) ||
         !read_bounded(settings, TEXT_THREADS, 1, 1024, true, &threads, why) ||
         !read_bounded(settings, TEXT_SPEED_LIMIT, 0, INFINITY, false, &solver->speed_limit, why) ||

@@ -15,6 +15,7 @@ enum text_option {
     TEXT_ELEMENTS,
     TEXT_TIME_STEP,
     TEXT_MAX_UPDATES,
+    TEXT_TIME_LIMIT,
     TEXT_FORMAT,
     TEXT_INPUT,
     TEXT_OUTPUT,

@@ -89,6 +89,10 @@ json_t *provenance_settings(const struct settings *settings, const struct cases 
     json_object_set_new(object, "time_step",
                         solver->time_step > 0 ? json_real(solver->time_step) : json_string("chosen"));
     json_object_set_new(object, "max_updates", json_integer(solver->max_updates));
+    json_object_set_new(object, "time_limit_s",
+                        solver->time_limit <= 0         ? json_string("default")
+                        : solver->time_limit < INFINITY ? json_real(solver->time_limit)
+                                                        : json_string("none"));
     json_object_set_new(object, "values", given_values(&settings->values));
     json_object_set_new(object, "material", given_material(settings->values.material, "material", cases, materials));
     json_object_set_new(object, "partner", given_material(settings->values.partner, "partner", cases, materials));

@@ -24,6 +24,9 @@ static const double acceptance = 0.8;
  * that does not. A count and not a clock: equal calls say the same. */
 static const int64_t slow_updates = 1000000000;
 
+/* Some milliseconds. */
+static const int64_t updates_between_looks = 4000000;
+
 /* Of the largest stable step, for the coarsest level. */
 static const double stability_margin = 0.5;
 
@@ -126,6 +129,20 @@ static void advance(const struct euler_scene *scene, const struct layout *l, int
                        l->q_before, n_steps, state);
 }
 
+/* As many steps as the limits allow. Returned is whether there is no time left. */
+static int advance_within(const struct rst_problem *problem, const struct euler_scene *scene, const struct layout *l,
+                          int64_t updates, struct run *run)
+{
+    const int64_t of_step = run->elements * (1 + problem->solid.n_terms);
+    const int64_t most = (problem->max_updates - updates) / of_step + 1, piece = updates_between_looks / of_step + 1;
+    while (run->state.phase < RST_DONE && run->state.n_steps < most) {
+        if (rst_time_left(problem) <= 0) return 1;
+        const int64_t rest = most - run->state.n_steps;
+        advance(scene, l, rest < piece ? rest : piece, &run->state);
+    }
+    return 0;
+}
+
 /* One impact at one resolution. */
 static int run_once(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                     int keep_ledger, int64_t *updates, struct run *run, restitute_error *error)
@@ -135,10 +152,8 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     if (prepare(problem, workspace, scout, run, keep_ledger, &scene, &l))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %lld elements", (long long)run->elements);
     rst_start_impact(&scene, &run->state, l.x2);
-    int64_t cost = 1 + problem->solid.n_terms;
-    int64_t affordable = (problem->max_updates - *updates) / cost / run->elements + 1;
-    advance(&scene, &l, affordable, &run->state);
-    *updates += run->state.n_updates * cost;
+    const int late = advance_within(problem, &scene, &l, *updates, run);
+    *updates += run->state.n_updates * (1 + problem->solid.n_terms);
     if (run->state.phase == RST_STALLED)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "rebound too slow: steps of %.3g %s are lost in the rounding of the indentation; "
@@ -150,8 +165,8 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
                           run->step * problem->time_unit, problem->unit_name);
     if (run->state.phase < RST_DONE)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_updates = %lld: reached after %lld steps of %.3g %s; raise it or take the method sync",
-                          (long long)problem->max_updates, (long long)run->state.n_steps,
+                          "%s: reached after %lld steps of %.3g %s; raise it or take the method sync",
+                          rst_spent(problem, late).text, (long long)run->state.n_steps,
                           run->step * problem->time_unit, problem->unit_name);
     return RESTITUTE_OK;
 }
@@ -223,11 +238,12 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     struct run last = {.elements = elements_to_start(problem)}, now;
     double before_ez = 0, before_ex = 0, ez, ex;
     int64_t updates = 0;
-    int found = 0;
+    int found = 0, late = 0;
     last.step = fmin(scout->time / (steps_per_element * (double)last.elements), stability_margin * scout->stable_step);
     if (scout->sinks) last.step *= 0.25; /* the scout's time is that of the decay, not of the impact */
     int status = run_once(problem, workspace, scout, keep_ledger, &updates, &last, error);
     for (int level = 1; !status; level++) {
+        const double left = rst_time_left(problem);
         now = (struct run){.elements = 2 * last.elements, .step = last.step / 2};
         status = run_once(problem, workspace, scout, keep_ledger, &updates, &now, error);
         if (status) break;
@@ -240,16 +256,18 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
             found = 1;
             if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
                 return finish(problem, outcome, error);
+            late = rst_lacks_time(problem, 4, left); /* twice the elements, twice the steps */
+            if (late) break;
         }
         before_ez = ez;
         before_ex = ex;
         last = now;
     }
-    if (!found || status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+    if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent; "
-                      "the method sync needs fewer",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent; the method sync is faster",
+                      problem->tolerance, outcome->error_ez, outcome->error_ex,
+                      rst_spent(problem, late || rst_time_left(problem) <= 0).text);
 }
 
 static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,
@@ -378,4 +396,4 @@ static int euler_record(const struct rst_problem *problem, struct rst_workspace 
 }
 
 const struct restitute_method rst_method_euler = {
-    .name = "euler", .takes_time_step = 1, .solve = euler_solve, .record = euler_record};
+    .name = "euler", .time_limit = 1, .takes_time_step = 1, .solve = euler_solve, .record = euler_record};

@@ -8,6 +8,7 @@
 
 struct restitute_method {
     const char *name;
+    double time_limit; /* s, where the options have none */
     /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none
      * left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);

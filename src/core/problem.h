@@ -3,6 +3,9 @@
 #ifndef RST_PROBLEM_H
 #define RST_PROBLEM_H
 
+#include <math.h>
+#include <stdio.h>
+
 #include <restitute/restitute.h>
 
 #include "kernels.h"
@@ -27,7 +30,39 @@ struct rst_problem {
     double time_unit;      /* T in the caller's unit, for messages */
     const char *unit_name; /* of time */
     int64_t max_updates;
+    double time_limit;     /* s */
+    double (*clock)(void); /* rst_clock(), for methods of other libraries too; NULL: no limit of time */
+    double deadline;       /* of clock() */
 };
+
+/* Seconds that are left. */
+static inline double rst_time_left(const struct rst_problem *problem)
+{
+    return problem->clock ? problem->deadline - problem->clock() : INFINITY;
+}
+
+/* Whether there is no time for `times` as much as was done since `before` seconds were left. */
+static inline int rst_lacks_time(const struct rst_problem *problem, double times, double before)
+{
+    if (!problem->clock) return 0;
+    const double left = rst_time_left(problem);
+    return left < times * (before - left);
+}
+
+/* A limit that is spent, as messages name it. */
+struct rst_limit {
+    char text[48];
+};
+
+static inline struct rst_limit rst_spent(const struct rst_problem *problem, int by_time)
+{
+    struct rst_limit limit;
+    if (by_time)
+        snprintf(limit.text, sizeof limit.text, "time_limit = %g s", problem->time_limit);
+    else
+        snprintf(limit.text, sizeof limit.text, "max_updates = %lld", (long long)problem->max_updates);
+    return limit;
+}
 
 /* What a method returns, in the same units. Velocities are those after the impact. */
 struct rst_outcome {
@@ -40,6 +75,7 @@ struct rst_outcome {
     int64_t elements, steps, updates;
     struct euler_ledger ledger;
     int sunk;
+    int late;         /* sync: the limit of time ended refinement */
     int halvings;     /* sync: those of the run that gave the pair */
     int without_slip; /* sync: slip was left out */
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clock.h"
 #include "euler.h"
 #include "material.h"
 #include "method.h"
@@ -77,6 +78,7 @@ static int check_options(const restitute_options *options, restitute_error *erro
     if (!status && options->max_updates <= 0)
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_updates = %lld: must be > 0",
                             (long long)options->max_updates);
+    if (!status) status = rst_check_range(options->time_limit, 0, INFINITY, "time_limit (s)", error);
     if (!status) status = rst_check_range(options->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(options->radius_limit, 0, INFINITY, "radius_limit", error);
     if (!status) status = rst_check_range(options->displacement_limit, 0, INFINITY, "displacement_limit", error);
@@ -145,11 +147,19 @@ static struct merged merge(struct rst_problem *problem, double window_factor)
     return merged;
 }
 
+/* Who prescribes the resolution has chosen what it takes. */
+static double time_limit(const restitute_options *o)
+{
+    if (o->time_limit > 0) return o->time_limit;
+    return o->elements > 0 || o->time_step > 0 ? INFINITY : o->method->time_limit;
+}
+
 /* Either kind of input, and what it needs to be turned into a problem. */
 struct input {
     const restitute_impact *impact;
     const restitute_scene *scene;
     restitute_numbers numbers;
+    double deadline;
 };
 
 static int make_problem(restitute_solver *solver, struct input *input, struct rst_problem *problem,
@@ -159,8 +169,13 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
     const restitute_material *solid = input->scene ? input->scene->material : input->impact->solid;
     if (rst_workspace_terms(&solver->workspace, solid ? solid->n_terms : 1))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", solid ? solid->n_terms : 1);
-    *problem = (struct rst_problem){
-        .method = o->method, .tolerance = o->tolerance, .elements = o->elements, .max_updates = o->max_updates};
+    *problem = (struct rst_problem){.method = o->method,
+                                    .tolerance = o->tolerance,
+                                    .elements = o->elements,
+                                    .max_updates = o->max_updates,
+                                    .time_limit = time_limit(o),
+                                    .clock = input->deadline < INFINITY ? rst_clock : NULL,
+                                    .deadline = input->deadline};
     problem->solid.g = solver->workspace.terms;
     problem->solid.tau = solver->workspace.terms + solver->workspace.terms_size / rst_term_arrays;
     int status = input->scene ? rst_problem_from_scene(input->scene, &input->numbers, problem, error)
@@ -248,6 +263,8 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     restitute_result found;
     restitute_result_init(&found);
     rst_done(error);
+    const double limit = time_limit(&solver->options);
+    input->deadline = limit < INFINITY ? rst_clock() + limit : limit;
     int status = solve_merged(solver, input, ledger != NULL, &problem, &outcome, &merged, error);
     if (status < 0) return status;
     if (history) {

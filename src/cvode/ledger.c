@@ -117,6 +117,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     all.radius = outcome->max_contact_radius;
     all.rebound = -outcome->velocity;
     all.budget = INT64_MAX;
+    all.until = INFINITY;
     keeper.held_z = calloc(4 * (size_t)all.n_nodes, sizeof(double));
     if (!keeper.held_z) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the ledger");
     keeper.held_x = keeper.held_z + all.n_nodes;

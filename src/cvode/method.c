@@ -56,6 +56,7 @@ static int record_with(const enum integrator_family *family, const struct rst_pr
         return record_with(family, problem, workspace, outcome, history, error);                                       \
     }                                                                                                                  \
     static const struct restitute_method identifier = {.name = word,                                                   \
+                                                       .time_limit = 1,                                                \
                                                        .reserve = reserve,                                             \
                                                        .records_between_steps = 1,                                     \
                                                        .solve = identifier##_solve,                                    \

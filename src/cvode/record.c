@@ -53,6 +53,7 @@ int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *mem
     setup.radius = outcome->max_contact_radius;
     setup.rebound = -outcome->velocity;
     setup.budget = INT64_MAX;
+    setup.until = INFINITY;
     history->samples[0] = (struct rst_sample){.velocity = 1, .shear_velocity = 1};
     history->count = 1;
     const int status = rst_run_follow(&run, &setup, &memory->trace, NULL);

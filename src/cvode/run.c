@@ -621,6 +621,14 @@ static int advance(struct run *run)
     return status;
 }
 
+/* The clock costs as much as the rates of a few elements. */
+static int is_late(struct run *run)
+{
+    const struct run_setup *s = run->setup;
+    enum { steps_between_looks = 16 };
+    return s->timed && s->timed->clock && run->checks++ % steps_between_looks == 0 && s->timed->clock() > s->until;
+}
+
 static int check_work(struct run *run)
 {
     const struct run_setup *s = run->setup;
@@ -634,6 +642,10 @@ static int check_work(struct run *run)
         run->spent = 1;
         snprintf(run->text, sizeof run->text, "max_updates = %lld: spent in a run with elements = %lld; raise it",
                  (long long)s->max_updates, (long long)s->n_nodes);
+    } else if (is_late(run)) {
+        run->spent = 1;
+        snprintf(run->text, sizeof run->text, "time_limit = %g s: spent in a run with elements = %lld; raise it",
+                 s->timed->time_limit, (long long)s->n_nodes);
     } else
         return RESTITUTE_OK;
     return RESTITUTE_ERROR_TOO_MUCH_WORK;

@@ -24,6 +24,8 @@ struct run_setup {
     enum integrator_family family;
     int64_t max_updates;             /* of the whole call, for messages */
     int64_t budget;                  /* of them, what this run may spend */
+    const struct rst_problem *timed; /* has the clock of the call; NULL: no limit of time */
+    double until;                    /* of that clock: when this run has to end */
     int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 
@@ -67,7 +69,9 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
-    int spent; /* the budget is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
+    int spent; /* a limit is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
+    int64_t checks; /* of work */
+    double seconds; /* that it took, of timed runs */
     char text[200];
 };
 

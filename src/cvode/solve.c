@@ -90,6 +90,8 @@ struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum i
                               .family = family ? *family : family_of(problem, depth),
                               .max_updates = problem->max_updates,
                               .budget = problem->max_updates,
+                              .timed = problem->clock ? problem : NULL,
+                              .until = problem->deadline,
                               .most_events = most_events,
                               .most_steps = most_steps};
 }
@@ -149,7 +151,9 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     struct run_setup with_elements = *setup;
     with_elements.n_nodes = n;
     *run = (struct run){0};
+    const double begin = setup->timed ? setup->timed->clock() : 0;
     const int status = rst_run_follow(run, &with_elements, &memory->trace, log);
+    if (setup->timed) run->seconds = setup->timed->clock() - begin;
     rst_run_release(run);
     add_work(memory, run);
     return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
@@ -214,6 +218,7 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
     for (ladder->halvings = 2;; ladder->halvings++) {
         ladder->n = halved(ladder->wanted, ladder->halvings);
         setup->budget = (setup->max_updates - memory->updates) / 8;
+        if (setup->timed) setup->until = setup->timed->deadline - rst_time_left(setup->timed) * 7 / 8;
         status = solve_elements(setup, ladder->n, memory, NULL, &ladder->run[2], error);
         if (!ladder->run[2].spent || ladder->n == 1) return status;
     }
@@ -223,6 +228,7 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
  * of them. Once more as much is left for coarser ones. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
+    if (setup->timed && rst_time_left(setup->timed) < 5 * ladder->run[2].seconds) return 0;
     return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
 }
 
@@ -232,6 +238,7 @@ static int climb(struct run_setup *setup, struct cvode_memory *memory, struct la
     struct run next;
     const int64_t n = ladder->halvings > 0 ? halved(ladder->wanted, ladder->halvings - 1) : 2 * ladder->n;
     setup->budget = setup->max_updates - memory->updates - ladder->run[2].updates;
+    if (setup->timed) setup->until = setup->timed->deadline - ladder->run[2].seconds;
     const int status = solve_elements(setup, n, memory, NULL, &next, error);
     if (status) return status;
     ladder->run[0] = ladder->run[1];
@@ -256,6 +263,7 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     for (; runs < 3; runs++) { /* run[2], and run[1] if there are two, have been done */
         const int place = 2 - runs;
         setup->budget = setup->max_updates - memory->updates;
+        setup->until = INFINITY; /* each takes a quarter of the one before */
         status = solve_elements(setup, halved(ladder->wanted, ladder->halvings + runs), memory, NULL,
                                 &ladder->run[place], error);
         if (status) return status;
@@ -282,7 +290,8 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
         if (ladder.halvings == 0 && (problem->elements > 0 || 2 * ladder.n > most_elements))
             return too_coarse(problem, outcome, obstacle, error);
         if (!can_climb(setup, memory, &ladder)) {
-            snprintf(obstacle, sizeof obstacle, "max_updates = %lld: no more allowed", (long long)setup->max_updates);
+            const int late = setup->timed && rst_time_left(setup->timed) < 5 * ladder.run[2].seconds;
+            snprintf(obstacle, sizeof obstacle, "%s: no more allowed", rst_spent(problem, late).text);
             return too_coarse(problem, outcome, obstacle, error);
         }
         restitute_error failure;
@@ -339,6 +348,7 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.radius = outcome->max_contact_radius;
     all.rebound = -outcome->velocity;
     all.budget = INT64_MAX;
+    all.until = INFINITY;
     memory->log.count = 0;
     const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory,
                                       &memory->log, &run, error);

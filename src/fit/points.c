@@ -186,6 +186,7 @@ static void set_solver(struct rst_fit_data *d)
     restitute_options_init(&d->solver);
     d->solver.method = restitute_method_sync();
     d->solver.max_updates = 100000;
+    d->solver.time_limit = INFINITY; /* a clock would make fits differ */
 }
 
 int rst_fit_data_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,

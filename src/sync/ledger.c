@@ -45,7 +45,8 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
         sink(problem, outcome);
         return RESTITUTE_OK;
     }
-    const double least = rst_ledger_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
+    /* U' swings faster than D' */
+    const double least = fmin(rst_ledger_elements * sqrt(fmax(1, problem->chi)), rst_most_ledger_elements);
     const int64_t parts = 1 + (int64_t)least / run->normal.n_compression;
     if (rst_walk(motion, run, problem, sliding(problem, -outcome->velocity), parts, &walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");

@@ -55,6 +55,16 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
     outcome->walked = parts;
 }
 
+/* Whether twice the elements, which take four times as long, are worth it: rounding adds twice as much to the error. `left`:
+ * seconds before the last walk. */
+static int can_double(const struct rst_problem *problem, int64_t n, double left, struct rst_outcome *outcome)
+{
+    if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
+    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->psi) return 0;
+    outcome->late = rst_lacks_time(problem, 4, left);
+    return !outcome->late;
+}
+
 /* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
  * agree by chance, so that a part of the change before extrapolation counts, too: half of that if twice in a row it fell
  * to a quarter, as it does where all is regular. */
@@ -69,11 +79,12 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
                         (outcome->sunk ? 4 * problem->chi * ground->normal.left / problem->psi : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
-    const double first = rst_first_elements * sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D' */
+    const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
     int64_t parts = 1 + (int64_t)first / panels;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * panels);
     int status = walk_once(motion, problem, ground, parts, outcome, &coarse, error);
     while (!status) {
+        const double left = rst_time_left(problem);
         parts *= 2;
         status = walk_once(motion, problem, ground, parts, outcome, &now, error);
         if (status) break;
@@ -87,7 +98,9 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
             (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
-        if (problem->elements > 0 || (walked > 2 && rst_meets(problem, outcome)) || 2 * now.n > rst_most_elements) break;
+        if ((walked > 2 && rst_meets(problem, outcome)) ||
+            !can_double(problem, now.n, left, outcome))
+            return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;
     }
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;

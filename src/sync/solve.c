@@ -139,15 +139,15 @@ static int first_halvings(const struct rst_problem *problem)
     return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
-/* What is said of a result; `spent`: max_updates kept it from being refined. */
+/* What is said of a result; `spent`: a limit kept it from being refined. */
 static int conclude(const struct rst_problem *problem, int spent, const struct rst_outcome *outcome,
                     restitute_error *error)
 {
     if (rst_meets(problem, outcome)) return rst_done(error);
     if (spent)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when max_updates = %lld were spent",
-                          problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)problem->max_updates);
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent", problem->tolerance,
+                          outcome->error_ez, outcome->error_ex, rst_spent(problem, outcome->late).text);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->tolerance,
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
@@ -167,7 +167,7 @@ static int return_best(struct rst_motion *motion, const struct rst_problem *prob
 
 /* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again
  * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if
- * max_updates are spent and there is a result. */
+ * a limit is spent and there is a result. */
 static int refine_from(struct rst_motion *motion, const struct rst_problem *problem, int first, struct attempt *fine,
                        struct rst_outcome *outcome, restitute_error *error)
 {
@@ -175,7 +175,11 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     struct rst_outcome best = {.error_ez = INFINITY};
     int known = 0, walks = 0, tried = 0;
     for (int halvings = first; halvings <= rst_most_halvings; halvings++) {
-        const int status = attempt(motion, problem, halvings, &now, outcome, error);
+        const int late = rst_time_left(problem) <= 0;
+        const int status = late ? rst_sync_too_much_work(problem, error)
+                                : attempt(motion, problem, halvings, &now, outcome, error);
+        if (late && walks) break;
+        outcome->late = late;
         if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;
         if (status) return status;
         if (now.fails) continue;
@@ -254,6 +258,7 @@ static int solve(const struct rst_problem *problem, struct rst_workspace *worksp
     const int64_t updates = outcome->updates;
     struct rst_problem rest = *problem;
     rest.max_updates -= updates;
+    rest.clock = NULL; /* it takes next to nothing, and the time may be over */
     const int again = leave_out_slip(&rest, workspace, keep_ledger, outcome, error);
     outcome->updates += updates;
     return again;
@@ -293,6 +298,7 @@ static int sync_record(const struct rst_problem *problem, struct rst_workspace *
 }
 
 const struct restitute_method rst_method_sync = {.name = "sync",
+                                                 .time_limit = 1,
                                                  .reserve = reserve,
                                                  .records_between_steps = 1,
                                                  .solve = sync_solve,

@@ -12,7 +12,7 @@ static const double rst_share_of_change = 0.5;
 
 /* Two walks may agree by chance after extrapolation: the least part of the change before it that counts. Half of it does if
  * changes fall regularly, by a factor that is so close to 4. */
-static const double rst_share_by_chance = 0.1, rst_regular = 0.5;
+static const double rst_share_by_chance = 0.5, rst_regular = 0.5;
 
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. A coarser run that differs by no more
  * will do for walks. */
@@ -62,6 +62,6 @@ static const double rst_least_roughness = 1e-15;
 static const double rst_change_by_slip = 2;
 
 /* Panels of a motion that is not lost in rounding; elements of the last walk, and of the one that keeps the ledger. */
-enum { rst_most_panels = 4096, rst_most_elements = 16384, rst_ledger_elements = 256 };
+enum { rst_most_panels = 4096, rst_most_elements = 16384, rst_ledger_elements = 256, rst_most_ledger_elements = 3072 };
 
 #endif

@@ -21,8 +21,8 @@ static inline int rst_meets(const struct rst_problem *problem, const struct rst_
 
 static inline int rst_sync_too_much_work(const struct rst_problem *problem, restitute_error *error)
 {
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates = %lld: too few for this impact",
-                      (long long)problem->max_updates);
+    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "%s: too little for this impact",
+                      rst_spent(problem, rst_time_left(problem) <= 0).text);
 }
 
 #endif

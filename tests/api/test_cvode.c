@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../support/cvode.h"
+#include "../support/time_limit.h"
 
 static restitute_solver *make(restitute_options options)
 {
@@ -108,6 +109,14 @@ static void max_updates_ends_with_the_best_result(void **state)
         last_error = r.error_ex;
         restitute_solver_destroy(solver);
     }
+}
+
+/* Without a limit: a minute. */
+static void time_limit_ends_with_the_best_result(void **state)
+{
+    (void)state;
+    check_time_limit(cvode_to(1e-6), impact_of(388.75154582840514, 26.42748466847636, 1.8011568930709814, 0.049585286428120476),
+                     0.5);
 }
 
 static void arguments_are_checked(void **state)
@@ -258,6 +267,7 @@ int main(void)
         cmocka_unit_test(failures_touch_nothing),
         cmocka_unit_test(status_follows_the_reported_estimate),
         cmocka_unit_test(max_updates_ends_with_the_best_result),
+        cmocka_unit_test(time_limit_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),
         cmocka_unit_test(scenes_leave_out_what_they_do_not_need),

@@ -127,6 +127,7 @@ contains
     call offset("options%elements", c_loc(x%elements), c_loc(x))
     call offset("options%time_step", c_loc(x%time_step), c_loc(x))
     call offset("options%max_updates", c_loc(x%max_updates), c_loc(x))
+    call offset("options%time_limit", c_loc(x%time_limit), c_loc(x))
     call offset("options%speed_limit", c_loc(x%speed_limit), c_loc(x))
     call offset("options%radius_limit", c_loc(x%radius_limit), c_loc(x))
     call offset("options%displacement_limit", c_loc(x%displacement_limit), c_loc(x))

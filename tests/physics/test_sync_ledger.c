@@ -53,8 +53,8 @@ static void both_accounts_close(void **state)
             }
 }
 
-/* U' swings sqrt(chi) times as fast, and the walk has as many more elements. In an elastic contact friction takes what does not
- * come back, 0.0481 here; with elements capped at 4096 it was 0.0512. */
+/* U' swings sqrt(chi) times as fast. In an elastic contact friction takes what does not
+ * come back, 0.0480 here; without the phase of swings in the step it would be 0.0512 with 4096 elements. */
 static void friction_is_right_at_large_chi(void **state)
 {
     (void)state;

@@ -398,16 +398,21 @@ static void what_sticks_again_late_is_not_missed(void **state)
  * better. */
 static void large_chi_keeps_its_estimate(void **state)
 {
-    const double chis[] = {30, 300}; /* at 1000 a run to 1e-6 takes all elements that there are, a minute without optimisation */
+    const double chis[] = {30, 300}, psis[] = {0.5, 1.2, 2, 4};
+    int low = 0;
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        const restitute_impact impact = impact_of(chis[i], 2, 1, 1);
+    for (int i = 0; i < 8; i++) {
+        const restitute_impact impact = impact_of(chis[i / 4], psis[i % 4], 1, 1);
         const restitute_result fine = solve_impact(sync_to(1e-6), impact).result;
         for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
             const restitute_result r = solve_impact(sync_to(tolerance), impact).result;
-            CHECK_NEAR(r.ex, fine.ex, r.error_ex + fine.error_ex, "chi %g at %g", chis[i], tolerance);
+            const double error = fabs(r.ex - fine.ex) - fine.error_ex;
+            CHECK(error <= fmin(3 * r.error_ex, tolerance), "chi %g, psi %g at %g: off by %.2e, estimated %.2e", impact.chi,
+                  impact.psi, tolerance, error, r.error_ex);
+            low += error > r.error_ex;
         }
     }
+    CHECK(low <= 2, "%d of 24 estimates are low", low); /* promised are 5 % */
 }
 
 /* So little slip that its slack is rounding: finer pieces would follow that, at forty times the work (2.8e6 updates). */

@@ -35,10 +35,12 @@ static inline restitute_impact impact_on(const restitute_material *solid, double
     return impact;
 }
 
+/* The defaults, but no limit of time: builds with sanitizers are slow. */
 static inline restitute_options default_options(void)
 {
     restitute_options options;
     restitute_options_init(&options);
+    options.time_limit = INFINITY;
     return options;
 }
 
