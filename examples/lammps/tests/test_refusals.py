@@ -36,6 +36,8 @@ refused("a word without value", ["'elements'"], f"pair_style restitute\npair_coe
 refused("7 elements", ["elements = 7"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 elements 7")
 refused("30 terms without a window", ["30 terms"],
         f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3")
+refused("one term for five decades", ["terms = 1", "longest = 1 s", "misses G(t)", "at most 50 %"],
+        f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3 terms 1 window 1e-5 1")
 refused("a pair of types without law", ["types 1 2", "partner"],
         LAW.replace("* *", "1 1") + f"pair_coeff 2 2 {glass} friction 0.3\n" + RUN, kinds=2)
 refused("rigid bodies", ["rigid bodies"], LAW + "fix move all rigid single\nrun 1")
