@@ -109,6 +109,7 @@ ContactModel::ContactModel(const std::vector<std::string> &words, const Units &u
         if (partner != "") options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
         if (partner != "" && partner != "rigid") join(partner, units);
         demand(restitute_contact_law_create(material, &options, &law, &error), error);
+        remark = error.message;
     } catch (...) {
         restitute_material_destroy(material);
         throw;
@@ -193,7 +194,8 @@ std::string ContactModel::about() const
     restitute_contact_law_series(law, nullptr, nullptr, &kept, nullptr, nullptr, &bound);
     std::snprintf(text, sizeof text, ": law %016llx, %zu of %zu terms, G(t) within %.2g %%, %d numbers a contact",
                   (unsigned long long)hash(), kept, restitute_material_terms(material), 100 * bound, history_size());
-    return "restitute: " + words[0] + text + "\n";
+    const std::string warning = remark.empty() ? "" : "WARNING: restitute: " + words[0] + ": " + remark + "\n";
+    return "restitute: " + words[0] + text + "\n" + warning;
 }
 
 uint64_t ContactModel::hash() const

@@ -59,7 +59,7 @@ class ContactModel
     Record record;
     double limits[RATIOS] = {0.1, 0.1, 1};
 
-    std::string about() const; /* a line on the law */
+    std::string about() const; /* a line on the law, and one on what is poor about it */
     uint64_t hash() const;     /* of the law */
     int history_size() const;  /* doubles of a contact; all zeros: a new one */
 
@@ -87,6 +87,7 @@ class ContactModel
     restitute_contact_rates rates = {};
     restitute_contact_motion motion;
     restitute_error error = {};
+    std::string remark; /* of the library on the law */
     size_t state_size = 0;
     double file_density = 0; /* of the denser material; 0: not given */
 };

@@ -41,7 +41,7 @@ def hermite(u, width):
 
 def find_speed(table, v_n):
     """Lower node of the cell of speed, and the weights of both nodes."""
-    v = min(max(v_n, table.attrs["low"]), table.attrs["high"])
+    v = min(max(v_n, table["numbers"]["low"]), table["numbers"]["high"])
     nodes = table["speed"][:]
     i = min(np.searchsorted(nodes, v, side="right") - 1, len(nodes) - 2)
     low, high = along_speed(nodes[i]), along_speed(nodes[i + 1])
@@ -54,8 +54,9 @@ def ez_at(table, v_n):
 
 
 def pair_at(table, v_n, v_t):
-    chi, psi = table.attrs["chi"], table.attrs["psi_factor"] * abs(v_t) / v_n
-    stick, slip = table.attrs["stick_cells"], table.attrs["slip_cells"]
+    numbers = table["numbers"][()]
+    chi, psi = numbers["chi"], numbers["psi_factor"] * abs(v_t) / v_n
+    stick, slip = numbers["stick_cells"], numbers["slip_cells"]
     ez = ez_at(table, v_n)
     width = max(2 * chi - 1, 0) * (1 + ez)  # psi_c - 1
     if psi > 1 and psi - 1 >= width:
@@ -81,12 +82,13 @@ def main(arguments):
         sys.exit(__doc__)
     with h5py.File(arguments[0], "r") as table:
         if len(arguments) == 3:
-            print(f"# restitute {table.attrs['restitute_version'].decode()}, verified errors", end=" ")
-            print(f"{table.attrs['error_ez']:.1e} (ez), {table.attrs['error_ex']:.1e} (ex)")
+            numbers = table["numbers"][()]
+            print(f"# restitute {numbers['restitute_version'].decode()}, verified errors", end=" ")
+            print(f"{numbers['error_ez']:.1e} (ez), {numbers['error_ex']:.1e} (ex)")
             print("ez = {:.15g}\nex = {:.15g}".format(*pair_at(table, *[float(text) for text in arguments[1:]])))
             return
         print("speed_m_s,ez")
-        for v_n in np.geomspace(table.attrs["low"], table.attrs["high"], 61):
+        for v_n in np.geomspace(table["numbers"]["low"], table["numbers"]["high"], 61):
             print(f"{v_n:.6g},{ez_at(table, v_n):.9f}")
 
 

@@ -52,8 +52,7 @@ contains
       if (j < law%n) last = p(j + 1)
       to = law%x(j + 1)
       if (edge > law%x(j) .and. .not. abs(last) > 0) to = min(edge, to)
-      middle = 0.5_dp*(law%x(j) + to)
-      middle = p(j) + (last - p(j))*(middle**2 - law%y(j))/(to**2 - law%y(j))
+      middle = p(j) + (last - p(j))*(3*law%x(j) + to)/(4*(law%x(j) + to))
       integral = integral + (to - law%x(j))*(p(j)**2 + 4*middle**2 + last**2)/12
     end do
   end function squared

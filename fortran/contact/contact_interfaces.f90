@@ -22,6 +22,7 @@ module rst_contact_interfaces
   real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the radius expected: growth costs resolution
   real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
   real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
+  real(dp), parameter :: at_rest = 1.0e-60_dp    !! m/s, s/kg: below, energies underflow, masses overflow
   real(dp), parameter :: least_overlap = 1.0e-30_dp  !! over the radius, of a new grid: the square of its width is not to underflow
 
 contains
@@ -66,7 +67,7 @@ contains
     end if
   end subroutine contact_step
 
-  !> The grid of a contact that begins: for the impact at this speed, and for what overlap there is.
+  !> The grid of a contact that begins: for the impact at this speed, if it is one, and for what overlap there is.
   pure subroutine touch(law, rates, motion, state, status)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -76,7 +77,7 @@ contains
     real(dp) :: overlap, mass
     status = done
     overlap = max(motion%overlap, least_overlap*motion%radius)
-    if (motion%velocity > 0 .and. motion%mobility(1) > 0) then
+    if (min(motion%velocity, motion%mobility(1)) > at_rest) then
       mass = rates%step/(2*motion%mobility(1))
       overlap = max(overlap, largest_overlap(law, mass, motion%velocity, motion%radius))
       if (least_steps*rates%step*motion%velocity > contact_time*overlap) status = step_too_long

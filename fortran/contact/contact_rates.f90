@@ -72,7 +72,7 @@ contains
     real(dp), parameter :: share_of_time = 0.88_dp, share_of_dashpot = 0.735_dp
     integer(ip) :: i, k
     integer(ip), parameter :: iterations = 24  !! each takes 30 to 50 % off the error of log d, which starts below 20
-    energy = 15*(mass*speed**2)/(8*law%normal*sqrt(radius))
+    energy = (15*(mass*speed**2)/(8*law%normal*sqrt(radius)))**0.4_dp
     d = radius
     do i = 1, iterations
       time = share_of_time*d/speed
@@ -85,7 +85,7 @@ contains
           g = g + law%g(k)
         end if
       end do
-      d = sqrt(d*(energy/g)**0.4_dp)
+      d = sqrt(d*(energy/g**0.4_dp)) ! not (./g)**0.4, which may underflow under a dashpot
     end do
   end function largest_overlap
 end module rst_contact_rates

@@ -10,6 +10,8 @@ module rst_contact_tangential
   private
   public :: shear
 
+  real(dp), parameter :: fastest = 1.0e80_dp  !! m/s: squares of viscous forces are not to overflow
+
   !> Force densities in units of law%tangential.
   type :: shear_type
     real(dp) :: limit(most_nodes)    !! friction limit
@@ -45,7 +47,7 @@ contains
     if (rates%viscosity > 0 .and. last > 0) then
       sticking = sum(law%weight(1:last), mask=.not. s%excess(1:last) > 0)
       if (.not. s%excess(last) > 0) sticking = sticking + contact%inner + contact%outer
-      change = -velocity_response(motion%mobility(2), scale*sticking*rates%viscosity)*scale*s%total
+      change = within(-velocity_response(motion%mobility(2), scale*sticking*rates%viscosity)*scale*s%total, fastest)
       do d = 1, 2
         do k = 1, law%n_terms
           w(:, k, d) = w(:, k, d) + rates%bend(k)*change(d)*contact%touch(1:law%n)
@@ -54,9 +56,9 @@ contains
       end do
       call slip_where_beyond(law, rates, motion%friction, displacement/rates%step + change, contact, w, s)
     end if
-    force = scale*s%total
+    force = within(scale*s%total, motion%friction*contact%force) ! the kinks may have taken it beyond
     friction = 0
-    if (law%accounts /= 0 .and. last > 0) friction = scale*rates%compliance*lost(law, contact, s)
+    if (law%accounts /= 0 .and. last > 0) friction = scale*lost(law, rates%compliance, contact, s)
     do j = 1, law%n, lanes
       call spring_back(law, rates, s%excess(j), s%trial(j, 1), u(j, 1), w(j, 1, 1))
     end do
@@ -121,8 +123,7 @@ contains
     type(normal_type), intent(in) :: contact
     real(dp), intent(in) :: w(law%n, law%n_terms, 2)
     type(shear_type), intent(inout) :: s
-    real(dp), parameter :: least = 1.0e-300_dp
-    real(dp) :: ratio, q, total_x, total_y, stuck
+    real(dp) :: ratio, q, kept, total_x, total_y, stuck
     integer(ip) :: first, j
     ratio = friction*law%normal/law%tangential
     s%limit_at_rim = ratio*contact%at_rim
@@ -130,13 +131,14 @@ contains
     total_y = 0
     stuck = 0
     do first = 1, law%n, lanes
-      !$omp simd private(q) reduction(+: total_x, total_y, stuck)
+      !$omp simd private(q, kept) reduction(+: total_x, total_y, stuck)
       do j = first, first + lanes - 1
         s%limit(j) = ratio*contact%f(j)
         q = sqrt(s%trial(j, 1)**2 + s%trial(j, 2)**2)
-        s%excess(j) = max(q - s%limit(j), 0.0_dp)/(q + least)
-        s%q(j, 1) = s%trial(j, 1)*(1 - s%excess(j))
-        s%q(j, 2) = s%trial(j, 2)*(1 - s%excess(j))
+        kept = s%limit(j)/max(q, s%limit(j), tiny(kept))
+        s%excess(j) = 1 - kept
+        s%q(j, 1) = s%trial(j, 1)*kept
+        s%q(j, 2) = s%trial(j, 2)*kept
         total_x = total_x + law%weight(j)*s%q(j, 1)
         total_y = total_y + law%weight(j)*s%q(j, 2)
         stuck = stuck + law%bit(j)*merge(0.0_dp, 1.0_dp, s%excess(j) > 0)
@@ -237,17 +239,31 @@ contains
     lacking = margin*(weight_inside - weight(law%x(inside), sqrt(y)))
   end function lacking
 
+  !> A vector no longer than `limit`, within rounding, and exactly zero where that is.
+  pure function within(vector, limit)
+    real(dp), intent(in) :: vector(2), limit
+    real(dp), parameter :: small = 1.0e-60_dp, rounding = 1.0e-15_dp
+    real(dp) :: within(2), larger, size
+    within = vector
+    if (sum((small*vector)**2) < (small*limit)**2*(1 + rounding)) return ! saves divisions; squares are not to overflow
+    larger = max(abs(vector(1)), abs(vector(2)))
+    if (.not. larger > 0) return
+    size = sqrt((vector(1)/larger)**2 + (vector(2)/larger)**2)
+    if (larger*size > limit) within = vector/larger*(limit/size)
+  end function within
+
   !> Integral of the friction limit times the slip, over the compliance of the elements.
-  pure function lost(law, contact, s)
+  pure function lost(law, compliance, contact, s)
     type(law_type), intent(in) :: law
+    real(dp), intent(in) :: compliance
     type(normal_type), intent(in) :: contact
     type(shear_type), intent(in) :: s
     real(dp) :: lost
     integer(ip) :: j, last
     last = contact%last
-    lost = s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, s%trial(last, :))
+    lost = s%excess(last)*dot_product(contact%inner*s%q(last, :) + contact%outer*s%at_rim, compliance*s%trial(last, :))
     do j = 1, last
-      lost = lost + law%weight(j)*s%excess(j)*dot_product(s%q(j, :), s%trial(j, :))
+      lost = lost + law%weight(j)*s%excess(j)*dot_product(s%q(j, :), compliance*s%trial(j, :))
     end do
   end function lost
 end module rst_contact_tangential

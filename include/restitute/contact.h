@@ -43,8 +43,9 @@ typedef struct restitute_contact_law_options {
                               materials are one pair material (@ref restitute_material_pair) with ONE_BODY_DEFORMS */
     int elements;        /**< 8 (default), 16, 24 or 32: the error falls with the square, cost and memory grow */
     int terms;           /**< most Prony terms kept, 1 to 8; default 4. More in the material are reduced, which needs: */
-    double shortest;     /**< s, > 0: times from here, the time step of the host, ... */
-    double longest;      /**< s, > shortest: ... to here, the longest contact time of interest, are met. Default 0, 0 */
+    double shortest;     /**< s, >= 1e-60: times from here, the time step of the host, ... */
+    double longest;      /**< s, > shortest, <= 1e60: ... to here, the longest contact time of interest, are met.
+                              Default 0, 0; only read if terms are reduced */
     int frictionless;    /**< nonzero: no tangential force, no states for it; default 0 */
     int energies;        /**< nonzero: two more doubles a contact, for @ref restitute_contact_energies_of; default 0 */
 } restitute_contact_law_options;
@@ -53,10 +54,14 @@ RESTITUTE_API void restitute_contact_law_options_init(restitute_contact_law_opti
 
 /** Make a law.
  *
+ *  A reduced series has an error, the `error_bound` of @ref restitute_contact_law_series. The error of ez is up to a third of it
+ *  (docs/contact.md). From 20 % on the call returns TOLERANCE_NOT_REACHED, with a law, and `error` says by how much G(t) is
+ *  missed. Beyond 50 % it is refused.
+ *
  *  @param material  any; may be destroyed after the call
  *  @param options   NULL for the defaults
- *  @return ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_DOMAIN: also for a material with more terms than are kept
- *          and no times to reduce them for */
+ *  @return OK, TOLERANCE_NOT_REACHED, ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_DOMAIN: also for a material with more
+ *          terms than are kept and no times to reduce them for, or times at which too little of G(t) is met or left */
 RESTITUTE_API int restitute_contact_law_create(const restitute_material *material,
                                                const restitute_contact_law_options *options, restitute_contact_law **law,
                                                restitute_error *error);
@@ -75,15 +80,17 @@ RESTITUTE_API uint64_t restitute_contact_law_hash(const restitute_contact_law *l
  *  two deformable bodies. Arrays of 8; any output may be NULL.
  *
  *  @param n_terms  number of terms
- *  @param error_bound  largest relative error of G(t) from `shortest` to `longest`; 0 if all terms were kept */
+ *  @param error_bound  largest |G_law(t) - G(t)|/G(t) from `shortest` to `longest`, and that of the integral of G up to
+ *                      `shortest`; 0 if all terms were kept */
 RESTITUTE_API int restitute_contact_law_series(const restitute_contact_law *law, double *equilibrium_modulus,
                                                double *parallel_viscosity, size_t *n_terms, double *relaxation_time,
                                                double *modulus, double *error_bound);
 
 /** Largest time step that is safe for impacts of this speed: a fiftieth of the contact time. It falls with speed^(-1/5).
+ *  Mass, radius and speed are in [1e-60, 1e60].
  *
- *  @param mass    effective, 1/(1/m1 + 1/m2), > 0        @param radius  effective, 1/(1/R1 + 1/R2), > 0
- *  @param speed   normal, > 0                            @param limit   s */
+ *  @param mass    effective, 1/(1/m1 + 1/m2)        @param radius  effective, 1/(1/R1 + 1/R2)
+ *  @param speed   normal                            @param limit   s */
 RESTITUTE_API int restitute_contact_time_step_limit(const restitute_contact_law *law, double mass, double radius,
                                                     double speed, double *limit, restitute_error *error);
 
@@ -96,7 +103,7 @@ typedef struct restitute_contact_rates {
     uint64_t law;
 } restitute_contact_rates;
 
-/** Rates of a law for a time step, s, > 0; to be made again when the step changes. */
+/** Rates of a law for a time step, s, in [1e-60, 1e60]; to be made again when the step changes. */
 RESTITUTE_API int restitute_contact_rates_set(const restitute_contact_law *law, double step,
                                               restitute_contact_rates *rates, restitute_error *error);
 
@@ -104,12 +111,15 @@ RESTITUTE_API int restitute_contact_rates_set(const restitute_contact_law *law, 
 typedef struct restitute_contact_motion {
     size_t struct_size;      /**< set by @ref restitute_contact_motion_init */
     double overlap;          /**< m, at the end of the step, at most radius; <= 0: apart */
-    double normal_velocity;  /**< m/s, mean of the step (velocity Verlet: at its middle), positive if approaching */
-    double displacement[3];  /**< m, of the surface of body 1 past that of body 2 in the step; its normal part is ignored */
+    double normal_velocity;  /**< m/s, mean of the step (velocity Verlet: at its middle), positive if approaching; at most
+                                  radius/step either way */
+    double displacement[3];  /**< m, of the surface of body 1 past that of body 2 in the step; its normal part is ignored.
+                                  Each up to radius */
     double normal[3];        /**< unit vector from body 1 into body 2 */
-    double half_step_over_mass;            /**< s/kg, step/(2 m), m effective; 0 for motion that forces do not change */
+    double half_step_over_mass;            /**< s/kg, step/(2 m), m effective; 0 for motion that forces do not change; up to
+                                                1e30, as the next */
     double half_step_over_tangential_mass; /**< s/kg, the same with 1/m1 + R1^2/J1 + 1/m2 + R2^2/J2 for 1/m */
-    double radius;           /**< m, effective, > 0 */
+    double radius;           /**< m, effective, in [1e-15, 1e15] */
     double friction;         /**< coefficient, in [0, 1e6] */
 } restitute_contact_motion;
 
@@ -118,7 +128,7 @@ RESTITUTE_API void restitute_contact_motion_init(restitute_contact_motion *motio
 /** Force on body 1; on body 2 the opposite. */
 typedef struct restitute_contact_force {
     double normal;        /**< N, >= 0, along -normal */
-    double tangential[3]; /**< N */
+    double tangential[3]; /**< N; at most friction times `normal` (within rounding), exactly zero where that is */
 } restitute_contact_force;
 
 /** Advance a contact by a step.

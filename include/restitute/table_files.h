@@ -7,10 +7,14 @@
  *      restitute_table_write(table, "rubber.h5", &error);
  *      restitute_table *table; restitute_table_read("rubber.h5", &table, &error);
  *
- *  A file is an ordinary HDF5 file, which h5py, h5dump or MATLAB read, behind a user block of 512 bytes: one line of text that says what it is,
- *  the version of its schema, and a checksum of all bytes behind it. Nothing of a file whose checksum is wrong reaches
- *  HDF5: a damaged or cut file is refused, or it gives the same table.
- *  The checksum stops accidents, not strangers, who can compute it: HDF5 then reads what they made. Do not open files of strangers.
+ *  A file is an ordinary HDF5 file, which h5py, h5dump or MATLAB read, behind a user block of 512 bytes: one line of text
+ *  that says what it is, the version of its schema, a checksum, and at which bytes the datasets begin. The checksum is of
+ *  all bytes behind the block and of these places: a damaged or cut file is refused.
+ *
+ *  HDF5 writes files here but reads none. @ref restitute_table_read takes the values from the places that the block names,
+ *  within the file, and checks them. So a file of a stranger, who can compute a checksum, is a wrong table at worst. Other
+ *  programs do hand it to HDF5, which has read beyond its buffers in damaged files (1.10.8 in H5Aexists): open files of
+ *  strangers with this function alone.
  *  What is read is a regular file of at most 4 GiB, and room is made for no more values than it has bytes.
  *
  *  How files are written:
@@ -23,12 +27,14 @@
  *    Folders, sockets and block devices are refused.
  *  - The temporary file is locked (flock). What a killed process left is removed by the next call with that path.
  *
- *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then is its own matter.
+ *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then, in writing, is its
+ *  own matter.
  *
- *  Schema 6. Attributes of the root: the range of speeds `low` and `high`; `tolerance`, `error_ez`, `error_ex`, `impacts`,
- *  `checks`, `restitute_version`; the contact: `chi`, `gamma`, `delta1`, `psi_factor`, `duration`, `friction`, `radius`, `mass`,
- *  `poisson_ratio`, `equilibrium_modulus`, `parallel_viscosity`; the limits `speed_limit`, `radius_limit`, `displacement_limit`; the
- *  numbers `speeds`, `stick_cells`, `slip_cells`, `terms`. Datasets of doubles, each with attributes `units` and `description`:
+ *  Schema 7. The dataset `numbers` is one compound of doubles and 64-bit integers: the range of speeds `low` and `high`;
+ *  `tolerance`, `error_ez`, `error_ex`, `impacts`, `checks`, `restitute_version` (text); the contact: `chi`, `gamma`, `delta1`,
+ *  `psi_factor`, `duration`, `friction`, `radius`, `mass`, `poisson_ratio`, `equilibrium_modulus`, `parallel_viscosity`; the
+ *  limits `speed_limit`, `radius_limit`, `displacement_limit`; the counts `speeds`, `stick_cells`, `slip_cells`, `terms`. The
+ *  others are datasets of doubles. All are little-endian, in one piece, with attributes `units` and `description`:
  *
  *      speed [speeds]                                        nodes, m/s, ascending; two that are equal are a seam
  *      ez [speeds][2]                                        ez, d ez/ds
@@ -40,7 +46,8 @@
  *  t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - (y (1 - y) + c)^(1/4)), c = 2e-4, y = (psi - 1)/(psi_c - 1). g is
  *  ex up to psi = 1, and psi ex - y ez beyond. Between nodes ez and g are Hermite's cubics: examples/tables/read_table.py.
  *
- *  Files of schemas 1 to 5 are refused: their tables were of other kinds, or had another t(y).
+ *  Files of schemas 1 to 6 are refused: build the table again. Tables of 1 to 5 were of other kinds, or had another t(y); of
+ *  6 numbers were attributes, which only HDF5 could read.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */

@@ -31,13 +31,34 @@ static int check_options(const restitute_contact_law_options *o, restitute_error
     return RESTITUTE_OK;
 }
 
+/* Times, masses, radii and speeds: no product of a few of them overflows. */
+static const double least = 1e-60, largest = 1e60;
+
 static int check_times(const restitute_contact_law_options *o, size_t n_terms, restitute_error *error)
 {
-    if (o->shortest > 0 && o->longest > o->shortest && isfinite(o->longest / o->shortest)) return RESTITUTE_OK;
+    if (o->shortest >= least && o->longest > o->shortest && o->longest <= largest) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "options.shortest = %g s, longest = %g s: must be > 0 and rising, to reduce the %zu terms of the "
-                      "material to %d",
-                      o->shortest, o->longest, n_terms, o->terms);
+                      "options.shortest = %g s, longest = %g s: must rise within [%g, %g], to reduce the %zu terms of "
+                      "the material to %d",
+                      o->shortest, o->longest, least, largest, n_terms, o->terms);
+}
+
+/* Of the bound on the relative error of G(t). The error of ez is up to a third of it (docs/contact.md). */
+static const double remarkable_error = 0.2, largest_error = 0.5;
+
+static int judge_reduction(const restitute_contact_law_options *o, size_t n_terms, double bound, restitute_error *error)
+{
+    if (bound <= remarkable_error) return RESTITUTE_OK;
+    if (!isfinite(bound))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "options.longest = %g s: the %zu terms of the material have relaxed long before and leave no "
+                          "modulus; take a shorter time",
+                          o->longest, n_terms);
+    const int poor = bound <= largest_error;
+    return rst_report(error, poor ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_ERROR_DOMAIN,
+                      "options.terms = %d, shortest = %g s, longest = %g s: the law misses G(t) of the %zu terms of the "
+                      "material by up to %.0f %%%s; take more terms or a narrower window",
+                      o->terms, o->shortest, o->longest, n_terms, 100 * bound, poor ? "" : ", at most 50 % are allowed");
 }
 
 /* The material's series, all of it or reduced. */
@@ -59,7 +80,7 @@ static int take_series(const restitute_material *material, const restitute_conta
     restitute_material_series(material, &series.g_inf, &series.eta, tau, tau + n);
     rst_reduce_series(&series, options->terms, options->shortest, options->longest, k, &law->error_bound);
     free(tau);
-    return RESTITUTE_OK;
+    return judge_reduction(options, n, law->error_bound, error);
 }
 
 /* Both bodies deform: in series, each with its own modulus. */
@@ -94,7 +115,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     restitute_contact_law *made = calloc(1, sizeof *made);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a contact law");
     status = take_series(material, options, made, error);
-    if (status) {
+    if (status < 0) {
         free(made);
         return status;
     }
@@ -113,7 +134,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     made->size = (size_t)k->size;
     made->hash = hash_of(k);
     *law = made;
-    return rst_done(error);
+    return status ? status : rst_done(error);
 }
 
 void restitute_contact_law_destroy(restitute_contact_law *law)
@@ -151,8 +172,8 @@ int restitute_contact_law_series(const restitute_contact_law *law, double *equil
 
 static int check_positive(double value, const char *name, restitute_error *error)
 {
-    if (value >= 1e-60 && value <= 1e60) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [1e-60, 1e60]", name, value);
+    if (value >= least && value <= largest) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, least, largest);
 }
 
 int restitute_contact_rates_set(const restitute_contact_law *law, double step, restitute_contact_rates *rates,

@@ -15,6 +15,9 @@ enum { reach_count = sizeof reaches / sizeof reaches[0] };
 /* Relative change of all moduli in a sweep below which it ends: far below the errors that a few terms leave. */
 static const double settled = 1e-9;
 
+/* Share of G(0) below which nothing is left to be fitted: squares of what is divided by it do not overflow. */
+static const double nothing = 1e-60;
+
 static double modulus(const struct rst_series *s, double t)
 {
     double g = s->g_inf;
@@ -94,6 +97,7 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
 {
     law->eta = series->eta;
     *error_bound = INFINITY;
+    if (!(modulus(series, longest) > nothing * modulus(series, 0))) return;
     for (int trial = 0; trial < reach_count * reach_count; trial++) {
         const double fastest = shortest * reaches[trial / reach_count], slowest = longest / reaches[trial % reach_count];
         double tau[rst_most_terms], matrix[unknowns][unknowns] = {{0}}, right[unknowns] = {0}, x[unknowns] = {0};

@@ -34,7 +34,7 @@ static int is_unit(const double v[3])
 }
 
 /* Ranges that the arithmetic holds: radii and masses of anything. */
-static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e60, largest_friction = 1e6;
+static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e30, largest_friction = 1e6;
 
 void restitute_contact_motion_init(restitute_contact_motion *motion)
 {

@@ -1,8 +1,8 @@
-/* The block of text with the checksum, before HDF5 that is made and read in memory.
+/* The block of text with the checksum, before HDF5 that is made in memory.
  *
- * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>", a line for those
- * who look into it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind the block: a change of one of
- * them always changes it. SPDX-License-Identifier: BSD-3-Clause */
+ * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>, values at <places of
+ * the datasets>", a line for those who look into it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind
+ * the block, then of the places: a change of one of them always changes it. SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
 #include "container.h"
@@ -18,27 +18,33 @@
 
 enum { block_size = 512 };
 
-static uint64_t checksum(const unsigned char *bytes, size_t size)
+static uint64_t checksum(const unsigned char *bytes, size_t size, const uint64_t place[rst_sets])
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    for (int i = 0; i < rst_sets; i++)
+        hash = (hash ^ place[i]) * UINT64_C(0x100000001b3);
     return hash;
 }
 
-static void make_block(const char *title, int version, uint64_t sum, size_t size, char block[block_size])
+static const char before_places[] = ", values at";
+
+static void make_block(const char *title, const unsigned char *bytes, size_t size, const uint64_t place[rst_sets],
+                       char block[block_size])
 {
     memset(block, 0, block_size);
-    snprintf(block, block_size,
-             "restitute %s, schema %d, checksum %016" PRIx64
-             ", bytes %zu\nHDF5 begins at byte 512 (a user block of HDF5); h5py "
-             "and h5dump read this file as it is.\n",
-             title, version, sum, size);
+    int used = snprintf(block, block_size, "restitute %s, schema %d, checksum %016" PRIx64 ", bytes %zu%s", title,
+                        rst_schema, checksum(bytes, size, place), size, before_places);
+    for (int i = 0; i < rst_sets; i++)
+        used += snprintf(block + used, (size_t)(block_size - used), " %" PRIu64, place[i]);
+    snprintf(block + used, (size_t)(block_size - used),
+             "\nHDF5 begins at byte 512 (a user block of HDF5); h5py and h5dump read this file as it is.\n");
 }
 
 /* ---- reading bytes */
 
-/* No table is larger, and what HDF5 makes of it in memory is bounded by its bytes. */
+/* No table is larger. */
 static const uint64_t most_bytes = UINT64_C(1) << 32;
 
 static int read_all(const char *path, struct rst_old_file *file, restitute_error *error)
@@ -67,44 +73,40 @@ static int refuse_block(const char *path, const char *title, const struct rst_ol
                           path, version, rst_schema);
     if (version > 0 && version < rst_schema)
         return rst_report(error, RESTITUTE_ERROR_FORMAT,
-                          "%.120s: schema %d, of tables that this library has no more; it reads schema %d: build the "
-                          "table again",
+                          "%.120s: schema %d, of an earlier library; this one reads schema %d: build the table again",
                           path, version, rst_schema);
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 
-static int check_block(const char *path, const char *title, const struct rst_old_file *file, restitute_error *error)
+/* Places are read from the block, which is then made again with them: a block that is written otherwise is refused. */
+static int check_block(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
 {
-    char block[block_size];
+    char block[block_size], text[block_size + 1] = "";
     const size_t size = file->size > block_size ? file->size - block_size : 0;
     if (size == 0) return refuse_block(path, title, file, error);
-    make_block(title, rst_schema, checksum(file->bytes + block_size, size), size, block);
+    memcpy(text, file->bytes, block_size);
+    char *next = strstr(text, before_places);
+    if (next) next += strlen(before_places);
+    for (int i = 0; i < rst_sets && next; i++)
+        file->place[i] = strtoull(next, &next, 10);
+    make_block(title, file->bytes + block_size, size, file->place, block);
     if (memcmp(block, file->bytes, block_size) == 0) return RESTITUTE_OK;
     return refuse_block(path, title, file, error);
 }
 
 int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
 {
-    *file = (struct rst_old_file){.file = -1};
+    *file = (struct rst_old_file){0};
     int status = read_all(path, file, error);
     if (!status) status = check_block(path, title, file, error);
-    if (!status) {
-        const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-        if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&
-            H5Pset_file_image(access, file->bytes, file->size) >= 0)
-            file->file = H5Fopen(rst_no_file, H5F_ACC_RDONLY, access);
-        if (access >= 0) H5Pclose(access);
-        if (file->file < 0) status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is not HDF5 inside", path);
-    }
     if (status) rst_old_file_close(file);
     return status;
 }
 
 void rst_old_file_close(struct rst_old_file *file)
 {
-    if (file->file >= 0) H5Fclose(file->file);
     free(file->bytes);
-    *file = (struct rst_old_file){.file = -1};
+    *file = (struct rst_old_file){0};
 }
 
 /* ---- writing */
@@ -115,12 +117,12 @@ hid_t rst_container_begin(void)
 }
 
 /* Block and image as one file. Returns 0 or an errno. */
-static int write_file(const char *title, const void *image, size_t size, const char *path)
+static int write_file(const char *title, const uint64_t *place, const void *image, size_t size, const char *path)
 {
     struct rst_new_file file;
     char *bytes = malloc(block_size + size);
     if (!bytes) return ENOMEM;
-    make_block(title, rst_schema, checksum(image, size), size, bytes);
+    make_block(title, image, size, place, bytes);
     memcpy(bytes + block_size, image, size);
     int problem = rst_new_file_write(path, bytes, block_size + size, &file);
     if (!problem) problem = rst_new_file_commit(&file);
@@ -128,15 +130,15 @@ static int write_file(const char *title, const void *image, size_t size, const c
     return problem;
 }
 
-int rst_container_end(hid_t file, int good, const char *title, const char *path, restitute_error *error)
+int rst_container_end(hid_t file, const uint64_t *place, const char *title, const char *path, restitute_error *error)
 {
     size_t size = 0;
     void *image = file >= 0 ? rst_image_close(file, &size) : NULL;
-    if (!good || !image) {
+    if (!place || !image) {
         free(image);
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: cannot be made: HDF5 fails in memory", path);
     }
-    const int problem = write_file(title, image, size, path);
+    const int problem = write_file(title, place, image, size, path);
     free(image);
     if (problem == ENOMEM) return rst_report(error, RESTITUTE_ERROR_MEMORY, "%.120s: out of memory", path);
     if (problem)

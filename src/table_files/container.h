@@ -1,4 +1,4 @@
-/* Files of restitute in HDF5: a block of text with a checksum, then HDF5. See table_files.h.
+/* Files of restitute in HDF5: a block of text with a checksum, then HDF5, which reads nothing of them. See table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CONTAINER_H
 #define RST_CONTAINER_H
@@ -11,36 +11,30 @@
 #include "../output/hdf5_image.h"
 
 /* Of what is written, and alone is read. */
-enum { rst_schema = 6 };
+enum { rst_schema = 7, rst_sets = 7 };
 
 /* A new file, in memory; negative: HDF5 fails. */
 hid_t rst_container_begin(void);
 
-/* Close it; if `good`, write it behind the block that tells what it is. */
-int rst_container_end(hid_t file, int good, const char *title, const char *path, restitute_error *error);
+/* Close it; write it behind the block that tells what it is and at which bytes its sets begin. NULL: HDF5 has failed. */
+int rst_container_end(hid_t file, const uint64_t *place, const char *title, const char *path, restitute_error *error);
 
 /* A whole file in memory, checked. */
 struct rst_old_file {
     unsigned char *bytes;
     size_t size;
-    hid_t file;
+    uint64_t place[rst_sets]; /* as the block has them: not yet compared with `size` */
 };
 int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error);
 void rst_old_file_close(struct rst_old_file *file);
 
-/* Datasets of doubles, and attributes; negative if HDF5 refuses. Readers take what has exactly the type class and size
- * asked for. */
-int rst_put_values(hid_t place, const char *name, int rank, const int64_t *size, const double *value,
-                   const char *units, const char *description);
-int rst_put_number(hid_t place, const char *name, double value);
-int rst_put_integer(hid_t place, const char *name, int64_t value);
-int rst_put_text(hid_t place, const char *name, const char *text);
-int rst_get_values(hid_t place, const char *name, int64_t count, double *value);
-int rst_get_number(hid_t place, const char *name, double *value);
-int rst_get_integer(hid_t place, const char *name, int64_t *value);
-int rst_get_text(hid_t place, const char *name, size_t size, char *text);
+/* Datasets that begin at byte `place` of the file, with a text each of their units and of what they are. Negative if HDF5
+ * refuses. */
+int rst_put_values(hid_t file, const char *name, int rank, const int64_t *size, const double *value, const char *units,
+                   const char *description, uint64_t *place);
 
-/* Number of values of a dataset; negative if there is none, or one that claims more than the file could hold. */
-int64_t rst_count_values(hid_t place, const char *name);
+/* One value of a compound type, whose bytes are little-endian already. */
+int rst_put_compound(hid_t file, const char *name, hid_t type, const void *bytes, const char *units,
+                     const char *description, uint64_t *place);
 
 #endif

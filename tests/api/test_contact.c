@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 
-#include "../support/data.h"
 #include "../support/drive.h"
 #include "../support/random.h"
 
@@ -308,49 +307,6 @@ static void no_input_makes_what_is_not_a_number(void **unused)
     restitute_contact_law_destroy(law);
 }
 
-/* G(t) of the law beside that of the material, at times from a micro- to a millisecond. */
-static double worst_of_window(const restitute_material *material, int terms, double *bound)
-{
-    restitute_contact_law *law;
-    restitute_contact_law_options options;
-    restitute_error error;
-    double tau[8], g[8], g_inf, eta, worst = 0;
-    size_t n;
-    restitute_contact_law_options_init(&options);
-    options.terms = terms, options.shortest = 1e-6, options.longest = 1e-3;
-    CHECK(restitute_contact_law_create(material, &options, &law, &error) == 0, "%s", error.message);
-    assert_int_equal(restitute_contact_law_series(law, &g_inf, &eta, &n, tau, g, bound), 0);
-    restitute_contact_law_destroy(law);
-    restitute_material *reduced = solid_of(g_inf, eta, n, tau, g);
-    for (int i = 0; i <= 777; i++) {
-        const double t = 1e-6 * pow(1e3, i / 777.0), exact = restitute_material_modulus(material, t);
-        worst = fmax(worst, fabs(restitute_material_modulus(reduced, t) - exact) / exact);
-    }
-    restitute_material_destroy(reduced);
-    return worst;
-}
-
-static void long_series_are_reduced_within_their_bound(void **unused)
-{
-    (void)unused;
-    double tau[pib_terms], g[pib_terms], bound, before = 1;
-    read_pib(tau, g);
-    restitute_material *material = solid_of(0, 0, pib_terms, tau, g);
-    restitute_contact_law *law = NULL;
-    restitute_error error;
-    assert_int_equal(restitute_contact_law_create(material, NULL, &law, &error), RESTITUTE_ERROR_DOMAIN);
-    CHECK(strstr(error.message, "shortest") != NULL, "%s", error.message);
-    for (int terms = 4; terms <= 8; terms += 2) {
-        const double worst = worst_of_window(material, terms, &bound);
-        print_message("%d terms: G within %.4f, bound %.4f\n", terms, worst, bound);
-        CHECK(worst <= bound, "%d terms: %.4f beyond the bound %.4f", terms, worst, bound);
-        CHECK(bound < before / 2, "%d terms: bound %.4f after %.4f", terms, bound, before);
-        before = bound;
-    }
-    CHECK(before < 0.02, "8 terms: bound %.4f", before);
-    restitute_material_destroy(material);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -366,7 +322,6 @@ int main(void)
         cmocka_unit_test(least_overlap_spoils_nothing),
         cmocka_unit_test(many_steps_are_single_steps),
         cmocka_unit_test(no_input_makes_what_is_not_a_number),
-        cmocka_unit_test(long_series_are_reduced_within_their_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

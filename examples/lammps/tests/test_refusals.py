@@ -36,6 +36,8 @@ refused("a word without value", ["'elements'"], f"pair_style restitute\npair_coe
 refused("7 elements", ["elements = 7"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 elements 7")
 refused("30 terms without a window", ["30 terms"],
         f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3")
+refused("one term for five decades", ["terms = 1", "longest = 1 s", "misses G(t)", "at most 50 %"],
+        f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3 terms 1 window 1e-5 1")
 refused("a pair of types without law", ["types 1 2", "partner"],
         LAW.replace("* *", "1 1") + f"pair_coeff 2 2 {glass} friction 0.3\n" + RUN, kinds=2)
 refused("rigid bodies", ["rigid bodies"], LAW + "fix move all rigid single\nrun 1")
@@ -68,15 +70,30 @@ for name, solid in (("another law", other), ("a law of another size", glass)):
         fix w all wall/restitute {solid} friction 0.3 zplane -0.1 NULL
         {RUN}""")
 
+
+
+def log_of(lines):
+    """What LAMMPS says of two spheres that meet."""
+    scene = Scene(screen="log.txt")
+    scene.add((0, 0, 0), (0.03, 0, 0))
+    scene.add((0.01, 0, 0), (0, 0, 0))
+    scene.run(lines)
+    scene.close()
+    with open("log.txt") as log:
+        return log.read()
+
+
+def warned_once(text, words):
+    warnings = [line for line in text.splitlines() if words in line and "WARNING" in line]
+    print("\n".join(warnings))
+    check(len(warnings) == 1, f"{len(warnings)} warnings of '{words}', not 1")
+
+
 # A step between the law's and the longest one runs, but a warning says what the contact asks for.
-scene = Scene(screen="log.txt")
-scene.add((0, 0, 0), (0.03, 0, 0))
-scene.add((0.01, 0, 0), (0, 0, 0))
-scene.run(LAW + RUN.replace("1e-6", "1e-5"))
-scene.close()
-with open("log.txt") as log:
-    text = log.read()
-warnings = [line for line in text.splitlines() if "time step" in line and "WARNING" in line]
-print("\n".join(warnings))
-check(len(warnings) == 1, f"{len(warnings)} warnings of the time step, not 1")
+text = log_of(LAW + RUN.replace("1e-6", "1e-5"))
+warned_once(text, "time step")
 check("contacts beyond 1: 1" in text, "the report does not count the contact")
+
+# So does a law that misses its material by more than a fifth.
+warned_once(log_of(f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3 terms 3 window 1e-5 1e-2\n"
+                   + RUN), "misses G(t)")

@@ -38,6 +38,8 @@ refused_law("no friction", ["friction MU"], rubber)
 refused_law("a word that is none", ["'fricton'"], f"{rubber} fricton 0.3")
 refused_law("7 elements", ["elements = 7"], f"{rubber} friction 0.3 elements 7")
 refused_law("30 terms without a window", ["30 terms"], f"{MATERIALS}/polyisobutylene.json friction 0.3")
+refused_law("one term for five decades", ["terms = 1", "longest = 1 s", "misses G(t)", "at most 50 %"],
+            f"{MATERIALS}/polyisobutylene.json friction 0.3 terms 1 window 1e-5 1")
 refused("a wall before the pair style", ["must come after"],
         box() + LAW + f"fix floor all {WALL} primitive type 2 zplane 0")
 refused("small pages", ["page 5300", "53 numbers"],
@@ -58,3 +60,9 @@ warnings = [line for line in text.splitlines() if "time step" in line and "WARNI
 print("\n".join(warnings))
 check(len(warnings) == 1, f"{len(warnings)} warnings of the time step, not 1")
 check("contacts beyond 1: 1" in text, "the report does not count the contact")
+
+# So does a law that misses its material by more than a fifth.
+text = liggghts(box() + BALLS + law(f"{MATERIALS}/polyisobutylene.json friction 0.3 terms 3 window 1e-5 1e-2") + STYLE + RUN)
+warnings = [line for line in text.splitlines() if "misses G(t)" in line and "WARNING" in line]
+print("\n".join(warnings))
+check(len(warnings) == 1, f"{len(warnings)} warnings of the reduced series, not 1")
