@@ -59,6 +59,10 @@ expect 0 bench --bem-campaign 5 --grid 32 --output again --resume
 rows again-bem.csv >2 && cmp 1 2 || fail "a resumed run differs from one in one go"
 head -4 whole-bem.csv >other-bem.csv.partial
 refused 'is of a run with other settings' bench --bem-campaign 5 --grid 32 --seed 3 --output other --resume
+for cell in 2:9:ex_sync 3:9:7 3:12:-2 3:15:-1; do
+    awk -F, -v OFS=, -v change=$cell '{ split(change, to, ":") } NR == to[1] { $to[2] = to[3] } { print }' a-bem.csv >c-bem.csv
+    refused 'c-bem.csv: no row of this campaign' bench --bem-campaign 5 --grid 32 --join c-bem.csv,b-bem.csv
+done
 refused 'no-such.csv' bench --bem-campaign 5 --grid 32 --join no-such.csv
 
 # A resumed run keeps the rows that are done, even if there is no room for more.
