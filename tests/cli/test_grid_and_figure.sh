@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # --grid: all points of the grid, in order, and a figure of them.
 . "$(dirname -- "$0")/common.sh"
-command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
+have gnuplot || exit 77
 
 grid=speed=0.1:10:3:log,angle=0:80:5
 expect 0 pair $scene --grid $grid --output grid.csv --figure grid.svg
@@ -20,8 +20,8 @@ expect 0 pair $scene --velocity 1 --angle 40 --format csv
 
 # The figure: well-formed, with its labels; a rerun writes the same bytes.
 has grid.svg '<svg' '</svg>' Polyisobutylene restitute 'normal speed' 'angle from the normal'
-python=$(command -v python3 || true)
-[ -z "$python" ] || "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' grid.svg || fail "not XML"
+have python3 && python=python3 || python=true
+"$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' grid.svg || fail "not XML"
 cp grid.svg before.svg && cp grid.csv before.csv && cp grid.csv.meta.json before.json
 expect 0 pair $scene --grid $grid --output grid.csv --figure grid.svg
 cmp grid.svg before.svg && cmp grid.csv before.csv && cmp grid.csv.meta.json before.json || fail "a rerun writes other bytes"
@@ -36,7 +36,7 @@ printf '%s\n' '{"name": "a'"'"'; system '"'"'touch hit'"'"' `touch hit` <b> & \u
 expect 0 pair --material odd.json --radius 0.01 --density 1000 --friction 0.3 --grid speed=1:1:1,angle=0:0:1 \
     --figure "odd '; name.svg" --output odd.csv
 absent hit
-[ -z "$python" ] || "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "odd '; name.svg" || fail "not XML"
+"$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "odd '; name.svg" || fail "not XML"
 [ "$(ls | grep -c '\.svg\.')" -eq 0 ] || fail "a temporary figure was left behind"
 
 # A gnuplot that fails half way: said so, the table stays, no piece of a figure does.

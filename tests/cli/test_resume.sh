@@ -63,8 +63,9 @@ refused 'out.csv.partial line 2 (row 1): ez = "7": must be in [0, 1]' $run --out
 
 # --resume without a partial file simply runs.
 rm -f out.csv*
-expect 0 pair --input cases.csv --tolerance 3e-4 --output out.csv --resume
-cmp out.csv whole.csv || fail "--resume from nothing gives other rows"
+head -50 cases.csv >few.csv
+expect 0 pair --input few.csv --tolerance 3e-4 --output out.csv --resume
+head -50 whole.csv | cmp - out.csv || fail "--resume from nothing gives other rows"
 
 # A material that a column names belongs to the inputs: changed in between, its rows must not be mixed.
 rm -f out.csv*
