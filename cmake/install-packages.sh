@@ -3,7 +3,7 @@
 # Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|package|docs]
 #   run   what building and running the command needs (the default)
 #   test  run, and what the tests need
-#   ci    test, make, a second compiler with its sanitizers, and what compares binary interfaces
+#   ci    test, make, and a second compiler with its sanitizers
 #   package  run, and what cpack needs to make the Debian package
 #   docs  run, and what building the reference, checking the man page and converting figures needs
 # OpenMP comes with gcc; clang builds without it, unless libomp-dev is there. Debian 12's clang is clang-14.
@@ -12,11 +12,11 @@ set -eu
 
 run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
     libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox"
-test_packages="g++ libcmocka-dev liggghts libliggghts-dev mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
+test_packages="abigail-tools g++ libcmocka-dev liggghts libliggghts-dev mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;
-ci) packages="$run_packages $test_packages make clang libclang-rt-14-dev llvm abigail-tools" ;;
+ci) packages="$run_packages $test_packages make clang libclang-rt-14-dev llvm" ;;
 package) packages="$run_packages dpkg-dev file" ;;
 docs) packages="$run_packages doxygen mandoc librsvg2-bin" ;;
 *)

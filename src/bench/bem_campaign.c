@@ -71,11 +71,18 @@ int bench_bem_run(restitute_solver *sync, restitute_solver *bem, long index, con
     return 0;
 }
 
+static const char header[] =
+    "index,solid,chi,psi,delta1,gamma,g_inf,tau_g,ez_sync,ex_sync,ez_bem,ex_bem,difference_ez,difference_ex,"
+    "error_ez,error_ex,seconds_sync,seconds_bem,status_sync,status_bem\n";
+
 void bench_write_bem_header(FILE *stream)
 {
-    fputs("index,solid,chi,psi,delta1,gamma,g_inf,tau_g,ez_sync,ex_sync,ez_bem,ex_bem,difference_ez,difference_ex,"
-          "error_ez,error_ex,seconds_sync,seconds_bem,status_sync,status_bem\n",
-          stream);
+    fputs(header, stream);
+}
+
+int bench_is_bem_header(const char *line)
+{
+    return strcmp(line, header) == 0;
 }
 
 void bench_write_bem_row(const struct bench_bem_row *r, FILE *stream)
@@ -107,6 +114,11 @@ static const char *skip_cells(const char *line, int count)
     return line;
 }
 
+static int within(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
 int bench_read_bem_row(const char *line, unsigned seed, struct bench_bem_row *r)
 {
     char *end;
@@ -118,6 +130,9 @@ int bench_read_bem_row(const char *line, unsigned seed, struct bench_bem_row *r)
     if (sscanf(solved, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%d,%d", &r->ez_sync, &r->ex_sync, &r->ez_bem,
                &r->ex_bem, &difference_ez, &difference_ex, &r->error_ez, &r->error_ex, &r->seconds_sync,
                &r->seconds_bem, &r->status_sync, &r->status_bem) != 12)
+        return 0;
+    if (!within(r->ez_sync, 0, 1) || !within(r->ez_bem, 0, 1) || !within(r->ex_sync, -1, 1) ||
+        !within(r->ex_bem, -1, 1) || !(r->error_ez >= 0) || !(r->error_ex >= 0))
         return 0;
     bench_draw_impact(seed, r->index, &r->draw);
     return fabs(chi / r->draw.chi - 1) < 1e-8 && fabs(psi / r->draw.psi - 1) < 1e-8; /* nine digits were written */

@@ -40,9 +40,11 @@ int bench_bem_run(restitute_solver *sync, restitute_solver *bem, long index, con
                   struct bench_bem_row *row);
 
 void bench_write_bem_header(FILE *stream);
+int bench_is_bem_header(const char *line);
 void bench_write_bem_row(const struct bench_bem_row *row, FILE *stream);
 
-/* Read a line that bench_write_bem_row() wrote; the draw comes from the seed. 0: it is none, or of another seed. */
+/* Read a line that bench_write_bem_row() wrote; the draw comes from the seed. 0: it is none, of another seed,
+ * or has numbers that no run gives. */
 int bench_read_bem_row(const char *line, unsigned seed, struct bench_bem_row *row);
 
 /* Table of differences by solid, and every row above `limit`. */

@@ -281,9 +281,15 @@ int bench_read_cell(const char *line, struct bench_cell *cell)
     cell->verdict = BENCH_VERDICTS;
     for (int i = 0; i < BENCH_VERDICTS; i++)
         if (strcmp(text[4], bench_verdict_names[i]) == 0) cell->verdict = (enum bench_verdict)i;
-    for (int i = 0; i < 7; i++)
-        *numbers[i] = *text[5 + i] ? strtod(text[5 + i], NULL) : NAN;
-    return cell->method >= 0 && cell->verdict != BENCH_VERDICTS && rest == NULL;
+    if (cell->method < 0 || cell->verdict == BENCH_VERDICTS || rest) return 0;
+    const int paper = !bench_methods[cell->method].handle; /* whose pair may be beyond all bounds */
+    for (int i = 0; i < 7; i++) {
+        const double low = i == 1 ? -1 : 0, high = i < 2 ? 1 : INFINITY;
+        char *end = text[5 + i];
+        *numbers[i] = *end ? strtod(end, &end) : NAN;
+        if (*end || (!(paper && i < 2) && (*numbers[i] < low || *numbers[i] > high))) return 0;
+    }
+    return 1;
 }
 
 void bench_print_map(const struct bench_cell *cells, size_t n, FILE *stream)

@@ -60,7 +60,7 @@ void bem_fields_release(struct bem_fields_keeper *keeper)
 static bool write_array(hid_t file, const char *name, int rank, const hsize_t *shape, const double *values)
 {
     const hid_t space = H5Screate_simple(rank, shape, NULL);
-    const hid_t set = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t set = hdf5_create_set(file, name, H5T_IEEE_F64LE, space);
     const bool good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
     if (set >= 0) H5Dclose(set);
     H5Sclose(space);

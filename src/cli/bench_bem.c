@@ -67,7 +67,7 @@ static bool read_rows(struct campaign *c, const char *path, const char *option, 
     bool good = fgets(line, sizeof line, stream) && strcmp(line, expected) == 0;
     if (!good) refuse(why, "%s: %.200s is of a run with other settings", option, path);
     while (good && fgets(line, sizeof line, stream) && strchr(line, '\n')) {
-        if (strncmp(line, "index,", 6) == 0) continue;
+        if (bench_is_bem_header(line)) continue;
         good = bench_read_bem_row(line, plan_of(c)->seed, &row);
         if (!good) refuse(why, "%s: %.150s: no row of this campaign: %.60s", option, path, line);
         if (!good || row.index >= plan_of(c)->sets) continue;

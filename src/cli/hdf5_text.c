@@ -17,11 +17,20 @@ bool hdf5_write_text(hid_t place, const char *name, const char *text)
     return good;
 }
 
+hid_t hdf5_create_set(hid_t place, const char *name, hid_t type, hid_t space)
+{
+    const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(how, 0);
+    const hid_t set = H5Dcreate2(place, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    H5Pclose(how);
+    return set;
+}
+
 bool hdf5_write_column(hid_t group, const char *name, const char *unit, hid_t type, const void *values, size_t count)
 {
     const hsize_t length = count;
     const hid_t space = H5Screate_simple(1, &length, NULL);
-    const hid_t set = H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t set = hdf5_create_set(group, name, type, space);
     bool good = set >= 0 && (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
     if (good && *unit) good = hdf5_write_text(set, "unit", unit);
     if (set >= 0) H5Dclose(set);

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,10 +60,21 @@ static int run_subcommand(int count, char **arguments)
     return status;
 }
 
+/* A standard descriptor that is closed would become an output file, and messages would land in it. Opened in the wrong
+ * direction it still cannot be used, so that a result that could not be printed is an error. */
+static bool hold_standard_descriptors(void)
+{
+    static const int unusable[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+    for (int i = 0; i < 3; i++)
+        if (fcntl(i, F_GETFD) < 0 && open("/dev/null", unusable[i]) != i) return false;
+    return true;
+}
+
 /* No setlocale anywhere: numbers have a point in every country. */
 int main(int count, char **arguments)
 {
     const char *word = count > 1 ? arguments[1] : "";
+    if (!hold_standard_descriptors()) return EXIT_USAGE;
     signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error as on a full disk */
     int status = EXIT_DONE;
     if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0 || strcmp(word, "sweep") == 0)

@@ -49,25 +49,50 @@ static bool same_settings(const char *path, const char *option, const json_t *se
     return same;
 }
 
+/* The columns are those that this run writes. */
+static bool same_columns(const restitute_csv *csv, const char *path, const struct cases *cases, struct reason *why)
+{
+    const size_t wanted = cases->columns + ROW_NUMBERS + 2, found = restitute_csv_columns(csv);
+    if (found != wanted) return refuse(why, "%.200s: has %zu columns: must be %zu", path, found, wanted);
+    for (size_t k = 0; k < wanted; k++)
+        if (strcmp(restitute_csv_name(csv, k), row_column_name(cases, k)) != 0)
+            return refuse(why, "%.200s: column %zu is \"%.64s\": must be %.64s", path, k + 1,
+                          restitute_csv_name(csv, k), row_column_name(cases, k));
+    return true;
+}
+
+/* The cells of a row are those of the case. */
+static bool same_case(const restitute_csv *csv, size_t row, const struct cases *cases, size_t number)
+{
+    bool same = number < cases->rows;
+    for (size_t k = 0; k < cases->columns && same; k++)
+        same = strcmp(restitute_csv_cell(csv, row, k), cases_cell(cases, number, k)) == 0;
+    return same;
+}
+
 /* The rows done are these cases from number `first` on; `count` counts them. */
 static bool read_done(const char *path, const struct cases *cases, const struct settings *settings, struct row *rows,
                       size_t first, size_t *count, struct reason *why)
 {
     restitute_csv *csv;
     restitute_error error;
+    struct reason inner;
     if (restitute_csv_read(path, &csv, &error) < 0) return refuse(why, "%s", error.message);
-    const size_t found = restitute_csv_rows(csv);
-    bool good = first + found <= cases->rows && restitute_csv_columns(csv) == cases->columns + ROW_NUMBERS + 2;
-    for (size_t i = 0; i < found && good; i++) {
-        for (size_t k = 0; k < cases->columns && good; k++)
-            good = strcmp(restitute_csv_cell(csv, i, k), cases_cell(cases, first + i, k)) == 0;
-        if (good && (good = row_read(csv, i, cases->columns, settings->solver.method, &rows[first + i])))
-            *count = i + 1;
-    }
-    restitute_csv_destroy(csv);
-    return good || refuse(why, "%.200s line %zu: %s", path, *count + 2,
+    bool good = same_columns(csv, path, cases, why);
+    for (size_t i = 0; i < restitute_csv_rows(csv) && good; i++) {
+        if (!same_case(csv, i, cases, first + i))
+            good = refuse(&inner, "%s",
                           settings->text[TEXT_JOIN] ? "is not the next shard: give all, in their order"
                                                     : "does not belong to these cases; remove it to start anew");
+        else
+            good = row_read(csv, i, cases->columns, settings->solver.method, &rows[first + i], &inner);
+        if (good)
+            *count = i + 1;
+        else
+            refuse(why, "%.200s line %zu (row %zu): %s", path, restitute_csv_line(csv, i), i + 1, inner.text);
+    }
+    restitute_csv_destroy(csv);
+    return good;
 }
 
 bool partial_join(const char *path, const struct cases *cases, const struct settings *settings,

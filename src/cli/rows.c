@@ -2,17 +2,30 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "rows.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "provenance.h"
 
-static const char *const result_names[ROW_NUMBERS] = {"ez",       "ex",      "contact_time", "max_indentation",
-                                                      "error_ez", "error_ex"};
+/* What is written behind the inputs, and what a number that is read back must be: the least, the most, the same in
+ * words. */
+static const struct {
+    const char *name;
+    double low, high;
+    const char *range;
+} result_columns[ROW_NUMBERS + 2] = {{"ez", 0, 1, "must be in [0, 1]"},
+                                     {"ex", -1, 1, "must be in [-1, 1]"},
+                                     {"contact_time", 0, INFINITY, "must be >= 0 (inf: no rebound)"},
+                                     {"max_indentation", 0, INFINITY, "must be >= 0"},
+                                     {"error_ez", 0, INFINITY, "must be >= 0"},
+                                     {"error_ex", 0, INFINITY, "must be >= 0"},
+                                     {.name = "method"},
+                                     {.name = "status"}};
 
-const char *row_number_name(size_t number)
+const char *row_column_name(const struct cases *cases, size_t column)
 {
-    return result_names[number];
+    return column < cases->columns ? cases_name(cases, column) : result_columns[column - cases->columns].name;
 }
 
 void rows_release(struct row *rows, size_t count)
@@ -155,7 +168,7 @@ void cell_write(FILE *stream, const char *cell)
 void row_write_result_names(FILE *stream)
 {
     for (int i = 0; i < ROW_NUMBERS; i++)
-        fprintf(stream, "%s,", result_names[i]);
+        fprintf(stream, "%s,", result_columns[i].name);
     fputs("method,status\n", stream);
 }
 
@@ -186,18 +199,28 @@ void row_write(FILE *stream, const struct cases *cases, size_t index, const stru
     row_write_result(stream, row);
 }
 
-bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row)
+/* A number of a row that is solved; a row that is not has none. */
+static bool read_number(const char *cell, size_t column, bool solved, double *number, struct reason *why)
+{
+    const double low = result_columns[column].low, high = result_columns[column].high;
+    const bool good = solved ? restitute_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high
+                             : !*cell;
+    return good || refuse(why, "%s = \"%.64s\": %s", result_columns[column].name, cell,
+                          solved ? result_columns[column].range : "must be empty as method is");
+}
+
+bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
+              struct reason *why)
 {
     const char *method_cell = restitute_csv_cell(csv, index, first + ROW_NUMBERS);
     const char *status = restitute_csv_cell(csv, index, first + ROW_NUMBERS + 1);
-    if (!method_cell || !status) return false;
     row->solved = *method_cell != '\0';
     row->method = restitute_method_name(method);
-    if (row->solved && strcmp(method_cell, row->method) != 0) return false;
-    for (int i = 0; i < ROW_NUMBERS && row->solved; i++) {
-        const char *cell = restitute_csv_cell(csv, index, first + (size_t)i);
-        if (restitute_number_read(cell, &row->number[i]) != RESTITUTE_OK) return false;
-    }
+    if (row->solved && strcmp(method_cell, row->method) != 0)
+        return refuse(why, "method = \"%.64s\": must be %s", method_cell, row->method);
+    if (!row->solved && !*status) return refuse(why, "method and status are empty: neither solved nor failed");
+    for (size_t i = 0; i < ROW_NUMBERS; i++)
+        if (!read_number(restitute_csv_cell(csv, index, first + i), i, row->solved, &row->number[i], why)) return false;
     row->status = copy_of(status);
     return true;
 }
@@ -213,7 +236,7 @@ json_t *row_json(const struct cases *cases, size_t index, const struct row *row)
         json_object_set_new(object, cases_name(cases, i), value ? value : json_null());
     }
     for (int i = 0; i < ROW_NUMBERS; i++)
-        json_object_set_new(object, result_names[i], row->solved ? json_of_number(row->number[i]) : json_null());
+        json_object_set_new(object, result_columns[i].name, row->solved ? json_of_number(row->number[i]) : json_null());
     json_object_set_new(object, "method", row->solved ? json_string(row->method) : json_null());
     json_t *status = json_string(row->status);
     json_object_set_new(object, "status", status ? status : json_string("failed"));
@@ -228,8 +251,8 @@ json_t *row_units(const struct cases *cases, bool physical)
         if (field < FIELD_COUNT) json_object_set_new(units, cases_name(cases, i), json_string(field_rules[field].unit));
     }
     for (int i = 0; i < ROW_NUMBERS; i++)
-        json_object_set_new(units, result_names[i], json_string("1"));
-    json_object_set_new(units, result_names[ROW_CONTACT_TIME], json_string(physical ? "s" : "T"));
-    json_object_set_new(units, result_names[ROW_MAX_INDENTATION], json_string(physical ? "m" : "d0"));
+        json_object_set_new(units, result_columns[i].name, json_string("1"));
+    json_object_set_new(units, result_columns[ROW_CONTACT_TIME].name, json_string(physical ? "s" : "T"));
+    json_object_set_new(units, result_columns[ROW_MAX_INDENTATION].name, json_string(physical ? "m" : "d0"));
     return units;
 }

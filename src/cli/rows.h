@@ -38,11 +38,12 @@ void row_write_result(FILE *stream, const struct row *row);
 /* One cell, in quotes where it needs them. */
 void cell_write(FILE *stream, const char *cell);
 
-/* Read back a written row: cells `first` and on of a table. */
-bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row);
+/* Read back a written row: cells `first` and on of a table with that header. Refuses what no run could have written. */
+bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
+              struct reason *why);
 
-/* Name of one of the numbers. */
-const char *row_number_name(size_t number);
+/* Name of a column as written: those of the cases, then ROW_NUMBERS numbers, method, status. */
+const char *row_column_name(const struct cases *cases, size_t column);
 
 /* A row as a JSON object, inputs included, and the units of all columns. */
 json_t *row_json(const struct cases *cases, size_t index, const struct row *row);

@@ -36,7 +36,7 @@ static bool write_column(hid_t file, const struct cases *cases, const struct row
 {
     const size_t number = column - cases->columns;
     const bool input = column < cases->columns, status = !input && number == ROW_NUMBERS;
-    const char *name = input ? cases_name(cases, column) : status ? "status" : row_number_name(number);
+    const char *name = status ? "status" : row_column_name(cases, column);
     const char **words = allocate(cases->rows, sizeof *words);
     double *numbers = allocate(cases->rows, sizeof *numbers);
     bool numeric = !status;

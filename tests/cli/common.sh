@@ -63,5 +63,19 @@ near() {
         fail "$1 is not within $3 of $2"
 }
 
+# have PROGRAM: it is here. Else the part of the script that needs it is left out, which tests/run repeats.
+have() {
+    command -v "$1" >/dev/null || { echo "skipped: no $1 here"; return 1; }
+}
+
+# have_h5py: likewise; `python` has it. Debian's belongs to /usr/bin/python3, which another Python may hide.
+have_h5py() {
+    for python in python3 /usr/bin/python3; do
+        ! "$python" -c 'import h5py' 2>/dev/null || return 0
+    done
+    echo "skipped: no python3 with h5py here"
+    return 1
+}
+
 # Options of the scene that most scripts use: a steel ball of 10 mm on polyisobutylene.
 scene="--material $materials/polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3"

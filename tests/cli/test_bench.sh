@@ -73,6 +73,11 @@ absent report-stability.csv.partial
 } >again-stability.csv.partial
 refused 'left from an interrupted run' bench --stability --quick --output again
 run="bench --stability --quick --methods euler,paper-euler --output again --resume --budget"
+for cell in 6:7 7:-2 8:-1 9:x; do
+    awk -F, -v OFS=, -v change=$cell 'NR == 2 { split(change, to, ":"); $to[1] = to[2] } { print }' \
+        again-stability.csv.partial >bad-stability.csv.partial
+    refused 'line 2: is no cell of a map' bench --stability --quick --methods euler,paper-euler --output bad --resume --budget 60
+done
 refused 'other settings' $run 1
 expect 0 $run 60
 grep -e '^method' -e '^euler' -e '^paper-euler' report-stability.csv | cut -d, -f1-11 >whole

@@ -7,6 +7,7 @@ numbers="--chi 1.1667 --psi 2 --delta1 1 --gamma 1"
 if ! "$RESTITUTE" pair $numbers --method cvode >/dev/null 2>&1; then
     refused 'component cvode is not in this build' pair $numbers --method cvode
     refused 'component cvode' history $numbers --events e.csv
+    echo "skipped: no component cvode in this build"
     exit 0
 fi
 
@@ -62,15 +63,17 @@ has capitals.CSV gross-slip-end
 if ! "$RESTITUTE" history $numbers --events e.h5 --output h.csv 2>err; then
     has err 'HDF5 is not in this build'
     absent e.h5
-elif command -v h5dump >/dev/null; then
-    h5dump -d /events/event e.h5 >dump
-    has dump gross-slip-end contact-end
-    h5dump -a /events/time_T/unit e.h5 >dump
-    has dump '"T"'
+elif have_h5py; then
+    events() { # FILE: what happens in it, and the unit of the time
+        "$python" -c 'import h5py, sys; e = h5py.File(sys.argv[1])["events"]
+print(*e["event"], e["time_T"].attrs["unit"])' "$1"
+    }
+    events e.h5 >dump
+    has dump gross-slip-end contact-end " b'T'"
     has e.h5.meta.json '"cvode"'
     for name in capitals.HDF5 capitals.H5; do
         expect 0 history $numbers --events $name --output h.csv
-        h5dump -d /events/event $name >dump
+        events $name >dump
         has dump gross-slip-end
     done
 fi

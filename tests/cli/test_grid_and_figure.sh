@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # --grid: all points of the grid, in order, and a figure of them.
 . "$(dirname -- "$0")/common.sh"
-command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
+have gnuplot || exit 77
 
 grid=speed=0.1:10:3:log,angle=0:80:5
 expect 0 pair $scene --grid $grid --output grid.csv --figure grid.svg
@@ -20,8 +20,8 @@ expect 0 pair $scene --velocity 1 --angle 40 --format csv
 
 # The figure: well-formed, with its labels; a rerun writes the same bytes.
 has grid.svg '<svg' '</svg>' Polyisobutylene restitute 'normal speed' 'angle from the normal'
-python=$(command -v python3 || true)
-[ -z "$python" ] || "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' grid.svg || fail "not XML"
+have python3 && python=python3 || python=true
+"$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' grid.svg || fail "not XML"
 cp grid.svg before.svg && cp grid.csv before.csv && cp grid.csv.meta.json before.json
 expect 0 pair $scene --grid $grid --output grid.csv --figure grid.svg
 cmp grid.svg before.svg && cmp grid.csv before.csv && cmp grid.csv.meta.json before.json || fail "a rerun writes other bytes"
@@ -36,7 +36,7 @@ printf '%s\n' '{"name": "a'"'"'; system '"'"'touch hit'"'"' `touch hit` <b> & \u
 expect 0 pair --material odd.json --radius 0.01 --density 1000 --friction 0.3 --grid speed=1:1:1,angle=0:0:1 \
     --figure "odd '; name.svg" --output odd.csv
 absent hit
-[ -z "$python" ] || "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "odd '; name.svg" || fail "not XML"
+"$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "odd '; name.svg" || fail "not XML"
 [ "$(ls | grep -c '\.svg\.')" -eq 0 ] || fail "a temporary figure was left behind"
 
 # A gnuplot that fails half way: said so, the table stays, no piece of a figure does.
@@ -93,6 +93,39 @@ absent again.csv.partial again.csv.partial.json
 refused 'is an input of this run' pair --input cases.csv --join part1.csv --output part1.csv
 refused 'not with --shard' pair --input cases.csv --shard 1/2 --output a.csv --figure a.svg
 refused 'has no rows' pair --input cases.csv --shard 1/20
+
+# So are rows that no run writes, and other columns.
+edited() { # TEXT SCRIPT: part1.csv edited so is refused with that text
+    sed "$2" part1.csv >edited.csv
+    cp part1.csv.meta.json edited.csv.meta.json
+    refused "$1" pair --input cases.csv --join edited.csv,part2.csv,part3.csv --output again.csv
+    absent again.csv again.csv.partial again.csv.partial.json
+}
+row=$(sed -n 3p part1.csv | cut -d, -f1-3)
+while read -r cells text; do
+    edited "edited.csv line 3 (row 2): $text" "3s/.*/$row,$cells/"
+done <<END
+7,0.2,3,1,0,0,euler, ez = "7": must be in [0, 1]
+-0.1,0.2,3,1,0,0,euler, ez = "-0.1": must be in [0, 1]
+nan,0.2,3,1,0,0,euler, ez = "nan": must be in [0, 1]
+0.7,-1.01,3,1,0,0,euler, ex = "-1.01": must be in [-1, 1]
+0.7,0.2,-3,1,0,0,euler, contact_time = "-3": must be >= 0
+0.7,0.2,3,,0,0,euler, max_indentation = "": must be >= 0
+0.7,0.2,3,1,-5,0,euler, error_ez = "-5": must be >= 0
+0.7,0.2,3,1,0,1x,euler, error_ex = "1x": must be >= 0
+0.7,0.2,3,1,0,0,sync, method = "sync": must be euler
+0.7,,,,,,,failed ez = "0.7": must be empty as method is
+,,,,,,, method and status are empty
+END
+edited 'edited.csv: column 4 is "ex": must be ez' '1s/ez,ex/ex,ez/'
+edited 'edited.csv: has 10 columns: must be 11' 's/,[^,]*$//'
+
+# What is rare is no reason to refuse a row: no rebound, no sliding, a failed row.
+printf 'psi,delta1,gamma\n0,1,0\n1,1e12,0\n-1,1,0\n1e12,0,0\n' >rare.csv
+for i in 1 2; do expect $((i - 1)) pair --input rare.csv --method sync --shard $i/2 --output rare$i.csv; done
+expect 1 pair --input rare.csv --method sync --join rare1.csv,rare2.csv --output rare.out
+has rare.out ,inf,
+sed 1d rare2.csv | cat rare1.csv - | cmp - rare.out || fail "rare rows are changed"
 
 # Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi does not change.
 contours() { # TEXT ARGUMENT...: the text stands in the figure

@@ -92,7 +92,7 @@ for name in events.h5 fields.h5; do
     absent h.csv h.csv.meta.json
     no_temporary
 done
-if command -v gnuplot >/dev/null; then
+if have gnuplot; then
     narrow 50 2 history --psi 1 --samples 5 --output h.csv --figure f.png
     has err "f.png: cannot be written: File too large"
     absent f.png

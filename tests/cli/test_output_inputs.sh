@@ -77,7 +77,7 @@ if "$RESTITUTE" history --psi 1 --events e.csv --output h.csv 2>err; then
     "$RESTITUTE" history --psi 1 --events - --output same.csv >same.csv 2>err && fail "two outputs in one file"
     has err '--events and --output are the same file'
 fi
-if command -v gnuplot >/dev/null; then
+if have gnuplot; then
     cp polyisobutylene.json in.json
     ln -s in.json figure.svg
     clash '--figure = figure.svg' '--material in.json' history --material in.json $body --velocity 1 --figure figure.svg --output h.csv

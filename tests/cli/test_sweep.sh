@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # `restitute sweep`: figures by name with their checks, the solids of numbers and shifted times that they are drawn with.
 . "$(dirname -- "$0")/common.sh"
-command -v gnuplot >/dev/null || { echo "skipped: no gnuplot"; exit 77; }
-python=$(command -v python3 || true)
+have gnuplot || exit 77
+have python3 && python=python3 || python=true
 
 # A figure: all its files, the scatter below the tolerance, no check failed; a rerun writes the same bytes.
 mkdir two
@@ -14,7 +14,7 @@ for figure in fig4 fig5 fig6 fig11 maxwell tangent friction; do
     for ending in .csv .csv.meta.json -curves.csv .svg .pdf; do
         [ -s one/$figure$ending ] || fail "no $figure$ending"
     done
-    [ -z "$python" ] || "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' one/$figure.svg || fail "not XML"
+    "$python" -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' one/$figure.svg || fail "not XML"
     [ "$(wc -c <one/$figure.svg)" -lt 200000 ] || fail "$figure.svg is large"
 done
 [ "$(head -c 5 one/fig4.pdf)" = "%PDF-" ] || fail "fig4.pdf is no PDF"
@@ -29,7 +29,7 @@ expect 0 sweep fig4 --output two --method euler --tolerance 1e-2
 awk '/scatter of e_z/ { exit !($7 + 0 > 1e-5) }' out || fail "the method is not that of the option: $(cat out)"
 
 # Dimensionless numbers of a drawn impact, formed here again from its SI columns (22)-(24).
-"${python:-false}" - one/fig6.csv <<'END' || [ -z "$python" ] || fail "an impact has other numbers than it says"
+"$python" - one/fig6.csv <<'END' || fail "an impact has other numbers than it says"
 import csv, math, sys
 for r in csv.DictReader(open(sys.argv[1])):
     f = lambda name: float(r[name] or "nan")
@@ -48,7 +48,7 @@ for r in csv.DictReader(open(sys.argv[1])):
     for name, value in zip(("chi", "psi", "delta1", "gamma"), got):
         assert abs(value - f(name)) <= 1e-9*(abs(value) + 1e-9), (name, value, r[name])
 END
-if [ -n "$python" ] && [ -f one/fig4.h5 ] && "$python" -c 'import h5py' 2>/dev/null; then
+if [ -f one/fig4.h5 ] && have_h5py; then
     "$python" -c 'import csv, h5py
 rows = list(csv.DictReader(open("one/fig4.csv"))); file = h5py.File("one/fig4.h5")
 assert [float(r["ez"]) for r in rows] == list(file["ez"]) and file["speed_m_s"].attrs["unit"] in (b"m/s", "m/s")
@@ -64,7 +64,7 @@ expect 0 sweep fig4 --output two --join 2
 cmp one/fig4.csv two/fig4.csv && cmp one/fig4.svg two/fig4.svg || fail "joined shards give another figure"
 (cd two && sed 's/,sync,/,euler,/' fig4-2of2.csv >other && mv other fig4-2of2.csv)
 rm -f two/fig4.csv
-refused 'is not the next shard' sweep fig4 --output two --join 2
+refused 'fig4-2of2.csv line 2 (row 1): method = "euler": must be sync' sweep fig4 --output two --join 2
 refused 'tolerance of this run differs' sweep fig4 --output two --join 2 --tolerance 1e-4
 absent two/fig4.csv.partial two/fig4.csv.partial.json
 

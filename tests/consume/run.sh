@@ -121,7 +121,7 @@ grep "component not installed: nowhere" missing.log || { cat missing.log; fail "
 
 echo "== pkg-config"
 if ! command -v pkg-config >/dev/null; then
-    echo "no pkg-config here: left out"
+    echo "skipped: no pkg-config here"
     exit 0
 fi
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name restitute.pc)")

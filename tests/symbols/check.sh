@@ -5,8 +5,10 @@
 #   - it calls nothing of a Fortran run-time library
 #   - it neither prints nor ends the program: it needs no function that does so, and no standard stream
 #   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
-#     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads
-# NM, READELF and WITH_OPENMP come from the environment.
+#     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads;
+#     nor one whose name holds WITHOUT, if that is set
+# NM, READELF, WITH_OPENMP and WITHOUT come from the environment. Tools have lines of their own: of a pipeline the shell
+# sees the last status alone, and a tool that fails would be taken for one that finds nothing.
 set -eu
 library=$1
 wrong=0
@@ -16,13 +18,15 @@ complain() {
     wrong=1
 }
 
-defined=$("$NM" -D --defined-only "$library" | awk '{ print $NF }')
+defined=$("$NM" -D --defined-only "$library")
+defined=$(echo "$defined" | awk '{ print $NF }')
 [ -n "$defined" ] || complain "$library defines nothing"
 # Names that begin with a double underscore are the sanitizers' own.
 foreign=$(echo "$defined" | grep -v -e '^restitute_' -e '^__' || true)
 [ -z "$foreign" ] || complain "$library defines other names than restitute_*:" $foreign
 
-undefined=$("$NM" -D --undefined-only "$library" | awk '{ print $NF }')
+undefined=$("$NM" -D --undefined-only "$library")
+undefined=$(echo "$undefined" | awk '{ print $NF }')
 fortran=$(echo "$undefined" | grep -E '^(_gfortran|_FortranA|for_)|quad' || true)
 [ -z "$fortran" ] || complain "$library calls the Fortran run-time library:" $fortran
 
@@ -33,13 +37,16 @@ deadly=$(echo "$plain" | grep -E '^(abort|_?exit|_Exit|quick_exit|__assert_fail)
 [ -z "$deadly" ] || complain "$library ends the program:" $deadly
 
 for file in "$@"; do
-    needed=$("$READELF" --dynamic "$file" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
+    needed=$("$READELF" --dynamic "$file")
+    needed=$(echo "$needed" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
     [ -n "$needed" ] || complain "$file needs no library at all: not what this test expects"
     runtime=$(echo "$needed" | grep -E 'gfortran|quadmath|flang|FortranRuntime|libifcore' || true)
     [ -z "$runtime" ] || complain "$file needs a Fortran run-time library:" $runtime
     ! echo "$needed" | grep -q mvec || complain "$file needs the vector mathematics library libmvec"
     openmp=$(echo "$needed" | grep -E '^lib(gomp|omp|iomp5)\.' || true)
     [ "$WITH_OPENMP" = ON ] || [ -z "$openmp" ] || complain "$file needs OpenMP in a build without it:" $openmp
+    banned=$(echo "$needed" | grep -i "${WITHOUT:-^$}" || true)
+    [ -z "$banned" ] || complain "$file needs what it must do without:" $banned
     echo "$file needs:" $needed
 done
 echo "$library defines:" $defined

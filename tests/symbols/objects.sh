@@ -12,7 +12,8 @@ complain() {
     wrong=1
 }
 
-defined=$("$NM" -g --defined-only "$@" | awk 'NF == 3 { print $NF }')
+defined=$("$NM" -g --defined-only "$@")
+defined=$(echo "$defined" | awk 'NF == 3 { print $NF }')
 [ -n "$defined" ] || complain "nothing is defined in" "$@"
 foreign=$(echo "$defined" | grep -v -E '^(rst_|restitute_|(__|_QM)(rst_[a-z0-9_]+|restitute)(_MOD_|P|E))' | grep -v -E '^__[a-z_]*(a|ub)san' || true)
 [ -z "$foreign" ] || complain "other names than rst_* and restitute_*:" $foreign
@@ -22,7 +23,8 @@ for object in "$@"; do
     *.f90.o | *.F90.o) ;;
     *) continue ;;
     esac
-    "$NM" -u "$object" | grep -q -E ' (malloc|calloc|realloc)$' && complain "$object takes memory"
+    undefined=$("$NM" -u "$object")
+    ! echo "$undefined" | grep -q -E ' (malloc|calloc|realloc)$' || complain "$object takes memory"
 done
 echo "looked into $# objects"
 exit $wrong
