@@ -86,9 +86,9 @@ void ContactModel::note(Ratio which, double ratio)
     record.beyond[which] += ratio > limits[which];
 }
 
-/* Velocity Verlet moves bodies by the velocity that it shows us: a contact starts with the overlap of one step of
- * approach at most, and that of spheres that pass each other, (v dt)^2/(8 R). 1e-5 R, a contact radius of 0.003 R, covers
- * the latter to a sixth of the radius a step. A larger tolerance would hide forgotten contacts of hard spheres at rest.
+/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one step of approach at
+ * most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact radius of 0.003 R, covers that up to steps
+ * of 0.009 R. A larger tolerance would hide forgotten contacts of hard spheres at rest.
  * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {

@@ -95,6 +95,9 @@ void PairRestitute::init_style()
         its->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
     keep_history();
+    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run, and compute() sets
+     * this back. Between runs the fix has them already, and atoms have moved since the lists were made. */
+    histories->restart_global = 0;
     check_tags();
     change_pages();
     find_largest_radii();
@@ -125,12 +128,7 @@ void PairRestitute::keep_history()
     if (size > history_size && histories)
         error->all(FLERR, "pair_coeff of restitute: contacts need {} numbers now, {} in the runs before", size,
                    history_size);
-    if (histories) {
-        /* write_restart makes the fix gather contacts from the neighbor lists. That is right within a run. Between
-         * runs it has them already, and atoms have moved since the lists were made. compute() sets this back. */
-        histories->restart_global = 0;
-        return;
-    }
+    if (histories) return;
     const std::string fix = history_id + " all NEIGH_HISTORY " + std::to_string(size);
     histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
     histories->pair = this;
@@ -172,13 +170,15 @@ void PairRestitute::change_pages()
         kept.resize(start + histories->size_restart(i));
         kept.resize(start + histories->pack_exchange(i, &kept[start]));
         if (kept[start] > neighbor->oneatom)
-            error->one(FLERR, "pair_style restitute: neigh_modify one {}: must be at least {:.0f}, as many as atom {} touches",
+            error->one(FLERR,
+                       "pair_style restitute: neigh_modify one {}: must be at least {:.0f}, as many as atom {} touches",
                        neighbor->oneatom, kept[start], atom->tag[i]);
     }
     page = neighbor->pgsize, one = neighbor->oneatom;
     histories->init();
-    for (int i = 0, k = 0; i < atom->nlocal; i++)
-        k += histories->unpack_exchange(i, &kept[k]);
+    size_t next = 0;
+    for (int i = 0; i < atom->nlocal; i++)
+        next += histories->unpack_exchange(i, &kept[next]);
 }
 
 /* Of each type, spheres that fixes are to create included: fixes pour and deposit tell their radii by this name. */
@@ -240,8 +240,8 @@ void PairRestitute::compute(int eflag, int vflag)
     warn(lmp, own, warned);
 }
 
-/* Since the last step: as far move images of spheres, and spheres that `fix deform` maps. Sides that LAMMPS wraps
- * around the spheres move none. */
+/* Since the last step: as far move images of spheres, and spheres that `fix deform` maps. With `remap v` their
+ * velocities say so, and sides that LAMMPS wraps around the spheres move none. */
 double PairRestitute::change_of_box()
 {
     std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
@@ -251,7 +251,7 @@ double PairRestitute::change_of_box()
     for (size_t k = 0; k < box.size(); k++)
         change = std::max(change, std::fabs(now[k] - box[k]));
     box = now;
-    return change;
+    return domain->deform_vremap ? 0 : change;
 }
 
 /* Neighbor lists are made for the largest radii at the start of a run, and reach further by the skin: by that they find
@@ -261,8 +261,8 @@ void PairRestitute::check_radius(int i)
     const double largest = largest_radius[atom->type[i]] + 0.5 * neighbor->skin;
     if (atom->radius[i] > largest)
         error->one(FLERR,
-                   "restitute: atom {} at step {}: its radius {:.6g} must be at most {:.6g}, half of the skin more than "
-                   "type {} had when the run began: start a new run when radii have grown, or choose a larger skin",
+                   "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, half of the skin more than "
+                   "type {} had when the run began. Begin a new run when radii have grown, or take a larger skin",
                    atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
 }
 

@@ -110,5 +110,5 @@ for fix in (POUR, DEPOSIT):
     (found, contacts), (wanted, answer) = created(fix, False), created(fix, True)
     name = "fix " + fix.split()[0]
     print(f"{name}: {len(found)} spheres, {contacts:.0f} contacts")
-    check(len(found) == 40 and answer >= 10, f"{name}: {len(found)} spheres and {answer} contacts are too few for a test")
+    check(len(found) == 40 and answer >= 10, f"{name}: {len(found)} spheres, {answer} contacts: too few for a test")
     check(found == wanted, f"{name}: {contacts} contacts; {answer} if a sphere as large is there from the start")

@@ -70,7 +70,6 @@ check(motions("whole.txt")[1] == motions("halves.txt")[1], "in.bed: a restart ch
 CROWD = """
     units si
     atom_style sphere
-    atom_modify sort 0 0
     comm_modify vel yes
     newton ${newton}
     boundary p p f
@@ -83,7 +82,7 @@ NEW = """
     region fill block 0 5.9 0 5.9 0.6 6
     create_atoms 1 region fill
     set group all diameter 0.005 density 1050
-    velocity all create 1e16 4711 dist gaussian
+    velocity all create 4e16 4711 dist gaussian
     pair_style restitute
     pair_coeff * * SOLID friction 0.5
     """
@@ -102,36 +101,38 @@ SOLID = material("soft", model="prony", poisson_ratio=0.47, density_kg_m3=1050, 
                  terms=[{"tau_s": 2e-5, "modulus_pa": 3e6}, {"tau_s": 4e-4, "modulus_pa": 1e6}])
 
 
-def crowd(name, processes, newton, start, runs):
+def crowd(name, processes, start, runs):
     """The motions at the end of a crowd of 216 soft spheres, which is new or read from a file."""
     with open("in.crowd", "w") as file:
         file.write((CROWD + start + MOVE + runs + DUMP).replace("SOLID", SOLID))
-    text = lmp(os.path.abspath("in.crowd"), processes, newton=newton, dump=name + ".txt")
-    return motions(name + ".txt")[1], counts(text)
+    text = lmp(os.path.abspath("in.crowd"), processes, newton="on" if processes == 1 else "off", dump="crowd.txt")
+    print(f"crowd, {processes} processes, {name}: {counts(text)} contacts and steps, of floor and spheres in each run")
+    return motions("crowd.txt")[1]
 
 
-# Sorted atoms, as LAMMPS sorts them when a run begins, would add their forces in another order after within.600.
-for processes, newton in ((1, "on"), (2, "off")):
-    def run(name, start, runs):
-        return crowd(name, processes, newton, start, runs)
-
-    def same(name, found, wanted):
-        check(found == wanted, f"crowd, {processes} processes, newton {newton}: {name}: another motion")
-
-    whole, met = run("whole", NEW, "run 800\nrun 200")
-    same("commands between runs", run("between", NEW, """
-        run 800
+for processes in 1, 2:
+    whole = crowd("three runs", processes, NEW, "run 600\nrun 50\nrun 50")
+    between = """
+        run 600
         write_restart middle.restart
+        run 50
         neigh_modify page 30000 one 300
-        run 200
-        """)[0], whole)
-    same("a restart file", run("file", "read_restart middle.restart", "run 200")[0], whole)
-    within = run("within", NEW, """
-        restart 600 within.*
-        run 800 every 400 "write_restart every.restart"
-        restart 0
-        run 200
-        """)[0]
-    same("a restart file written within a run", run("file", "read_restart within.600", "run 200\nrun 200")[0], within)
-    same("a restart file written by run every", run("file", "read_restart every.restart", "run 200")[0], within)
-    print(f"crowd, {processes} processes, newton {newton}: the same bits, {met} contacts and steps of floor and spheres")
+        run 50
+        """
+    check(crowd("commands between runs", processes, NEW, between) == whole, "crowd: commands between runs change it")
+    again = crowd("a restart", processes, "read_restart middle.restart", "write_restart again.restart\nrun 50\nrun 50")
+    check(again == whole, "crowd: a restart changes it")
+again = crowd("a restart of a restart", processes, "read_restart again.restart", "run 50\nrun 50")
+check(again == whole, "crowd: a restart from a file that was written before a run changes it")
+
+# Files written within a run, and by run every. Atoms that LAMMPS sorts as a run begins, after within.300, would add
+# their forces in another order.
+UNSORTED = "\natom_modify sort 0 0\n"
+within = crowd("restart files within runs", 1, NEW + UNSORTED, """
+    restart 300 within.*
+    run 400 every 200 "write_restart every.restart"
+    restart 0
+    run 100
+    """)
+for name, runs in ("within.300", "run 100\nrun 100"), ("every.restart", "run 100"):
+    check(crowd(name, 1, "read_restart " + name + UNSORTED, runs) == within, f"crowd: a restart from {name} changes it")
