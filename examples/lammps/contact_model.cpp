@@ -53,7 +53,7 @@ void Record::add(const Record &other)
 std::string Record::text(const double limits[RATIOS]) const
 {
     static const char *names[] = {"contact radius over radius", "speed over shear wave speed",
-                                  "time step over the law's"};
+                                  "time step over the law's", "first overlap over 2 steps'"};
     char line[200];
     std::snprintf(line, sizeof line, "restitute: %.0f contacts, %.0f steps of contacts\n", contacts, steps);
     std::string all = line;
@@ -65,17 +65,36 @@ std::string Record::text(const double limits[RATIOS]) const
     return all;
 }
 
+std::string Record::warning(Ratio which, long long step) const
+{
+    char line[200] = "";
+    if (which == STEP && beyond[STEP] > 0)
+        std::snprintf(line, sizeof line,
+                      "restitute: a contact began at step %lld that needs a time step %.3g times as short", step,
+                      largest[STEP]);
+    if (which == DEPTH && beyond[DEPTH] > 0)
+        std::snprintf(line, sizeof line,
+                      "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
+                      "spheres were put into each other, or their contact was forgotten or found late",
+                      step, largest[DEPTH]);
+    return line;
+}
+
 void ContactModel::note(Ratio which, double ratio)
 {
     record.largest[which] = std::max(record.largest[which], ratio);
     record.beyond[which] += ratio > limits[which];
 }
 
-/* v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
+/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one step of approach at
+ * most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact radius of 0.003 R, covers that up to steps
+ * of 0.009 R. A larger tolerance would hide forgotten contacts of hard spheres at rest.
+ * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
     double limit; /* a fiftieth of the contact time, which is 2.94 time scales */
     record.contacts++;
+    note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
     if (restitute_contact_time_step_limit(law, 1 / contact.inverse_mass, contact.radius, speed, &limit, nullptr) < 0)
         return; /* no speed of approach: bodies were put into each other */
     const double modulus = restitute_material_modulus(material, limit * 50 / 2.94);
@@ -114,7 +133,6 @@ ContactModel::ContactModel(const std::vector<std::string> &words, const Units &u
         restitute_material_destroy(material);
         throw;
     }
-    state_size = restitute_contact_law_state_size(law);
 }
 
 ContactModel::~ContactModel()
@@ -205,7 +223,7 @@ uint64_t ContactModel::hash() const
 
 int ContactModel::history_size() const
 {
-    return (int)state_size + 1;
+    return 1 + (int)restitute_contact_law_state_size(law);
 }
 
 /* ---------------------------------------------------------------------------------------------------- time steps */
@@ -222,7 +240,7 @@ static void to_force(const restitute_contact_force &f, const double *normal, dou
 }
 
 const char *ContactModel::advance(const Contact &contact, double density, bool on_record, double *history,
-                                  double force[3])
+                                  double force[3], double label)
 {
     const bool is_new = history[0] == 0;
     const double solid_sphere = 3.5; /* 1 + m R^2/J */
@@ -236,15 +254,16 @@ const char *ContactModel::advance(const Contact &contact, double density, bool o
     motion.half_step_over_mass = 0.5 * rates.step * contact.inverse_mass;
     motion.half_step_over_tangential_mass = solid_sphere * motion.half_step_over_mass;
     motion.radius = contact.radius;
-    if (restitute_contact_step(law, &rates, &motion, history, &found, &error) < 0) return error.message;
+    if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return error.message;
     to_force(found, contact.normal, force);
+    if (is_new) history[0] = label;
     if (!on_record) return nullptr;
     record.steps++;
     if (is_new) note_first_touch(contact, motion.normal_velocity, density);
     const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = contact.overlap; /* = a^2/R */
     if (depth > largest * largest * contact.radius) record.largest[RADIUS] = std::sqrt(depth / contact.radius);
-    if (depth > limit * limit * contact.radius && history[state_size] == 0) {
-        history[state_size] = 1; /* counted */
+    if (depth > limit * limit * contact.radius && history[0] > 0) {
+        history[0] = -history[0];
         record.beyond[RADIUS]++;
     }
     return nullptr;
@@ -253,14 +272,14 @@ const char *ContactModel::advance(const Contact &contact, double density, bool o
 const char *ContactModel::repeat(const Contact &contact, const double *history, double force[3])
 {
     restitute_contact_force found;
-    if (restitute_contact_peek(law, contact.normal, history, &found, &error) < 0) return error.message;
+    if (restitute_contact_peek(law, contact.normal, history + 1, &found, &error) < 0) return error.message;
     to_force(found, contact.normal, force);
     return nullptr;
 }
 
 const char *ContactModel::turn(const double from[3], const double to[3], double *history)
 {
-    return restitute_contact_turn(law, from, to, history, &error) < 0 ? error.message : nullptr;
+    return restitute_contact_turn(law, from, to, history + 1, &error) < 0 ? error.message : nullptr;
 }
 
 } // namespace restitute_dem

@@ -28,9 +28,10 @@ struct Contact {
 /* Sets the contact and returns true; or false: apart, or bodies that nothing moves. */
 bool touching(const Body &first, const Body &second, Contact &contact);
 
-/* What a run met. Three ratios have limits: contact radius over radius and speed over shear wave speed, limits of
- * the model, and time step over that of the law. The last two are those of first touches. */
-enum Ratio { RADIUS, SPEED, STEP, RATIOS };
+/* What a run met. Four ratios have limits: contact radius over radius and speed over shear wave speed, limits of the
+ * model, time step over that of the law, and the first overlap over what two steps of approach explain: beyond 1 a
+ * contact begins deep, without a memory that it should have. The last three are those of first touches. */
+enum Ratio { RADIUS, SPEED, STEP, DEPTH, RATIOS };
 
 struct Record {
     double steps = 0, contacts = 0; /* calls of the law, first touches */
@@ -38,6 +39,7 @@ struct Record {
     double largest[RATIOS] = {};
     void add(const Record &other);
     std::string text(const double limits[RATIOS]) const;
+    std::string warning(Ratio which, long long step) const; /* STEP or DEPTH; "": nothing to warn of */
 };
 
 /* Units of the host in SI: of stress in Pa, of density in kg/m^3. */
@@ -57,17 +59,20 @@ class ContactModel
 
     const std::vector<std::string> words;
     Record record;
-    double limits[RATIOS] = {0.1, 0.1, 1};
+    double limits[RATIOS] = {0.1, 0.1, 1, 1};
+    double drift = 0; /* how far the host moves bodies in a step besides their velocities, at most: see DEPTH */
 
     std::string about() const; /* a line on the law, and one on what is poor about it */
     uint64_t hash() const;     /* of the law */
-    int history_size() const;  /* doubles of a contact; all zeros: a new one */
+    int history_size() const;  /* doubles of a contact: its label, then its state. All zeros: a new one */
 
     /* What follows returns what is wrong, or NULL. */
     const char *set_step(double step);
 
-    /* The force on body 1 after a step. `density`: of the denser sphere. */
-    const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3]);
+    /* The force on body 1 after a step. `density`: of the denser sphere. `label`: a positive number by which the host
+     * knows a new contact again. In the history it becomes negative when the contact counts as beyond RADIUS. */
+    const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3],
+                        double label = 1);
 
     /* The force of the last step again. */
     const char *repeat(const Contact &contact, const double *history, double force[3]);
@@ -88,7 +93,6 @@ class ContactModel
     restitute_contact_motion motion;
     restitute_error error = {};
     std::string remark; /* of the library on the law */
-    size_t state_size = 0;
     double file_density = 0; /* of the denser material; 0: not given */
 };
 

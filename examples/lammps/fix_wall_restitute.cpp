@@ -77,7 +77,7 @@ void FixWallRestitute::init()
 {
     frozen = check_host(lmp, "fix wall/restitute");
     model->record = Record();
-    warned = false;
+    std::fill_n(warned, restitute_dem::RATIOS, false);
     reset_dt();
 }
 
@@ -121,7 +121,7 @@ void FixWallRestitute::post_force(int)
         else if (history[i][0] != 0)
             set_arrays(i);
     }
-    warn_of_step(lmp, model->record, warned);
+    warn(lmp, model->record, warned);
 }
 
 /* Body 1 is the sphere. */

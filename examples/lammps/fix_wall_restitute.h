@@ -52,7 +52,7 @@ class FixWallRestitute : public Fix
     double **history = nullptr;
     double force_on_wall[3] = {};
     int history_size, frozen = 0;
-    bool warned = false;
+    bool warned[restitute_dem::RATIOS] = {};
 };
 
 } // namespace LAMMPS_NS

@@ -52,12 +52,13 @@ void LAMMPS_NS::check_law(LAMMPS *lmp, const std::string &who, uint64_t written,
                         who, written, model.words[0], model.hash());
 }
 
-void LAMMPS_NS::warn_of_step(LAMMPS *lmp, const Record &record, bool &warned)
+void LAMMPS_NS::warn(LAMMPS *lmp, const Record &record, bool warned[restitute_dem::RATIOS])
 {
-    if (warned || record.beyond[restitute_dem::STEP] == 0) return;
-    warned = true;
-    lmp->error->warning(FLERR, "restitute: a contact began at step {} that needs a time step {:.3g} times as short",
-                        lmp->update->ntimestep, record.largest[restitute_dem::STEP]);
+    for (const auto which : {restitute_dem::STEP, restitute_dem::DEPTH}) {
+        if (warned[which] || record.beyond[which] == 0) continue;
+        warned[which] = true;
+        lmp->error->warning(FLERR, record.warning(which, lmp->update->ntimestep));
+    }
 }
 
 Record LAMMPS_NS::sum_of(const Record &record, MPI_Comm world)

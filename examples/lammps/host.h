@@ -46,8 +46,8 @@ int check_host(LAMMPS *lmp, const char *who);
 /* Ends the run where a restart file was written with another law. */
 void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const restitute_dem::ContactModel &model);
 
-/* Warns once of contacts that begin too fast for the time step. */
-void warn_of_step(LAMMPS *lmp, const restitute_dem::Record &record, bool &warned);
+/* Warns once of contacts that begin too fast for the time step, and once of those that begin deep. */
+void warn(LAMMPS *lmp, const restitute_dem::Record &record, bool warned[restitute_dem::RATIOS]);
 
 /* The record of all processes. */
 restitute_dem::Record sum_of(const restitute_dem::Record &record, MPI_Comm world);

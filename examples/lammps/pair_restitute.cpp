@@ -5,6 +5,7 @@
 #include "lammps_declarations.h"
 
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
@@ -14,6 +15,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 using namespace LAMMPS_NS;
@@ -24,6 +26,7 @@ using restitute_dem::Record;
 PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 {
     restartinfo = 1;
+    single_enable = 0; /* LAMMPS refuses what asks for the force of one pair without its memory */
     no_virial_fdotr_compute = 1;
     centroidstressflag = CENTROID_NOTAVAIL;
     finitecutflag = 1;
@@ -90,8 +93,13 @@ void PairRestitute::init_style()
         if (its && std::find(models.begin(), models.end(), its) == models.end()) models.push_back(its);
     for (const Model &its : models)
         its->record = Record();
-    warned = false;
+    std::fill_n(warned, restitute_dem::RATIOS, false);
     keep_history();
+    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run, and compute() sets
+     * this back. Between runs the fix has them already, and atoms have moved since the lists were made. */
+    histories->restart_global = 0;
+    check_tags();
+    change_pages();
     find_largest_radii();
     reset_dt();
 }
@@ -125,18 +133,62 @@ void PairRestitute::keep_history()
     histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
     histories->pair = this;
     history_size = size;
+    page = neighbor->pgsize, one = neighbor->oneatom;
     for (const Model &its : models)
         if (comm->me == 0) utils::logmesg(lmp, its->about());
 }
 
-/* Of each type, spheres that are to be poured or deposited included. */
+/* A contact is labelled with the sum of the tags of its spheres. The fix keeps the tag of the partner, and forgets the
+ * contact when a command gives the spheres other tags. */
+void PairRestitute::check_tags()
+{
+    std::vector<double> kept; /* of a sphere: how many partners, and of each its tag and the history */
+    for (int i = 0; i < atom->nlocal; i++) {
+        kept.resize(histories->size_restart(i));
+        const int size = histories->pack_exchange(i, kept.data());
+        for (int k = 1; k < size; k += 1 + history_size) {
+            const double partner = kept[k] < 1 ? (double)ubuf(kept[k]).i : kept[k]; /* as new LAMMPS packs it, or old */
+            if (kept[k + 1] != 0 && std::fabs(kept[k + 1]) != atom->tag[i] + partner)
+                error->one(FLERR,
+                           "pair_style restitute: atom {} had another ID when it touched its neighbors last. Contacts "
+                           "are known by IDs: do without reset_atoms id, and use delete_atoms with 'compress no'",
+                           atom->tag[i]);
+        }
+    }
+}
+
+/* The fix drops its pages, and the contacts in them, when `neigh_modify page` or `one` has changed. */
+void PairRestitute::change_pages()
+{
+    if (page == neighbor->pgsize && one == neighbor->oneatom) return;
+    if (neighbor->pgsize < 10 * neighbor->oneatom)
+        error->all(FLERR, "pair_style restitute: neigh_modify page {}: must be at least ten times 'one', {}",
+                   neighbor->pgsize, neighbor->oneatom);
+    std::vector<double> kept;
+    for (int i = 0; i < atom->nlocal; i++) {
+        const size_t start = kept.size();
+        kept.resize(start + histories->size_restart(i));
+        kept.resize(start + histories->pack_exchange(i, &kept[start]));
+        if (kept[start] > neighbor->oneatom)
+            error->one(FLERR,
+                       "pair_style restitute: neigh_modify one {}: must be at least {:.0f}, as many as atom {} touches",
+                       neighbor->oneatom, kept[start], atom->tag[i]);
+    }
+    page = neighbor->pgsize, one = neighbor->oneatom;
+    histories->init();
+    size_t next = 0;
+    for (int i = 0; i < atom->nlocal; i++)
+        next += histories->unpack_exchange(i, &kept[next]);
+}
+
+/* Of each type, spheres that fixes are to create included: fixes pour and deposit tell their radii by this name. */
 void PairRestitute::find_largest_radii()
 {
     std::vector<double> own(width, 0.0);
     for (int i = 0; i < atom->nlocal; i++)
         own[atom->type[i]] = std::max(own[atom->type[i]], atom->radius[i]);
     for (Fix *fix : modify->get_fix_list())
-        for (int type = 1; type < width && utils::strmatch(fix->style, "^pour|^deposit"); type++) {
+        for (int type = 1; type < width; type++) {
             int its = type;
             if (const void *radius = fix->extract("radius", its))
                 own[type] = std::max(own[type], *static_cast<const double *>(radius));
@@ -159,10 +211,15 @@ void PairRestitute::compute(int eflag, int vflag)
     const Spheres spheres(atom, frozen);
     double **x = atom->x, *radius = atom->radius;
     ev_init(eflag, vflag);
+    histories->restart_global = 1;
+    const double change = change_of_box();
+    for (const Model &its : models)
+        its->drift = change;
     for (int ii = 0; ii < list->inum; ii++) {
         const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
         int *touched = histories->firstflag[i];
         double *history = histories->firstvalue[i];
+        check_radius(i);
         for (int jj = 0; jj < list->numneigh[i]; jj++, history += history_size) {
             const int j = neighbors[jj] & NEIGHMASK;
             const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
@@ -180,7 +237,33 @@ void PairRestitute::compute(int eflag, int vflag)
     const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS],
                              own.beyond[restitute_dem::SPEED]};
     std::copy_n(values, nextra, pvector);
-    warn_of_step(lmp, own, warned);
+    warn(lmp, own, warned);
+}
+
+/* Since the last step: as far move images of spheres, and spheres that `fix deform` maps. With `remap v` their
+ * velocities say so, and sides that LAMMPS wraps around the spheres move none. */
+double PairRestitute::change_of_box()
+{
+    std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
+    double change = 0;
+    for (int k = 0; k < 3; k++)
+        if (std::max(domain->boundary[k][0], domain->boundary[k][1]) >= 2) now[k] = 0;
+    for (size_t k = 0; k < box.size(); k++)
+        change = std::max(change, std::fabs(now[k] - box[k]));
+    box = now;
+    return domain->deform_vremap ? 0 : change;
+}
+
+/* Neighbor lists are made for the largest radii at the start of a run, and reach further by the skin: by that they find
+ * spheres of larger radii as long as each has half of it in excess at most. */
+void PairRestitute::check_radius(int i)
+{
+    const double largest = largest_radius[atom->type[i]] + 0.5 * neighbor->skin;
+    if (atom->radius[i] > largest)
+        error->one(FLERR,
+                   "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, half of the skin more than "
+                   "type {} had when the run began. Begin a new run when radii have grown, or take a larger skin",
+                   atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
 }
 
 /* The atom with the smaller tag is body 1: in every list, on every process. */
@@ -198,7 +281,7 @@ void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double
     } else {
         const double density = history[0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
         const bool twice = j >= atom->nlocal && !force->newton_pair; /* the owner of j computes this contact, too */
-        problem = its.advance(contact, density, !twice || first == i, history, f);
+        problem = its.advance(contact, density, !twice || first == i, history, f, (double)tag[i] + tag[j]);
     }
     if (problem)
         error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep,

@@ -38,7 +38,11 @@ class PairRestitute : public Pair
     void allocate();
     void check_restart();
     void keep_history();
+    void check_tags();
+    void change_pages();
     void find_largest_radii();
+    void check_radius(int i);
+    double change_of_box();
     void compute_contact(const class Spheres &spheres, int i, int j, double *history);
     void apply(const restitute_dem::Contact &contact, const double force[3], int first, int second);
     restitute_dem::Record record() const;
@@ -46,11 +50,12 @@ class PairRestitute : public Pair
     int width = 0; /* of the table */
     std::vector<Model> table, models;
     std::vector<uint64_t> restarted; /* hashes of the laws in the restart file; empty: none, or checked */
-    std::vector<double> largest_radius;
+    std::vector<double> largest_radius, box;
     class FixNeighHistory *histories = nullptr;
     std::string history_id;
     int history_size = 0, frozen = 0;
-    bool warned = false;
+    int page = 0, one = 0; /* of neigh_modify, for which the fix has made its pages */
+    bool warned[restitute_dem::RATIOS] = {};
 };
 
 } // namespace LAMMPS_NS

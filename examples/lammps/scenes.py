@@ -16,12 +16,13 @@ PLUGIN = os.environ["PLUGIN"]
 class Scene:
     """A box of 1 m in LAMMPS without atoms, its own input lines and its atoms in SI units."""
 
-    def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none"):
+    def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none",
+                 atom_style="sphere"):
         self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen])
         self.spheres, w = 0, half_width
         self.run(f"""
             units {units}
-            atom_style sphere
+            atom_style {atom_style}
             atom_modify map array sort 0 0
             comm_modify vel yes
             boundary {boundary}

@@ -179,7 +179,7 @@ void FixRestitute::init()
                " or more, for " + std::to_string(history_size(true)) + " numbers a contact");
     const PairGran *pair = static_cast<PairGran *>(force->pair_match("gran", 1));
     frozen = pair ? pair->freeze_group_bit() : 0;
-    warned = false;
+    std::fill_n(warned, restitute_dem::RATIOS, false);
     for (const Model &its : models)
         its->record = Record();
     reset_dt();
@@ -298,17 +298,16 @@ bool FixRestitute::follow_mesh(const Meeting &met, const Contact &now, int offse
 
 void FixRestitute::end_of_step()
 {
-    const Record own = warned ? Record() : own_record();
-    if (own.beyond[restitute_dem::STEP] == 0) return;
-    warned = true;
-    char text[150];
-    snprintf(text, sizeof text,
-             "restitute: a contact began at step " BIGINT_FORMAT " that needs a time step %.3g times as short",
-             update->ntimestep, own.largest[restitute_dem::STEP]);
-    if (comm->me == 0)
-        error->warning(FLERR, text);
-    else
-        fprintf(stderr, "WARNING: %s\n", text); /* LIGGGHTS gives other processes no screen */
+    const Record own = own_record();
+    for (const auto which : {restitute_dem::STEP, restitute_dem::DEPTH}) {
+        if (warned[which] || own.beyond[which] == 0) continue;
+        warned[which] = true;
+        const std::string text = own.warning(which, update->ntimestep);
+        if (comm->me == 0)
+            error->warning(FLERR, text.c_str());
+        else
+            fprintf(stderr, "WARNING: %s\n", text.c_str()); /* LIGGGHTS gives other processes no screen */
+    }
 }
 
 /* ------------------------------------------------------------------------------------- what a run met, and restarts */

@@ -58,7 +58,7 @@ class FixRestitute : public Fix
     std::vector<Model> table, models; /* of pairs of types; those that differ */
     int states = 0;                   /* doubles of a contact that are the law's */
     int frozen = 0;
-    bool warned = false;
+    bool warned[restitute_dem::RATIOS] = {};
 };
 
 } // namespace LAMMPS_NS

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed ends the run with a message that names it; a time step too long for a contact is reported."""
+"""What cannot be computed ends the run with a message that names it. Contacts that begin too fast for the time step,
+or deep, are reported."""
+import re
 
 from scenes import MATERIALS, Scene, check, material
 
@@ -70,30 +72,72 @@ for name, solid in (("another law", other), ("a law of another size", glass)):
         fix w all wall/restitute {solid} friction 0.3 zplane -0.1 NULL
         {RUN}""")
 
+THIRD = "create_atoms 1 single {} 0 0 units box\nset atom 3 diameter 0.01 density 1000\n"
+LEFT = THIRD.format(-0.009999)  # touches atom 1
+TOUCH = LEFT + LAW + RUN.replace("100", "1") + "\n"
+refused("the force of one pair", ["does not support compute pair/local"],
+        LAW + "compute c all pair/local force\n" + RUN)
+refused("the force between groups", ["does not support compute group/group"],
+        LAW + "group g id 1\ncompute c g group/group all\n" + RUN)
+refused("IDs that reset_atoms has changed", ["atom", "another ID", "reset_atoms id"],
+        TOUCH + "reset_atoms id sort yes\nrun 1")
+refused("IDs that delete_atoms has changed", ["atom", "another ID", "compress no"],
+        TOUCH + "group g id 2\ndelete_atoms group g\nrun 1")
+refused("neigh_modify one of less than a sphere touches", ["neigh_modify one 1", "at least 2", "atom 1"],
+        TOUCH + "neigh_modify one 1\nrun 1")
+refused("a small page of neighbors", ["neigh_modify page 1000", "ten times", "2000"],
+        LAW + RUN + "\nneigh_modify page 1000\nrun 1")
+refused("a radius that grows beyond the skin", ["atom 3 at step 34", "0.00551", "0.0055,", "type 1"],
+        THIRD.format(0.3) + LAW + """
+        variable d equal 0.01*(1+0.003*step)
+        group g id 3
+        fix grow g adapt 1 atom diameter v_d
+        """ + RUN, atom_style="sphere 1")
 
 
-def log_of(lines):
-    """What LAMMPS says of two spheres that meet."""
-    scene = Scene(screen="log.txt")
-    scene.add((0, 0, 0), (0.03, 0, 0))
-    scene.add((0.01, 0, 0), (0, 0, 0))
-    scene.run(lines)
+def warnings(name, count, lines, ratio="first overlap over 2 steps'", words="times the overlap", first=0,
+             distance=0.01, speed=0.03, **scene_words):
+    """So many contacts of two spheres on the x axis are reported as beyond a ratio, with one warning if any is."""
+    scene = Scene(screen="log.txt", **scene_words)
+    scene.add((first, 0, 0), (speed, 0, 0))
+    scene.add((first + distance, 0, 0), (0, 0, 0))
+    scene.run(LAW + lines)
     scene.close()
     with open("log.txt") as log:
-        return log.read()
-
-
-def warned_once(text, words):
-    warnings = [line for line in text.splitlines() if words in line and "WARNING" in line]
-    print("\n".join(warnings))
-    check(len(warnings) == 1, f"{len(warnings)} warnings of '{words}', not 1")
+        text = log.read()
+    check(re.search("restitute: [1-9][0-9]* contacts", text), f"{name}: no contact")
+    warned = [line for line in text.splitlines() if "WARNING" in line]
+    report = [line for line in text.splitlines() if ratio in line]
+    print(f"{name}:", *warned + report, sep="\n  ")
+    check(len(warned) == (count > 0) and all(words in line for line in warned), f"{name}: {len(warned)} warnings")
+    counts = [int(line.rsplit(" ", 1)[1]) for line in report]
+    check(sum(counts) == count, f"{name}: the report counts {counts} contacts, not {count}")
 
 
 # A step between the law's and the longest one runs, but a warning says what the contact asks for.
-text = log_of(LAW + RUN.replace("1e-6", "1e-5"))
-warned_once(text, "time step")
-check("contacts beyond 1: 1" in text, "the report does not count the contact")
+warnings("a long time step", 1, RUN.replace("1e-6", "1e-5"), "time step over the law's", "time step")
+warnings("an impact", 0, RUN)
+warnings("spheres put into each other", 1, RUN, distance=0.00999)
+warnings("a sphere put into a wall", 1, f"fix w all wall/restitute {rubber} friction 0.3 xplane -0.00499 NULL\n{RUN}",
+         distance=0.1)
+warnings("a contact that a new pair style has forgotten", 1, f"{RUN}\npair_style none\n{LAW}run 100")
+warnings("a sphere made larger", 1, f"{RUN}\nset atom 1 diameter 0.012\nrun 100", distance=0.0105)
+# The box shrinks by 1e-5 of its width of 1 m a step. Its spheres, or their images, follow without velocities. LAMMPS
+# looks for new neighbors only if something moves.
+SHRINK = "fix d all deform 1 x erate -10 remap {}\n" + RUN.replace("100", "1000")
+warnings("spheres of a box that shrinks", 0, SHRINK.format("x"), distance=0.0101, speed=1e-3, boundary="p p p")
+warnings("images of spheres of a box that shrinks", 0, SHRINK.format("none"), first=-0.4925, distance=0.985, speed=1e-3,
+         boundary="p p p")
 
-# So does a law that misses its material by more than a fifth.
-warned_once(log_of(f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3 terms 3 window 1e-5 1e-2\n"
-                   + RUN), "misses G(t)")
+
+# A law that misses its material by more than a fifth runs, with a warning.
+scene = Scene(screen="log.txt")
+scene.add((0, 0, 0), (0.03, 0, 0))
+scene.add((0.01, 0, 0), (0, 0, 0))
+scene.run(f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3 terms 3 window 1e-5 1e-2\n"
+          + RUN)
+scene.close()
+with open("log.txt") as log:
+    warned = [line for line in log if "WARNING" in line and "misses G(t)" in line]
+print(*warned, sep="")
+check(len(warned) == 1, f"{len(warned)} warnings of a law that misses its material, not 1")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a sphere held fast."""
+"""The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a sphere held fast.
+Spheres that fixes create during a run meet as others do."""
 import math
 
 from scenes import Scene, check, library_pairs, material
@@ -72,3 +73,42 @@ answer, = library_pairs([dict(material=RUBBER, partner="same", radius1_m=RADIUS,
 ez, ex = -v[0] / SPEED, -(v[1] + RADIUS * v[5]) / ALONG
 print(f"a frozen sphere: ez {ez:.4f} {answer['ez']:.4f}, ex {ex:.4f} {answer['ex']:.4f}")
 check(abs(ez - answer["ez"]) <= 0.01 and abs(ex - answer["ex"]) <= 0.01, "an impact on a frozen sphere is off")
+
+
+with open("ball.txt", "w") as file:
+    file.write("a ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 0.006\n\nMasses\n\n1 1e-4\n")
+POUR = "pour 40 1 4711 region slab diam range 0.004 0.006 dens 1000 1000 vel -0.5 0.5 -0.5 0.5 0 vol 0.3 100"
+DEPOSIT = "deposit 40 0 25 4711 region slab near 0.0061 mol ball vx -0.5 0.5 vy -0.5 0.5"
+
+
+def created(fix, largest_is_there):
+    """What spheres do that a fix creates after the first of two runs, and how many contacts they have had."""
+    scene = Scene(half_width=0.05)
+    scene.add((0.04, 0.04, 0.04), (0, 0, 0), radius=0.003 if largest_is_there else 0.0005)
+    scene.run(f"""
+        region slab block -0.012 0.012 -0.012 0.012 0 0.03
+        molecule ball ball.txt
+        pair_style restitute
+        pair_coeff * * {SOFT} friction 0.3
+        fix down all gravity 9.81 vector 0 0 -1
+        timestep 5e-6
+        fix move all nve/sphere
+        compute met all pair restitute
+        variable met equal c_met[2]
+        thermo_style custom step v_met
+        run 1
+        fix new all {fix}
+        run 6000
+        """)
+    bits, contacts = scene.bits(), scene.lammps.extract_variable("met")
+    scene.close()
+    return {tag: bits[tag] for tag in bits if tag > 1}, contacts
+
+
+SOFT = material("soft", model="standard_solid", modulus1_pa=1e6, modulus2_pa=3e6, viscosity_pa_s=100)
+for fix in (POUR, DEPOSIT):
+    (found, contacts), (wanted, answer) = created(fix, False), created(fix, True)
+    name = "fix " + fix.split()[0]
+    print(f"{name}: {len(found)} spheres, {contacts:.0f} contacts")
+    check(len(found) == 40 and answer >= 10, f"{name}: {len(found)} spheres, {answer} contacts: too few for a test")
+    check(found == wanted, f"{name}: {contacts} contacts; {answer} if a sphere as large is there from the start")

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The input scripts of this example, short: what they print, on one process and on two, and after a restart."""
+"""The input scripts of this example, short: what they print, on one process and on two, and after a restart. And a
+dense flow across periodic boundaries, whose contacts survive what commands between runs do."""
 import os
 import re
 import subprocess
 import sys
 
-from scenes import MATERIALS, PLUGIN, check, library_pairs
+from scenes import MATERIALS, PLUGIN, check, library_pairs, material
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 VENV = os.path.dirname(sys.executable)
 
 
 def lmp(script, processes=1, **variables):
-    """What a script prints."""
+    """What a script of the example prints."""
     files = {"plugin": PLUGIN, "bead": f"{SCRIPTS}/bead.json", "glass": f"{MATERIALS}/soda_lime_glass.json",
              "material": f"{MATERIALS}/polyisobutylene.json"}
-    command = [f"{VENV}/mpiexec", "-n", str(processes), f"{VENV}/lmp", "-in", f"{SCRIPTS}/{script}",
+    command = [f"{VENV}/mpiexec", "-n", str(processes), f"{VENV}/lmp", "-in", os.path.join(SCRIPTS, script),
                "-log", "none", "-nocite"]
     for name, value in (files | variables).items():
         command += ["-var", name, str(value)]
@@ -64,3 +65,74 @@ lmp("in.bed", steps=50000, every=10000, half="second", dump="halves.txt")
 print(f"in.bed: {beads} contacts of beads, {floor} with the floor, {side} with the cylinder")
 check(int(floor) > 10 and int(beads) > 10, "in.bed: the beads do not meet all that is there")
 check(motions("whole.txt")[1] == motions("halves.txt")[1], "in.bed: a restart changes the motion")
+
+
+CROWD = """
+    units si
+    atom_style sphere
+    comm_modify vel yes
+    newton ${newton}
+    boundary p p f
+    plugin load ${plugin}
+    """
+NEW = """
+    lattice sc 0.0051
+    region box block 0 6 0 6 -0.1 12
+    create_box 1 box
+    region fill block 0 5.9 0 5.9 0.6 6
+    create_atoms 1 region fill
+    set group all diameter 0.005 density 1050
+    velocity all create 4e16 4711 dist gaussian
+    pair_style restitute
+    pair_coeff * * SOLID friction 0.5
+    """
+MOVE = """
+    neighbor 0.0005 bin
+    neigh_modify delay 0 page 20000 one 400
+    fix grav all gravity 9.81 vector 0 0 -1
+    fix floor all wall/restitute SOLID friction 0.5 partner rigid zplane 0.0025 NULL
+    fix move all nve/sphere
+    timestep 5e-6
+    """
+DUMP = """
+    write_dump all custom ${dump} id x y z vx vy vz omegax omegay omegaz modify sort id format float %.17g
+    """
+SOLID = material("soft", model="prony", poisson_ratio=0.47, density_kg_m3=1050, equilibrium_modulus_pa=1.2e6,
+                 terms=[{"tau_s": 2e-5, "modulus_pa": 3e6}, {"tau_s": 4e-4, "modulus_pa": 1e6}])
+
+
+def crowd(name, processes, start, runs):
+    """The motions at the end of a crowd of 216 soft spheres, which is new or read from a file."""
+    with open("in.crowd", "w") as file:
+        file.write((CROWD + start + MOVE + runs + DUMP).replace("SOLID", SOLID))
+    text = lmp(os.path.abspath("in.crowd"), processes, newton="on" if processes == 1 else "off", dump="crowd.txt")
+    print(f"crowd, {processes} processes, {name}: {counts(text)} contacts and steps, of floor and spheres in each run")
+    return motions("crowd.txt")[1]
+
+
+for processes in 1, 2:
+    whole = crowd("three runs", processes, NEW, "run 600\nrun 50\nrun 50")
+    between = """
+        run 600
+        write_restart middle.restart
+        run 50
+        neigh_modify page 30000 one 300
+        run 50
+        """
+    check(crowd("commands between runs", processes, NEW, between) == whole, "crowd: commands between runs change it")
+    again = crowd("a restart", processes, "read_restart middle.restart", "write_restart again.restart\nrun 50\nrun 50")
+    check(again == whole, "crowd: a restart changes it")
+again = crowd("a restart of a restart", processes, "read_restart again.restart", "run 50\nrun 50")
+check(again == whole, "crowd: a restart from a file that was written before a run changes it")
+
+# Files written within a run, and by run every. Atoms that LAMMPS sorts as a run begins, after within.300, would add
+# their forces in another order.
+UNSORTED = "\natom_modify sort 0 0\n"
+within = crowd("restart files within runs", 1, NEW + UNSORTED, """
+    restart 300 within.*
+    run 400 every 200 "write_restart every.restart"
+    restart 0
+    run 100
+    """)
+for name, runs in ("within.300", "run 100\nrun 100"), ("every.restart", "run 100"):
+    check(crowd(name, 1, "read_restart " + name + UNSORTED, runs) == within, f"crowd: a restart from {name} changes it")

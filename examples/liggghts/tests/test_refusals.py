@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed, or no preload, ends the run with a message that names it; a long step is reported."""
+"""What cannot be computed, or no preload, ends the run with a message that names it. Contacts that begin too
+fast for the time step, or deep, are reported."""
 import re
 
 from scenes import MATERIALS, STYLE, WALL, box, check, law, liggghts, material, sphere
@@ -54,12 +55,21 @@ refused("a restart with another law", ["types 1 1", "another law", "other.json"]
         STYLE)
 refused("a restart without the pair style", ["pair_style again"], LAW + AGAIN + RUN)
 
+
+def reported(name, words, ratio, lines):
+    """A contact is counted as beyond a ratio, and warned of once."""
+    text = liggghts(box() + lines)
+    warnings = [line for line in text.splitlines() if words in line and "WARNING" in line]
+    report = [line for line in text.splitlines() if ratio in line]
+    print(f"{name}:", *warnings + report, sep="\n  ")
+    check(len(warnings) == 1, f"{name}: {len(warnings)} warnings, not 1")
+    check(len(report) == 1 and report[0].endswith("contacts beyond 1: 1"), f"{name}: the report does not count it")
+
+
 # A step between the law's and the longest one runs, but a warning says what the contact asks for.
-text = liggghts(box() + BALLS + LAW + STYLE + RUN.replace("1e-6", "1e-5"))
-warnings = [line for line in text.splitlines() if "time step" in line and "WARNING" in line]
-print("\n".join(warnings))
-check(len(warnings) == 1, f"{len(warnings)} warnings of the time step, not 1")
-check("contacts beyond 1: 1" in text, "the report does not count the contact")
+reported("a long time step", "time step", "time step over the law's", BALLS + LAW + STYLE + RUN.replace("1e-6", "1e-5"))
+reported("spheres put into each other", "times the overlap", "first overlap over 2 steps'",
+         sphere(1, (0, 0, 0), (0.03, 0, 0)) + sphere(2, (0.00999, 0, 0), (0, 0, 0)) + LAW + STYLE + RUN)
 
 # So does a law that misses its material by more than a fifth.
 text = liggghts(box() + BALLS + law(f"{MATERIALS}/polyisobutylene.json friction 0.3 terms 3 window 1e-5 1e-2") + STYLE + RUN)
