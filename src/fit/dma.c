@@ -189,12 +189,12 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     restitute_dma_result r;
     restitute_dma_options_init(&o);
     restitute_dma_result_init(&r);
-    if (options) o = *options;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     int status = rst_fit_sized("result", result->struct_size, sizeof r, error);
-    if (!status) status = check_options(&o, error);
+    if (!status && options) status = check_options(options, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;
+    if (options) o = *options;
     struct rst_dma *d = calloc(1, sizeof *d);
     double *memory = calloc(5 * n, sizeof *memory), *omega = memory;
     size_t *group = calloc(n, sizeof *group);

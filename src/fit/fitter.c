@@ -287,7 +287,9 @@ int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_f
 {
     restitute_fitter *fitter;
     double done = 0;
-    int status = restitute_fitter_create(n, points, options, &fitter, error);
+    if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
+    int status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
+    if (!status) status = restitute_fitter_create(n, points, options, &fitter, error);
     if (status) return status;
     while (!status && done < 1)
         status = restitute_fitter_run(fitter, &done, error);
