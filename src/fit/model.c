@@ -89,17 +89,17 @@ void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, s
 {
     const int standard = m->kind == RESTITUTE_FIT_STANDARD_SOLID || m->kind == RESTITUTE_FIT_KELVIN_VOIGT;
     if (i == m->friction)
-        snprintf(name, RESTITUTE_FIT_NAME, "friction");
+        rst_print(name, RESTITUTE_FIT_NAME, "friction");
     else if (i >= m->solid)
-        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g",
-                 d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
+        rst_print(name, RESTITUTE_FIT_NAME, "shift_%g",
+                  d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
     else if (m->kind == RESTITUTE_FIT_PRONY)
-        snprintf(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
-                 i ? d->options.relaxation_time[i - 1] : 0);
+        rst_print(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
+                  i ? d->options.relaxation_time[i - 1] : 0);
     else if (i > 0 && i == m->solid - 1)
-        snprintf(name, RESTITUTE_FIT_NAME, "viscosity_pa_s");
+        rst_print(name, RESTITUTE_FIT_NAME, "viscosity_pa_s");
     else
-        snprintf(name, RESTITUTE_FIT_NAME, standard ? "modulus%zu_pa" : "modulus_pa", i + 1);
+        rst_print(name, RESTITUTE_FIT_NAME, standard ? "modulus%zu_pa" : "modulus_pa", i + 1);
 }
 
 void rst_fit_constants(const struct rst_fit_model *m, const double *logs, double *constants)

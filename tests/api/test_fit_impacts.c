@@ -1,5 +1,6 @@
 /* What fit.h promises of measured impacts: round trips, intervals, what the data leave open, refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/comma_locale.h"
 #include "../support/fit.h"
 
 enum { N = 20 };
@@ -455,6 +456,26 @@ static void refusals(void **state)
     refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = 8");
 }
 
+/* Names of constants are keys for programs; remarks have them and numbers, too. */
+static void names_have_a_point_in_every_locale(void **state)
+{
+    static const double tau[] = {1e-3};
+    restitute_fit_point points[6];
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_PRONY);
+    (void)state;
+    drops(6, 0.1, 10, points);
+    for (int i = 0; i < 6; i++)
+        points[i].ez = 0.9 - 0.05 * i, points[i].temperature = i % 2 ? 20.5 : 30;
+    options.terms = 1, options.relaxation_time = tau;
+    set_comma_locale();
+    restitute_fit_result r = fitted(6, points, &options);
+    setlocale(LC_ALL, "C"); /* before anything can fail */
+    assert_string_equal(r.name[1], "modulus_pa[tau=0.001]");
+    assert_string_equal(r.name[2], "shift_20.5");
+    CHECK(strchr(r.remarks, '.') && !strstr(r.remarks, "0,"), "%s", r.remarks);
+    restitute_material_destroy(r.material);
+}
+
 static void the_handle(void **state)
 {
     restitute_material *solid = kelvin_voigt(1e6, 100);
@@ -500,6 +521,7 @@ int main(void)
                                        cmocka_unit_test(temperatures),
                                        cmocka_unit_test(temperatures_from_every_seed),
                                        cmocka_unit_test(refusals),
+                                       cmocka_unit_test(names_have_a_point_in_every_locale),
                                        cmocka_unit_test(the_handle)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
