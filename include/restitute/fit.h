@@ -149,7 +149,8 @@ RESTITUTE_API int restitute_fitter_create(size_t n, const restitute_fit_point *p
                                           const restitute_fit_options *options, restitute_fitter **fitter,
                                           restitute_error *error);
 
-/** One piece of the work, some hundredths of a second for twenty points.
+/** One piece of the work: some 200 impacts, hundredths of a second, and tenths where they are slow. The work has a thread
+ *  of its own, which waits between the calls; a failed one ends the work.
  *  @param done  out: the part done, 1 at the end */
 RESTITUTE_API int restitute_fitter_run(restitute_fitter *fitter, double *done, restitute_error *error);
 

@@ -7,6 +7,9 @@
 
 #include "report.h"
 
+/* Impacts that are solved in one call: many enough for threads, few enough for a piece of the fit. */
+enum { BATCH = 200 };
+
 /* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
 static const double widest = 18.4; /* ln 1e8 */
 
@@ -181,10 +184,12 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
         status = make_solids(d, m, c, solids + s * d->groups);
         if (status >= 0) make_scenes(m, c, n, impacts, solids + s * d->groups, scenes + s * n, results + s * n);
     }
-    if (status >= 0) {
-        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, NULL);
-        d->impacts += (int64_t)(sets * n);
-        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK;
+    for (size_t first = 0, most = sets * n; first < most && status >= 0; first += BATCH) {
+        const size_t count = most - first < BATCH ? most - first : BATCH;
+        status = restitute_solve_scenes(&d->solver, count, scenes + first, results + first, statuses + first,
+                                        d->options.threads, NULL);
+        d->impacts += (int64_t)count;
+        if (status != RESTITUTE_ERROR_MEMORY) status = rst_pieces_pause(d->pieces, count);
     }
     for (size_t i = 0; solids && i < sets * d->groups; i++)
         restitute_material_destroy(solids[i]);

@@ -504,6 +504,45 @@ static void the_handle(void **state)
     restitute_material_destroy(solid);
 }
 
+/* With e_x every point has an impact of its own. A piece has some 200 of them, whatever the number of points, and the same
+ * bits come out as in one go. A fit may be left in the middle. */
+static void pieces_are_short(void **state)
+{
+    enum { MANY = 100 };
+    static restitute_fit_point points[MANY];
+    restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    restitute_fit_result whole, r;
+    restitute_fitter *fitter;
+    restitute_error error;
+    double done = 0;
+    int calls = 0;
+    (void)state;
+    drops(MANY, 0.01, 1, points);
+    for (size_t i = 0; i < MANY; i++)
+        points[i].scene.friction = 0.3, points[i].scene.tangential_speed = 0.6 * points[i].scene.normal_speed;
+    measure(solid, MANY, points, 0.01, 1, 1, 1);
+    options.starts = 1;
+    whole = fitted(MANY, points, &options);
+    assert_int_equal(restitute_fitter_create(MANY, points, &options, &fitter, &error), RESTITUTE_OK);
+    for (; done < 1; calls++)
+        assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
+    restitute_fit_result_init(&r);
+    assert_int_equal(restitute_fitter_result(fitter, &r, &error), RESTITUTE_OK);
+    restitute_fitter_destroy(fitter);
+    CHECK(r.impacts > 4000 && calls > r.impacts / 400, "%d impacts in %d pieces", (int)r.impacts, calls);
+    assert_memory_equal(r.high, whole.high, sizeof r.high);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(whole.material);
+    for (int pieces = 0; pieces < 12; pieces += 5) {
+        assert_int_equal(restitute_fitter_create(MANY, points, &options, &fitter, &error), RESTITUTE_OK);
+        for (int k = 0; k < pieces; k++)
+            assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
+        restitute_fitter_destroy(fitter);
+    }
+    restitute_material_destroy(solid);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(round_trip_without_noise),
@@ -522,6 +561,7 @@ int main(void)
                                        cmocka_unit_test(temperatures_from_every_seed),
                                        cmocka_unit_test(refusals),
                                        cmocka_unit_test(names_have_a_point_in_every_locale),
-                                       cmocka_unit_test(the_handle)};
+                                       cmocka_unit_test(the_handle),
+                                       cmocka_unit_test(pieces_are_short)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

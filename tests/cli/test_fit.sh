@@ -35,6 +35,23 @@ cp solid.json first.json
 expect 0 fit --input drop.csv $ball --output solid.json --threads 2
 cmp first.json solid.json || fail "two runs give different files"
 
+# A signal is obeyed within a piece: here behind the starts, in the precise fit of all rows, half a minute and more.
+awk 'BEGIN { print "speed_m_s,angle_deg,ez,ex"; for (i = 0; i < 6000; i++)
+    print 0.01 * 1000 ^ (i / 6000) "," 5 + i % 80 "," 0.9 - 0.4 * i / 6000 ",0.1" }' >oblique.csv
+"$RESTITUTE" fit --input oblique.csv $ball --friction 0.3 --starts 1 >out 2>err </dev/null &
+process=$!
+sleep 2
+kill -TERM $process
+tries=0
+while kill -0 $process 2>/dev/null; do
+    tries=$((tries + 1))
+    [ $tries -lt 200 ] || { kill -KILL $process; fail "still there 10 s behind the signal"; }
+    sleep 0.05
+done
+wait $process
+status=$?
+[ $status -eq 130 ] || fail "exit status $status behind a signal, not 130"
+
 # The report comes last: where a file has no room, there is neither.
 (ulimit -f 0; "$RESTITUTE" fit --input drop.csv $ball --output full.json 2>&1 </dev/null) | cat >said
 [ "$(cat said)" = 'restitute: full.json: cannot be written: File too large' ] || fail "no room: $(cat said)"
