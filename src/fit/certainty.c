@@ -105,12 +105,12 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
     }
 }
 
-/* A constant is not determined if it is more than three standard deviations away in another fit that is as good. */
+/* A constant is not determined if it is more than a standard deviation away in another fit that is as good. */
 static void look_at_other(const struct rst_fit_search *s, struct rst_fit_certainty *c)
 {
     const size_t p = s->model.free;
     for (size_t i = 0; i < p && s->other_sum < INFINITY; i++) {
-        c->otherwise[i] = c->determined[i] && fabs(s->other[i] - s->logs[i]) > 3 * sqrt(c->variance[i * p + i]);
+        c->otherwise[i] = c->determined[i] && fabs(s->other[i] - s->logs[i]) > sqrt(c->variance[i * p + i]);
         if (c->otherwise[i]) c->determined[i] = 0;
     }
 }

@@ -160,6 +160,15 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
     free(fitter);
 }
 
+/* Half the width of an interval in standard deviations; without degrees of freedom nothing is determined. */
+static double quantile(const restitute_fitter *f)
+{
+    const double upper = 0.5 + 0.5 * f->data.options.confidence;
+    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
+                                       : f->certainty.dof ? gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof)
+                                                           : INFINITY;
+}
+
 /* Robust weights until they settle, then what they determine. */
 static int settle(restitute_fitter *f)
 {
@@ -172,15 +181,8 @@ static int settle(restitute_fitter *f)
     }
     if (status >= 0) status = rst_fit_judge_other(&f->search);
     if (status >= 0) status = rst_fit_rescale(&f->search);
-    return status < 0 ? status : rst_fit_certainty(&f->search, &f->certainty);
-}
-
-/* Half the width of an interval in standard deviations. */
-static double quantile(const restitute_fitter *f)
-{
-    const double upper = 0.5 + 0.5 * f->data.options.confidence;
-    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
-                                       : gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof);
+    if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
+    return status < 0 ? status : rst_fit_profile(&f->search, quantile(f), &f->certainty);
 }
 
 static void write_constants(restitute_fitter *f)
@@ -197,9 +199,8 @@ static void write_constants(restitute_fitter *f)
     }
     for (size_t k = 0; k < m->free; k++) {
         const size_t i = m->index[k];
-        const double width = c->determined[k] ? quantile(f) * sqrt(c->variance[k * m->free + k]) : INFINITY;
-        r->low[i] = c->determined[k] ? r->value[i] * exp(-width) : 0;
-        r->high[i] = c->determined[k] ? r->value[i] * exp(width) : INFINITY;
+        r->low[i] = r->value[i] * exp(-c->below[k]);
+        r->high[i] = r->value[i] * exp(c->above[k]);
         for (size_t l = 0; l < m->free; l++) {
             const double square = c->variance[k * m->free + k] * c->variance[l * m->free + l];
             if (l != k && square > 0) r->correlation[i][m->index[l]] = c->variance[k * m->free + l] / sqrt(square);
@@ -217,7 +218,7 @@ static int finish(restitute_fitter *f)
     r->rank = c->rank;
     r->rms = sqrt(f->search.sum / (double)f->data.rows);
     r->noise = f->data.options.noise_known ? (c->dof ? sqrt(f->search.sum / (double)c->dof) : NAN) : c->noise;
-    r->condition = p ? c->values[0] / c->values[p - 1] : 1;
+    r->condition = !p ? 1 : c->values[p - 1] > 0 ? c->values[0] / c->values[p - 1] : INFINITY; /* 0/0 too */
     const int status = rst_fit_remarks(&f->search, c, r);
     r->impacts = f->data.impacts;
     return status;

@@ -109,6 +109,21 @@ static void remark_other(const struct rst_fit_search *s, const struct rst_fit_ce
         remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s", text);
 }
 
+/* Constants that may be as large or as small as you like, with the others fitted to them. */
+static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+{
+    char name[RESTITUTE_FIT_NAME];
+    for (size_t i = 0; i < s->model.free; i++) {
+        if (!c->determined[i] || (c->below[i] < INFINITY && c->above[i] < INFINITY)) continue;
+        rst_fit_name(s->data, &s->model, s->model.index[i], name);
+        remark(result, RESTITUTE_FIT_UNDETERMINED, "the data give no %s of %s",
+               c->above[i] < INFINITY   ? "lower bound"
+               : c->below[i] < INFINITY ? "upper bound"
+                                        : "bounds",
+               name);
+    }
+}
+
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
 static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
 {
@@ -117,7 +132,7 @@ static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_ce
     if (status < 0) return status;
     if (m.patterned && c->noise >= c->judged)
         remark(result, RESTITUTE_FIT_MISFIT,
-               "the data do not follow the model: residuals keep their sign over ranges of speed, angle or temperature "
+               "the data do not follow the model: neighbours along speed, angle or temperature have like residuals "
                "(chance %.1g), their standard deviation is %.2g",
                m.chance, c->noise);
     if (m.large)
@@ -161,6 +176,7 @@ int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c,
     if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
     remark_other(s, c, result);
+    remark_bounds(s, c, result);
     const int status = remark_misfit(s, c, result);
     return status < 0 ? status : remark_limits(s, result);
 }
