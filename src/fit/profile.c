@@ -7,8 +7,8 @@
 #include "search.h"
 
 /* Half an interval, in the logarithm, up to which the linearised problem is trusted; and beyond which there is no bound: a
- * factor of 1000. Half the first doubles the impacts that fits of 1 % noise take. An end is where the rise is NEAR the one
- * that is asked for, or above; TRIALS are enough to get from LINEAR to UNBOUNDED by factors of two. */
+ * factor of 1000. Both are chosen, not derived. An end is where the rise is NEAR the one that is asked for, or above; TRIALS
+ * are enough to get from LINEAR to UNBOUNDED by factors of two. */
 static const double LINEAR = 0.2, UNBOUNDED = 6.9, NEAR = 0.9;
 enum { TRIALS = 8 };
 
