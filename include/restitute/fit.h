@@ -21,8 +21,9 @@
  *  are chosen by a quasi-random scan; derivatives are differences, updated by Broyden's rule unless shifts are
  *  fitted. The forward model is the method `sync` (@ref restitute_solve_scenes); many points without e_x are
  *  interpolated between impacts evenly spaced in log T, within 1e-5. Intervals are those of the linearised
- *  problem with Student's t. Without standard deviations all values of e count alike, contact times by their
- *  relative error, and the noise is estimated from the residuals. Equal input gives  equal bits.
+ *  problem with Student's t; where they reach beyond 20 % and no loss is robust, ends move out to where the sum of squares
+ *  has risen as much (profile likelihood). Without standard deviations all values of e count alike, contact times by their
+ *  relative error, and the noise is estimated from the residuals. Equal input gives equal bits.
  *
  *  The rules of restitute.h hold. GSL has one error handler for the process, and its own ends the program:
  *  it is switched off while a call of this component runs and restored afterwards. GSL may also raise floating-point
@@ -111,14 +112,14 @@ typedef struct restitute_fit_result {
     size_t constants;   /**< how many */
     char name[RESTITUTE_FIT_CONSTANTS][RESTITUTE_FIT_NAME];
     double value[RESTITUTE_FIT_CONSTANTS];
-    double low[RESTITUTE_FIT_CONSTANTS], high[RESTITUTE_FIT_CONSTANTS];   /**< 0 and infinity: not determined; both the
-                                   value: known */
+    double low[RESTITUTE_FIT_CONSTANTS], high[RESTITUTE_FIT_CONSTANTS];   /**< 0 or infinity: no such bound, and with
+                                   both not determined; both the value: known */
     double correlation[RESTITUTE_FIT_CONSTANTS][RESTITUTE_FIT_CONSTANTS]; /**< of the logarithms */
     size_t values;      /**< measured values of ez, ex and contact_time that were fitted */
     size_t rank;        /**< combinations of constants that the data determine */
     double rms;         /**< root of the mean squared weighted residual */
     double noise;       /**< its standard deviation for the degrees of freedom left, values - rank; NaN: none left */
-    double condition;   /**< largest over smallest singular value of the weighted Jacobian */
+    double condition;   /**< largest over smallest singular value of the weighted Jacobian; infinite: the smallest is 0 */
     int64_t impacts;    /**< that were solved */
     int flags;          /**< bits of @ref restitute_fit_flag */
     char remarks[2000]; /**< a line a remark, each ending with a newline */
@@ -149,7 +150,8 @@ RESTITUTE_API int restitute_fitter_create(size_t n, const restitute_fit_point *p
                                           const restitute_fit_options *options, restitute_fitter **fitter,
                                           restitute_error *error);
 
-/** One piece of the work, some hundredths of a second for twenty points.
+/** One piece of the work: some 200 impacts, hundredths of a second, and tenths where they are slow. The work has a thread
+ *  of its own, which waits between the calls; a failed one ends the work.
  *  @param done  out: the part done, 1 at the end */
 RESTITUTE_API int restitute_fitter_run(restitute_fitter *fitter, double *done, restitute_error *error);
 

@@ -23,7 +23,8 @@
  *  Rules that hold for every function
  *  - It returns a @ref restitute_status: 0 done, positive done with a remark, negative failed. A failed call leaves
  *    all its outputs untouched. Nothing is printed, nothing aborts, there is no global state.
- *  - The last argument is an optional @ref restitute_error that names the offending value and its allowed range.
+ *  - The last argument is an optional @ref restitute_error that names the offending value and its allowed range; numbers
+ *    in it have a decimal point, whatever the locale.
  *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which also sets all defaults.
  *  - Numbers have the ranges that stand beside them, wider than any system of units needs; what is outside is refused.
  *    Within them nothing overflows: no call raises FE_INVALID, FE_DIVBYZERO or FE_OVERFLOW, which hosts may trap.

@@ -21,7 +21,7 @@ static volatile sig_atomic_t stopped;
 static void on_signal(int number)
 {
     stopped = 1;
-    signal(number, SIG_DFL); /* a piece may be long: the second signal does not wait for it */
+    signal(number, SIG_DFL); /* a second one does not wait for the end of the piece */
 }
 
 static bool check_outputs(const struct fit_settings *s, const struct fit_input *input, struct reason *why)

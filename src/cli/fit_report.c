@@ -103,10 +103,14 @@ static void text_report(FILE *stream, const struct fit_settings *s, const struct
     for (size_t i = 0; i < r->count; i++) {
         const double low = r->constant[i].low, high = r->constant[i].high;
         fprintf(stream, "  %-26s %-13.6g", r->constant[i].name, r->constant[i].value);
-        if (isinf(high))
+        if (isinf(high) && low > 0)
+            fprintf(stream, " above %.6g", low);
+        else if (isinf(high))
             fputs(" not determined", stream);
-        else if (low < high)
+        else if (low < high && low > 0)
             fprintf(stream, " %.6g to %.6g", low, high);
+        else if (low < high)
+            fprintf(stream, " below %.6g", high);
         else if (!isnan(low))
             fputs(" known", stream);
         fputc('\n', stream);

@@ -45,8 +45,9 @@ void restitute_contact_motion_init(restitute_contact_motion *motion)
 /* One test for all: comparisons are false for NaN. */
 static int is_good(const restitute_contact_rates *rates, const restitute_contact_motion *m)
 {
+    if (m->struct_size != sizeof *m) return 0;
     const double *u = m->displacement, r = m->radius;
-    return m->struct_size == sizeof *m && r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
+    return r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
            fabs(m->normal_velocity) <= r / rates->step && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
            m->half_step_over_mass >= 0 && m->half_step_over_mass <= largest_mobility &&
            m->half_step_over_tangential_mass >= 0 && m->half_step_over_tangential_mass <= largest_mobility &&
@@ -75,6 +76,10 @@ static int check_unit(const double *v, const char *name, restitute_error *error)
 /* The first thing that is wrong with a motion that is not good. */
 static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
 {
+    if (m->struct_size != sizeof *m)
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "motion.struct_size = %zu: must be %zu; prepare it with restitute_contact_motion_init",
+                          m->struct_size, sizeof *m);
     const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
     const struct {
         const char *name;
@@ -88,10 +93,6 @@ static int refuse(const restitute_contact_rates *rates, const restitute_contact_
                    {"half_step_over_mass", m->half_step_over_mass, 0, largest_mobility},
                    {"half_step_over_tangential_mass", m->half_step_over_tangential_mass, 0, largest_mobility},
                    {"friction", m->friction, 0, largest_friction}};
-    if (m->struct_size != sizeof *m)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "motion.struct_size = %zu: must be %zu; prepare it with restitute_contact_motion_init",
-                          m->struct_size, sizeof *m);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
             return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,

@@ -19,9 +19,8 @@ void restitute_impact_init(restitute_impact *impact)
 
 static int check_impact(const restitute_impact *impact, restitute_error *error)
 {
-    int status = rst_check_size(impact->struct_size, sizeof *impact, "restitute_impact", error);
     /* 1/3 is exact physics (nu = 1/2, blocked rotation), but reaches us rounded */
-    if (!status) status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, rst_largest_chi, "chi", error);
+    int status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, rst_largest_chi, "chi", error);
     if (!status) status = rst_check_range(impact->psi, 0, largest_number, "psi", error);
     if (!status && !impact->solid) status = rst_check_range(impact->delta1, 0, largest_number, "delta1", error);
     if (!status && !impact->solid) status = rst_check_range(impact->gamma, 0, INFINITY, "gamma", error);

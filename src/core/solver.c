@@ -293,6 +293,8 @@ int restitute_solve(restitute_solver *solver, const restitute_impact *impact, re
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
     if (!impact) return rst_report(error, RESTITUTE_ERROR_NULL, "impact is NULL");
+    status = rst_check_size(impact->struct_size, sizeof *impact, "restitute_impact", error);
+    if (status) return status;
     return solve(solver, &(struct input){.impact = impact}, result, ledger, history, error);
 }
 
@@ -301,8 +303,10 @@ int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene
 {
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
-    if (!scene || !scene->material)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "scene.material" : "scene");
+    if (!scene) return rst_report(error, RESTITUTE_ERROR_NULL, "scene is NULL");
+    status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    if (status) return status;
+    if (!scene->material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
     return solve(solver, &(struct input){.scene = scene}, result, ledger, history, error);
 }
 

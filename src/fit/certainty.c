@@ -105,12 +105,18 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
     }
 }
 
-/* A constant is not determined if it is more than three standard deviations away in another fit that is as good. */
+/* Another fit that is as good lies apart if a constant is more than three standard deviations away; of it, constants are not
+ * determined that are more than one away. */
 static void look_at_other(const struct rst_fit_search *s, struct rst_fit_certainty *c)
 {
     const size_t p = s->model.free;
+    double most = 0, away[RESTITUTE_FIT_CONSTANTS];
     for (size_t i = 0; i < p && s->other_sum < INFINITY; i++) {
-        c->otherwise[i] = c->determined[i] && fabs(s->other[i] - s->logs[i]) > 3 * sqrt(c->variance[i * p + i]);
+        away[i] = c->determined[i] ? fabs(s->other[i] - s->logs[i]) / sqrt(c->variance[i * p + i]) : 0;
+        most = fmax(most, away[i]);
+    }
+    for (size_t i = 0; i < p && most > 3; i++) {
+        c->otherwise[i] = away[i] > 1;
         if (c->otherwise[i]) c->determined[i] = 0;
     }
 }

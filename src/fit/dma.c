@@ -107,10 +107,10 @@ static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
     if (!laid) strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
     const size_t used = strlen(r->remarks);
     if (high < 10 * low)
-        snprintf(r->remarks + used, sizeof r->remarks - used,
-                 "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
-                 "more\n",
-                 high / low);
+        rst_print(r->remarks + used, sizeof r->remarks - used,
+                  "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
+                  "more\n",
+                  high / low);
 }
 
 /* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted so that errors of log10 a count alike. */
@@ -146,7 +146,7 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
         r->flags |= RESTITUTE_FIT_MISFIT;
-        snprintf(
+        rst_print(
             r->remarks + used, sizeof r->remarks - used,
             "the data do not follow a series with positive terms within %.2g: rms %.2g, worst %.2g (temperatures that "
             "no shift of time explains, or moduli that are not linear)\n",
@@ -189,12 +189,12 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     restitute_dma_result r;
     restitute_dma_options_init(&o);
     restitute_dma_result_init(&r);
-    if (options) o = *options;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     int status = rst_fit_sized("result", result->struct_size, sizeof r, error);
-    if (!status) status = check_options(&o, error);
+    if (!status && options) status = check_options(options, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;
+    if (options) o = *options;
     struct rst_dma *d = calloc(1, sizeof *d);
     double *memory = calloc(5 * n, sizeof *memory), *omega = memory;
     size_t *group = calloc(n, sizeof *group);

@@ -18,6 +18,7 @@ struct restitute_fitter {
     double *weight;
     struct rst_fit_certainty certainty;
     size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the result */
+    size_t pieces;      /* that were run of this turn */
     restitute_fit_result result;
 };
 
@@ -152,10 +153,20 @@ int restitute_fitter_create(size_t n, const restitute_fit_point *points, const r
 void restitute_fitter_destroy(restitute_fitter *fitter)
 {
     if (!fitter) return;
+    rst_pieces_destroy(fitter->data.pieces);
     rst_fit_search_release(&fitter->search);
     rst_fit_data_release(&fitter->data);
     free(fitter->weight);
     free(fitter);
+}
+
+/* Half the width of an interval in standard deviations; without degrees of freedom nothing is determined. */
+static double quantile(const restitute_fitter *f)
+{
+    const double upper = 0.5 + 0.5 * f->data.options.confidence;
+    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
+                                       : f->certainty.dof ? gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof)
+                                                           : INFINITY;
 }
 
 /* Robust weights until they settle, then what they determine. */
@@ -170,15 +181,8 @@ static int settle(restitute_fitter *f)
     }
     if (status >= 0) status = rst_fit_judge_other(&f->search);
     if (status >= 0) status = rst_fit_rescale(&f->search);
-    return status < 0 ? status : rst_fit_certainty(&f->search, &f->certainty);
-}
-
-/* Half the width of an interval in standard deviations. */
-static double quantile(const restitute_fitter *f)
-{
-    const double upper = 0.5 + 0.5 * f->data.options.confidence;
-    return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
-                                       : gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof);
+    if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
+    return status < 0 ? status : rst_fit_profile(&f->search, quantile(f), &f->certainty);
 }
 
 static void write_constants(restitute_fitter *f)
@@ -195,9 +199,8 @@ static void write_constants(restitute_fitter *f)
     }
     for (size_t k = 0; k < m->free; k++) {
         const size_t i = m->index[k];
-        const double width = c->determined[k] ? quantile(f) * sqrt(c->variance[k * m->free + k]) : INFINITY;
-        r->low[i] = c->determined[k] ? r->value[i] * exp(-width) : 0;
-        r->high[i] = c->determined[k] ? r->value[i] * exp(width) : INFINITY;
+        r->low[i] = r->value[i] * exp(-c->below[k]);
+        r->high[i] = r->value[i] * exp(c->above[k]);
         for (size_t l = 0; l < m->free; l++) {
             const double square = c->variance[k * m->free + k] * c->variance[l * m->free + l];
             if (l != k && square > 0) r->correlation[i][m->index[l]] = c->variance[k * m->free + l] / sqrt(square);
@@ -215,32 +218,48 @@ static int finish(restitute_fitter *f)
     r->rank = c->rank;
     r->rms = sqrt(f->search.sum / (double)f->data.rows);
     r->noise = f->data.options.noise_known ? (c->dof ? sqrt(f->search.sum / (double)c->dof) : NAN) : c->noise;
-    r->condition = p ? c->values[0] / c->values[p - 1] : 1;
+    r->condition = !p ? 1 : c->values[p - 1] > 0 ? c->values[0] / c->values[p - 1] : INFINITY; /* 0/0 too */
     const int status = rst_fit_remarks(&f->search, c, r);
     r->impacts = f->data.impacts;
     return status;
 }
 
+static int take_turn(restitute_fitter *f)
+{
+    const size_t starts = (size_t)f->data.options.starts, turn = f->turn;
+    if (turn == 0) return rst_fit_scan(&f->search);
+    if (turn <= starts) return rst_fit_local(&f->search, turn - 1);
+    return turn == starts + 1 ? settle(f) : turn == starts + 2 ? try_rivals(f) : finish(f);
+}
+
+static int work(void *own)
+{
+    restitute_fitter *f = own;
+    int status = RESTITUTE_OK;
+    while (f->turn < f->turns && status >= 0) {
+        status = take_turn(f);
+        if (status >= 0) f->turn++, f->pieces = 0;
+    }
+    return status;
+}
+
+static int failed(int status, restitute_error *error)
+{
+    return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
+}
+
 int restitute_fitter_run(restitute_fitter *f, double *done, restitute_error *error)
 {
+    int status = RESTITUTE_OK, ended;
     if (!f || !done) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", f ? "done" : "fitter");
-    const size_t starts = (size_t)f->data.options.starts, turn = f->turn;
-    int status = RESTITUTE_OK;
+    if (!f->data.pieces) status = rst_pieces_create(work, f, &f->data.pieces);
+    if (status < 0) return rst_report(error, status, "out of memory for a thread");
     rst_fit_gsl_begin();
-    if (turn == 0)
-        status = rst_fit_scan(&f->search);
-    else if (turn <= starts)
-        status = rst_fit_local(&f->search, turn - 1);
-    else if (turn == starts + 1)
-        status = settle(f);
-    else if (turn == starts + 2)
-        status = try_rivals(f);
-    else if (turn < f->turns)
-        status = finish(f);
+    status = rst_pieces_run(f->data.pieces, &ended);
     rst_fit_gsl_end();
-    if (status < 0) return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
-    if (f->turn < f->turns) f->turn++;
-    *done = (double)f->turn / (double)f->turns;
+    if (status < 0) return failed(status, error);
+    f->pieces++; /* nobody knows how many a turn has: its share rises to 1 */
+    *done = ended ? 1 : ((double)f->turn + 1 - 1 / (double)(1 + f->pieces)) / (double)f->turns;
     return rst_done(error);
 }
 
@@ -272,6 +291,7 @@ int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, d
     if (status) return status;
     restitute_result *results = calloc(f->data.n, sizeof *results);
     struct rst_fit_data data = f->data; /* a copy: only its count of impacts changes */
+    data.pieces = NULL;
     status = results ? rst_fit_solve_points(&data, &f->search.model, f->result.value, results) : RESTITUTE_ERROR_MEMORY;
     for (size_t i = 0; i < f->data.n && status >= 0; i++) {
         if (ez) ez[i] = results[i].ez;
@@ -286,12 +306,14 @@ int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_f
                   restitute_fit_result *result, restitute_error *error)
 {
     restitute_fitter *fitter;
-    double done = 0;
-    int status = restitute_fitter_create(n, points, options, &fitter, error);
+    if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
+    int status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
+    if (!status) status = restitute_fitter_create(n, points, options, &fitter, error);
     if (status) return status;
-    while (!status && done < 1)
-        status = restitute_fitter_run(fitter, &done, error);
-    if (!status) status = restitute_fitter_result(fitter, result, error);
+    rst_fit_gsl_begin();
+    status = work(fitter);
+    rst_fit_gsl_end();
+    status = status < 0 ? failed(status, error) : restitute_fitter_result(fitter, result, error);
     restitute_fitter_destroy(fitter);
     return status;
 }

@@ -125,8 +125,8 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     const size_t n = least->rows, p = least->unknowns;
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     parameters.scale = gsl_multifit_nlinear_scale_levenberg; /* unknowns are logarithms: of one scale */
-    parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky
-                                         : gsl_multifit_nlinear_solver_svd; /* takes a Jacobian without full rank */
+    /* QR takes a Jacobian without full rank. So does GSL's SVD, but it crashes where memory is missing within a step. */
+    parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky : gsl_multifit_nlinear_solver_qr;
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
     double *memory = malloc((n * p + 2 * n + 3 * p) * sizeof *memory);
     struct bridge b = {.least = least, .j = memory};
@@ -148,12 +148,13 @@ int rst_fit_singular(size_t rows, size_t unknowns, const double *j, double *valu
 {
     /* GSL wants as many rows as columns: rows of zeros change nothing */
     const size_t n = rows > unknowns ? rows : unknowns, p = unknowns;
-    double *memory = calloc(n * p + p * p + p, sizeof *memory);
+    double *memory = calloc(n * p + p * p, sizeof *memory);
     if (!memory) return RESTITUTE_ERROR_MEMORY;
     memcpy(memory, j, rows * p * sizeof *memory);
     gsl_matrix_view a = gsl_matrix_view_array(memory, n, p), right = gsl_matrix_view_array(memory + n * p, p, p);
-    gsl_vector_view s = gsl_vector_view_array(values, p), work = gsl_vector_view_array(memory + n * p + p * p, p);
-    const int failed = gsl_linalg_SV_decomp(&a.matrix, &right.matrix, &s.vector, &work.vector);
+    gsl_vector_view s = gsl_vector_view_array(values, p);
+    const int failed = /* takes no memory */
+        gsl_linalg_SV_decomp_jacobi(&a.matrix, &right.matrix, &s.vector);
     for (size_t k = 0; !failed && k < p; k++)
         for (size_t i = 0; i < p; i++)
             v[k * p + i] = gsl_matrix_get(&right.matrix, i, k);

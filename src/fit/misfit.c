@@ -1,4 +1,4 @@
-/* Whether residuals look like noise: the test of runs, and their size.
+/* Whether residuals look like noise: their order, and their size.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -13,8 +13,9 @@ static const double WRONG_BELOW = 0.01, LARGE_E = 0.07, LARGE_TIME = 0.1;
 /* A pattern below what can be measured is none: it is that of the solver's error. */
 static const double PRACTICAL = 1e-3;
 
-/* A residual and where it stands in the order: by the first key that differs. The last one is the row. */
-enum { KEYS = 5 };
+/* A residual and where it stands in the order: by the first key that differs. The last one is the row. LEAST residuals have
+ * orders that are improbable enough. */
+enum { KEYS = 5, LEAST = 6 };
 struct place {
     double key[KEYS], residual;
 };
@@ -27,20 +28,23 @@ static int compare(const void *a, const void *b)
     return 0;
 }
 
-/* Wald and Wolfowitz: chance that signs in random order have so few runs. */
-static double chance_of_runs(const struct place *places, size_t n)
+/* Bartels (J. Am. Stat. Assoc. 77, 1982, 40): chance that neighbours in random order have ranks so alike. The sum of squared
+ * differences is beta distributed, nearly: below 1 % it falls in 0.8 to 1.0 % of all orders of 6 to 9 values, counted, but in
+ * 1.7 % of those of 5. Uses up the places. */
+static double chance_of_order(struct place *places, size_t count)
 {
-    double up = 0, down = 0, runs = 1;
-    for (size_t i = 0; i < n; i++) {
-        if (places[i].residual > 0)
-            up++;
-        else
-            down++;
-        if (i && (places[i].residual > 0) != (places[i - 1].residual > 0)) runs++;
-    }
-    if (up < 3 || down < 3) return 1;
-    const double mean = 2 * up * down / (up + down) + 1;
-    return gsl_cdf_ugaussian_P((runs + 0.5 - mean) / sqrt((mean - 1) * (mean - 2) / (up + down - 1)));
+    const double n = (double)count;
+    double sum = 0;
+    if (count < LEAST) return 1;
+    for (size_t i = 0; i < count; i++)
+        places[i] = (struct place){{places[i].residual, (double)i}, 0};
+    qsort(places, count, sizeof *places, compare);
+    for (size_t rank = 0; rank < count; rank++)
+        places[(size_t)places[rank].key[1]].residual = (double)rank;
+    for (size_t i = 1; i < count; i++)
+        sum += pow(places[i].residual - places[i - 1].residual, 2);
+    const double shape = 5 * n * (n + 1) * (n - 1) * (n - 1) / (2 * (n - 2) * (5 * n * n - 2 * n - 9)) - 0.5;
+    return gsl_cdf_beta_P(3 * sum / (n * (n * n - 1)), shape, shape);
 }
 
 /* Rows of ez by speed, of all temperatures; or all rows by kind, solid, angle and T. */
@@ -85,7 +89,7 @@ int rst_fit_misfit(const struct rst_fit_search *s, size_t dof, struct rst_fit_mi
     double squares = 0, chance[2];
     if (!places) return RESTITUTE_ERROR_MEMORY;
     for (int apart = 0; apart < 2; apart++)
-        chance[apart] = chance_of_runs(places, arrange(s, apart, places));
+        chance[apart] = chance_of_order(places, arrange(s, apart, places));
     free(places);
     for (size_t i = 0; i < d->rows; i++)
         squares += (s->weight ? s->weight[i] : 1) * s->r[i] * s->r[i];

@@ -7,6 +7,9 @@
 
 #include "report.h"
 
+/* Impacts that are solved in one call: many enough for threads, few enough for a piece of the fit. */
+enum { BATCH = 200 };
+
 /* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
 static const double widest = 18.4; /* ln 1e8 */
 
@@ -89,17 +92,17 @@ void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, s
 {
     const int standard = m->kind == RESTITUTE_FIT_STANDARD_SOLID || m->kind == RESTITUTE_FIT_KELVIN_VOIGT;
     if (i == m->friction)
-        snprintf(name, RESTITUTE_FIT_NAME, "friction");
+        rst_print(name, RESTITUTE_FIT_NAME, "friction");
     else if (i >= m->solid)
-        snprintf(name, RESTITUTE_FIT_NAME, "shift_%g",
-                 d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
+        rst_print(name, RESTITUTE_FIT_NAME, "shift_%g",
+                  d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
     else if (m->kind == RESTITUTE_FIT_PRONY)
-        snprintf(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
-                 i ? d->options.relaxation_time[i - 1] : 0);
+        rst_print(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
+                  i ? d->options.relaxation_time[i - 1] : 0);
     else if (i > 0 && i == m->solid - 1)
-        snprintf(name, RESTITUTE_FIT_NAME, "viscosity_pa_s");
+        rst_print(name, RESTITUTE_FIT_NAME, "viscosity_pa_s");
     else
-        snprintf(name, RESTITUTE_FIT_NAME, standard ? "modulus%zu_pa" : "modulus_pa", i + 1);
+        rst_print(name, RESTITUTE_FIT_NAME, standard ? "modulus%zu_pa" : "modulus_pa", i + 1);
 }
 
 void rst_fit_constants(const struct rst_fit_model *m, const double *logs, double *constants)
@@ -181,10 +184,12 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
         status = make_solids(d, m, c, solids + s * d->groups);
         if (status >= 0) make_scenes(m, c, n, impacts, solids + s * d->groups, scenes + s * n, results + s * n);
     }
-    if (status >= 0) {
-        status = restitute_solve_scenes(&d->solver, sets * n, scenes, results, statuses, d->options.threads, NULL);
-        d->impacts += (int64_t)(sets * n);
-        if (status != RESTITUTE_ERROR_MEMORY) status = RESTITUTE_OK;
+    for (size_t first = 0, most = sets * n; first < most && status >= 0; first += BATCH) {
+        const size_t count = most - first < BATCH ? most - first : BATCH;
+        status = restitute_solve_scenes(&d->solver, count, scenes + first, results + first, statuses + first,
+                                        d->options.threads, NULL);
+        d->impacts += (int64_t)count;
+        if (status != RESTITUTE_ERROR_MEMORY) status = rst_pieces_pause(d->pieces, count);
     }
     for (size_t i = 0; solids && i < sets * d->groups; i++)
         restitute_material_destroy(solids[i]);

@@ -5,9 +5,10 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "report.h"
 
 /* Chances below which a difference is called one: to prefer a model with fewer constants, to call a model wrong. */
 static const double SIMPLER_FROM = 0.05, WRONG_BELOW = 0.01;
@@ -19,7 +20,7 @@ static void remark(restitute_fit_result *result, int flag, const char *format, .
     va_list arguments;
     result->flags |= flag;
     va_start(arguments, format);
-    const int length = vsnprintf(result->remarks + used, room, format, arguments);
+    const int length = rst_vprint(result->remarks + used, room, format, arguments);
     va_end(arguments);
     if (length < 0 || (size_t)length + 2 > room)
         result->remarks[used] = '\0'; /* whole lines only */
@@ -60,9 +61,9 @@ static size_t direction_text(const struct rst_fit_search *s, const double *v, ch
         if (fabs(v[i]) < 0.05) continue;
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
         if (fabs(v[i] - 1) < 0.005)
-            snprintf(text + used, size - used, "%s%s x f", named ? ", " : "", name);
+            rst_print(text + used, size - used, "%s%s x f", named ? ", " : "", name);
         else
-            snprintf(text + used, size - used, "%s%s x f^%.2g", named ? ", " : "", name, v[i]);
+            rst_print(text + used, size - used, "%s%s x f^%.2g", named ? ", " : "", name, v[i]);
         named++;
     }
     return named;
@@ -102,10 +103,25 @@ static void remark_other(const struct rst_fit_search *s, const struct rst_fit_ce
         const size_t used = strlen(text);
         if (!c->otherwise[i]) continue;
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
-        snprintf(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->other[i]));
+        rst_print(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->other[i]));
     }
     if (text[0])
         remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s", text);
+}
+
+/* Constants that may be as large or as small as you like, with the others fitted to them. */
+static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+{
+    char name[RESTITUTE_FIT_NAME];
+    for (size_t i = 0; i < s->model.free; i++) {
+        if (!c->determined[i] || (c->below[i] < INFINITY && c->above[i] < INFINITY)) continue;
+        rst_fit_name(s->data, &s->model, s->model.index[i], name);
+        remark(result, RESTITUTE_FIT_UNDETERMINED, "the data give no %s of %s",
+               c->above[i] < INFINITY   ? "lower bound"
+               : c->below[i] < INFINITY ? "upper bound"
+                                        : "bounds",
+               name);
+    }
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
@@ -116,7 +132,7 @@ static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_ce
     if (status < 0) return status;
     if (m.patterned && c->noise >= c->judged)
         remark(result, RESTITUTE_FIT_MISFIT,
-               "the data do not follow the model: residuals keep their sign over ranges of speed, angle or temperature "
+               "the data do not follow the model: neighbours along speed, angle or temperature have like residuals "
                "(chance %.1g), their standard deviation is %.2g",
                m.chance, c->noise);
     if (m.large)
@@ -160,6 +176,7 @@ int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c,
     if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
     remark_other(s, c, result);
+    remark_bounds(s, c, result);
     const int status = remark_misfit(s, c, result);
     return status < 0 ? status : remark_limits(s, result);
 }

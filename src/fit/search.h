@@ -54,17 +54,21 @@ struct rst_fit_certainty {
     double values[RESTITUTE_FIT_CONSTANTS];                             /* singular values */
     double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];   /* directions, as of rst_fit_singular */
     double variance[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS]; /* covariance of the logarithms */
+    double below[RESTITUTE_FIT_CONSTANTS], above[RESTITUTE_FIT_CONSTANTS]; /* the interval's ends, from the best logarithm */
     int determined[RESTITUTE_FIT_CONSTANTS];
     int otherwise[RESTITUTE_FIT_CONSTANTS]; /* not determined, since another value fits as well */
 };
 
 int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *certainty);
 
+/* profile.c: ends of the intervals, `quantile` standard deviations away, or infinitely far. */
+int rst_fit_profile(struct rst_fit_search *search, double quantile, struct rst_fit_certainty *certainty);
+
 /* misfit.c: what the residuals in search->r say against the model. */
 struct rst_fit_misfit {
-    double chance;                   /* of signs that change so seldom along speed, angle, temperature */
+    double chance;                   /* of neighbours along speed, angle, temperature that are so alike */
     double noise_e, noise_time;      /* of e and of relative contact times */
-    int patterned, large, surpassed; /* seldom signs; too much noise; more than the given standard deviations */
+    int patterned, large, surpassed; /* neighbours alike; too much noise; more than the given standard deviations */
 };
 
 int rst_fit_misfit(const struct rst_fit_search *search, size_t dof, struct rst_fit_misfit *misfit);

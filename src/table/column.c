@@ -27,13 +27,13 @@ static int without_time(const restitute_material *material)
 
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error)
 {
+    int status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    if (status) return status;
     restitute_scene plain = *scene;
-    if (scene->struct_size == sizeof *scene) {
-        plain.normal_speed = 1;
-        plain.tangential_speed = plain.spin1 = plain.spin2 = 0;
-    }
+    plain.normal_speed = 1;
+    plain.tangential_speed = plain.spin1 = plain.spin2 = 0;
     restitute_numbers_init(&contact->numbers);
-    int status = restitute_scene_numbers(&plain, &contact->numbers, error); /* refuses what is wrong with it */
+    status = restitute_scene_numbers(&plain, &contact->numbers, error); /* refuses what is wrong with it */
     if (!status) status = unit_numbers(&plain, &contact->scene, &contact->numbers, error);
     if (status) return status;
     contact->friction = scene->friction;

@@ -83,9 +83,10 @@ int restitute_table_contact_of(const restitute_table *table, const restitute_sce
     if (!table || !scene || !contact)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
     int status = rst_check_size(contact->struct_size, sizeof *contact, "restitute_table_contact", error);
-    restitute_table_contact found = *contact;
     if (!status) status = rst_contact_set(scene, &c, error);
-    if (!status) status = bind(table, &c, &found, error);
+    if (status) return status;
+    restitute_table_contact found = *contact;
+    status = bind(table, &c, &found, error);
     if (status) return status;
     *contact = found;
     return rst_done(error);

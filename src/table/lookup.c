@@ -249,9 +249,9 @@ int restitute_table_pairs(const restitute_table *table, const restitute_table_co
                           const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex)
 {
     if (!table || (n > 0 && (!normal_speeds || !tangential_speeds))) return RESTITUTE_ERROR_NULL;
-    const restitute_table_contact c = contact ? *contact : table->own;
-    const int status = check_contact(&c);
+    const int status = check_contact(contact ? contact : &table->own);
     if (status) return status;
+    const restitute_table_contact c = contact ? *contact : table->own;
     int good = 1;
     for (size_t i = 0; i < n; i++)
         good &= good_speeds(normal_speeds[i], tangential_speeds[i]);

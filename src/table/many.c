@@ -110,6 +110,7 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
     for (size_t i = 0; i < count; i++)
         if (!materials[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "materials[%zu] is NULL", i);
     int status = rst_check_options(options, error);
+    if (!status) status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
     if (status) return status;
     struct work w = {materials, scene, options, progress, data, NULL, 0, count * (count + 1) / 2, 0};
     w.failed = w.count;

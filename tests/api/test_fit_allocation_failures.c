@@ -1,5 +1,5 @@
 /* Allocations of the component fit fail in turn: ERROR_MEMORY, outputs untouched, nothing left behind, and the same call
- * gives the same bits afterwards. Those of GSL are its own matter: it loses blocks.
+ * gives the same bits afterwards. First those of our own; then GSL's as well, of which it loses blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -8,7 +8,7 @@
 
 enum { N = 4 };
 
-static int fit_with(int model, int loss, struct given *given)
+static int fit_with(size_t n, int model, int loss, struct given *given)
 {
     static const double times[N] = {3.0e-3, 2.62e-3, 2.40e-3, 2.28e-3};
     restitute_fit_point points[N];
@@ -16,13 +16,13 @@ static int fit_with(int model, int loss, struct given *given)
     restitute_fit_result r;
     restitute_error error;
     int status;
-    drops(N, 0.1, 0.4, points);
-    for (int i = 0; i < N; i++)
-        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_ELASTIC ? NAN : 0.9 - 0.01 * i;
+    drops(n, 0.1, 0.4, points);
+    for (size_t i = 0; i < n; i++)
+        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
     restitute_fit_result_init(&r);
     options.starts = 1, options.loss = loss;
     r.rms = 77;
-    ARMED(status, restitute_fit(N, points, &options, &r, &error));
+    ARMED(status, restitute_fit(n, points, &options, &r, &error));
     CHECK(status >= 0 || r.rms == 77, "touched");
     if (status < 0) return status;
     for (size_t i = 0; i < r.constants; i++)
@@ -35,12 +35,17 @@ static int fit_with(int model, int loss, struct given *given)
 
 static int elastic(struct given *given)
 {
-    return fit_with(RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_SQUARES, given);
+    return fit_with(N, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_SQUARES, given);
 }
 
 static int damped(struct given *given)
 {
-    return fit_with(RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_HUBER, given);
+    return fit_with(N, RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_HUBER, given);
+}
+
+static int plain(struct given *given)
+{
+    return fit_with(2, RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_SQUARES, given);
 }
 
 static int curve(struct given *given)
@@ -64,18 +69,31 @@ static int curve(struct given *given)
 
 static void every_call(void **state)
 {
-    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0},
-                                              {"damped", NULL, damped, NULL, 3, 0},
-                                              {"curve", NULL, curve, NULL, 6, 0}};
+    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0, 0},
+                                              {"damped", NULL, damped, NULL, 3, 0, 0},
+                                              {"curve", NULL, curve, NULL, 6, 0, 0}};
     (void)state;
     if (!CAN_FAIL) skip();
     allocator.ours_alone = 1;
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
         fail_each_allocation(&subjects[i]);
+    allocator.ours_alone = 0;
+}
+
+/* The first 30 make the workspaces of the first fit, later ones would be those of a step. */
+static void every_call_of_gsl(void **state)
+{
+    static const struct subject subjects[] = {{"plain", NULL, plain, NULL, 30, 0, 1}, {"curve", NULL, curve, NULL, 30, 0, 1}};
+    (void)state;
+    if (!CAN_FAIL) skip();
+    allocator.others_alone = 1;
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
+        fail_each_allocation(&subjects[i]);
+    allocator.others_alone = 0;
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_call), cmocka_unit_test(every_call_of_gsl)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

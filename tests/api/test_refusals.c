@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
+#include "../support/comma_locale.h"
 #include "../support/solve.h"
 
 static restitute_material *rubber;
@@ -292,6 +293,23 @@ static void null_and_unprepared_outputs_are_refused(void **state)
     CHECK(restitute_method_name(NULL)[0] == '\0', "NULL method");
 }
 
+/* A comma would be read as the end of a number: "in [0,333, 200]". */
+static void messages_have_a_point_in_every_locale(void **state)
+{
+    restitute_impact impact;
+    restitute_error error;
+    (void)state;
+    restitute_impact_init(&impact);
+    impact.chi = 0.25;
+    set_comma_locale();
+    const int status = restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
+    const char kept = localeconv()->decimal_point[0];
+    setlocale(LC_ALL, "C"); /* before anything can fail */
+    assert_int_equal(status, RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "chi = 0.25: must be in [0.333"), "%s", error.message);
+    CHECK(kept == ',', "the program's locale was changed");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +320,7 @@ int main(void)
         cmocka_unit_test(material_constants_are_checked),
         cmocka_unit_test(options_are_checked),
         cmocka_unit_test(null_and_unprepared_outputs_are_refused),
+        cmocka_unit_test(messages_have_a_point_in_every_locale),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -94,15 +94,15 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
         for (size_t i = 0; i < constants; i++) {
             snprintf(names[i], sizeof names[i], "%s", result.name[i]);
             held[i] += result.low[i] <= truth[i] && truth[i] <= result.high[i];
-            open[i] += isinf(result.high[i]);
+            open[i] += isinf(result.high[i]) && result.low[i] <= 0;
         }
         restitute_material_destroy(result.material);
         restitute_material_destroy(material);
     }
     restitute_solver_destroy(solver);
     for (size_t i = with_time ? 0 : 1; i < constants; i++)
-        printf("%d,%g,%s,%s,%.3f,%d,%d\n", model, noise, with_time ? "ez and contact time" : "ez; modulus1 known",
-               names[i], (double)held[i] / draws, open[i], failed);
+        printf("%d,%g,%s,%s,%.3f,%.3f,%d,%d\n", model, noise, with_time ? "ez and contact time" : "ez; modulus1 known",
+               names[i], (double)held[i] / draws, (double)(held[i] - open[i]) / (draws - failed - open[i]), open[i], failed);
     fflush(stdout);
 }
 
@@ -110,11 +110,12 @@ int main(int count, char **arguments)
 {
     static const int models[] = {RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_STANDARD_SOLID, RESTITUTE_FIT_MAXWELL,
                                  RESTITUTE_FIT_PRONY};
+    static const double levels[] = {0, 0.01, 0.03, 0.05};
     const int draws = count > 1 ? atoi(arguments[1]) : 200;
     const uint64_t seed = count > 2 ? (uint64_t)atoll(arguments[2]) : 2017;
-    printf("model,noise,data,constant,coverage,not_determined,failed\n");
+    printf("model,noise,data,constant,coverage,of_determined,not_determined,failed\n");
     for (size_t m = 0; m < 4; m++)
         for (int data = 1; data >= 0; data--)
-            for (int noise = 0; noise < 3; noise++)
-                campaign(models[m], noise == 0 ? 0 : noise == 1 ? 0.01 : 0.05, data, draws, seed);
+            for (int noise = 0; noise < 4; noise++)
+                campaign(models[m], levels[noise], data, draws, seed);
 }

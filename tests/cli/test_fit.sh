@@ -36,6 +36,30 @@ cp solid.json first.json
 expect 0 fit --input drop.csv $ball --output solid.json --threads 2
 cmp first.json solid.json || fail "two runs give different files"
 
+# A spring behind the dashpot that may as well be rigid has a lower bound alone.
+printf '%s\n' 0.589 0.612 0.576 0.546 0.521 0.492 0.572 0.446 0.494 0.413 0.394 0.401 0.369 0.388 0.297 0.370 0.311 0.275 0.273 0.275 |
+    awk 'BEGIN { print "speed_m_s,ez" } { print 0.01 * 1000 ^ ((NR - 1) / 19) "," $1 }' >noisy.csv
+expect 1 fit --input noisy.csv $ball --known modulus1=1e6
+grep -q '^ *modulus2_pa .* above [0-9.e+]*$' out || fail "no lower bound: $(cat out)"
+has err 'the data give no upper bound of modulus2_pa'
+
+# A signal is obeyed within a piece: here behind the starts, in the precise fit of all rows, half a minute and more.
+awk 'BEGIN { print "speed_m_s,angle_deg,ez,ex"; for (i = 0; i < 6000; i++)
+    print 0.01 * 1000 ^ (i / 6000) "," 5 + i % 80 "," 0.9 - 0.4 * i / 6000 ",0.1" }' >oblique.csv
+"$RESTITUTE" fit --input oblique.csv $ball --friction 0.3 --starts 1 >out 2>err </dev/null &
+process=$!
+sleep 2
+kill -TERM $process
+tries=0
+while kill -0 $process 2>/dev/null; do
+    tries=$((tries + 1))
+    [ $tries -lt 200 ] || { kill -KILL $process; fail "still there 10 s behind the signal"; }
+    sleep 0.05
+done
+wait $process
+status=$?
+[ $status -eq 130 ] || fail "exit status $status behind a signal, not 130"
+
 # The report comes last: where a file has no room, there is neither.
 (ulimit -f 0; "$RESTITUTE" fit --input drop.csv $ball --output full.json 2>&1 </dev/null) | cat >said
 [ "$(cat said)" = 'restitute: full.json: cannot be written: File too large' ] || fail "no room: $(cat said)"
