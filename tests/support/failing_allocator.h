@@ -35,10 +35,10 @@
 
 /* Allocations are counted while armed, with `ours_alone` those that our libraries and libcsv ask for themselves, with
  * `others_alone` all but these; number `failing` fails, and with `for_good` all behind it. None fails within the function
- * `spared`, see spare(). `live`: blocks not yet freed. One thread. Volatile, since compilers take malloc for a function that
- * changes no variable. */
+ * `spared`, see spare(). `live`: blocks not yet freed; with `others_lose` those may be lost that libraries below lose. One
+ * thread. Volatile, since compilers take malloc for a function that changes no variable. */
 static volatile struct {
-    int armed, ours_alone, others_alone, for_good;
+    int armed, ours_alone, others_alone, others_lose, for_good;
     long count, failing, live;
     const char *spared;
 } allocator;
@@ -162,14 +162,14 @@ static inline void give(struct given *given, double number)
 /* `begin` and `end`, both optional, make and destroy the objects that are used; `call` makes the call with ARMED, checks that
  * outputs are untouched if it failed, and else gives what came out. `stride`: of the failing allocations all up to
  * this number are tried, and about as many of each that are twice as late; 0: all. `settles`: calls behind the second
- * take no more memory. `loses`: a library below loses blocks where one is missing, which is its own matter. */
+ * take no more memory. */
 struct subject {
     const char *name;
     void (*begin)(void);
     int (*call)(struct given *given);
     void (*end)(void);
     long stride;
-    int settles, loses;
+    int settles;
 };
 
 static inline int subject_call(const struct subject *s, long failing, struct given *given)
@@ -207,7 +207,7 @@ static inline int subject_round(const struct subject *s, long failing, const str
         CHECK(allocator.count == 0, "%s: %ld allocations in later calls", s->name, allocator.count);
     }
     if (s->end) s->end();
-    CHECK(allocator.live == live || s->loses, "%s, allocation %ld: %ld blocks lost", s->name, failing, allocator.live - live);
+    CHECK(allocator.live == live || allocator.others_lose, "%s, allocation %ld: %ld blocks lost", s->name, failing, allocator.live - live);
     return reached;
 }
 
