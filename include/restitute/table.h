@@ -60,6 +60,8 @@ typedef struct restitute_table_options {
     int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 12000. Checks come on top: in all it is
                              a tenth more at 12000, twice as many at some hundred. The build gives its best then, with
                              TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
+    double time_limit;    /**< refinement ends likewise at 0.8 of so many s by the clock on the wall, > 0, infinity: none;
+                             default 20. A table that it ends depends on the machine; its verified errors are as good */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
 

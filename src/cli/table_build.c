@@ -52,7 +52,8 @@ static bool read_options(struct build *b, struct reason *why)
     if (!read_speed(b->settings, b->options.speed, why) ||
         !table_number(b->settings, TABLE_TOLERANCE, 1e-7, 0.1, &b->options.tolerance, why) ||
         !table_number(b->settings, TABLE_THREADS, 1, 1024, &threads, why) ||
-        !table_number(b->settings, TABLE_MAX_IMPACTS, 1, 1e15, &most, why))
+        !table_number(b->settings, TABLE_MAX_IMPACTS, 1, 1e15, &most, why) ||
+        !table_number(b->settings, TABLE_TIME_LIMIT, 1e-3, INFINITY, &b->options.time_limit, why))
         return false;
     if (threads != floor(threads)) return refuse(why, "--threads = %g: must be a whole number", threads);
     b->options.threads = (int)threads;

@@ -19,6 +19,7 @@ void restitute_table_options_init(restitute_table_options *options)
                                          .tolerance = 1e-5,
                                          .threads = 1,
                                          .max_impacts = 12000,
+                                         .time_limit = 20,
                                          .speed_limit = core.speed_limit,
                                          .radius_limit = core.radius_limit,
                                          .displacement_limit = core.displacement_limit};
@@ -40,6 +41,8 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
     if (o->max_impacts <= 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
+    if (!(o->time_limit > 0))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "time_limit (s) = %g: must be > 0", o->time_limit);
     status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
     if (!status) status = rst_check_range(o->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(o->radius_limit, 0, INFINITY, "radius_limit", error);
@@ -141,6 +144,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
 {
     const double finer = pow(1e-5 / options->tolerance, 0.25);
     *b = (struct rst_builder){.options = *options,
+                              .began = rst_table_clock(),
                               .first = {(int64_t)fmax(8, ceil(first_stick * finer)),
                                         (int64_t)fmax(16, ceil(first_slip * finer))}};
     int status = rst_contact_set(scene, &b->contact, error);
@@ -177,14 +181,15 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
     restitute_table *made = NULL;
     int status = create(scene, options, threads, &b, error);
     if (!status) status = run(&b, &made, error);
+    const double taken = rst_table_clock() - b.began;
     destroy(&b);
     if (status) return status;
     *table = made;
     const struct rst_table_data *d = restitute_private_table_data(made);
     if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts", d->tolerance,
-                      d->error_ez, d->error_ex, (long long)d->impacts);
+                      "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts and %.2g s; time_limit = %g s",
+                      d->tolerance, d->error_ez, d->error_ex, (long long)d->impacts, taken, options->time_limit);
 }
 
 int restitute_table_build(const restitute_scene *scene, const restitute_table_options *options, restitute_table **table,

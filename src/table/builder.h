@@ -37,7 +37,7 @@ enum { rst_probes = 5 };
 enum { rst_finest = 4 };
 /* So many middles of the finest cells are solved: their largest miss is what psi leaves to the stated error. */
 enum { rst_last_probes = 3 };
-/* What refinement leaves of the impacts for the checks. */
+/* What refinement leaves of the impacts, and of the time, for the checks. */
 static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;
@@ -76,6 +76,7 @@ struct rst_builder {
     restitute_table_options options;
     struct rst_column *column;
     int64_t columns, room;
+    double began; /* of rst_table_clock() */
     int64_t first[2], cells[2]; /* of psi: at first, and of all columns */
     struct rst_column_solver *solver; /* one a thread */
     int threads;
@@ -152,6 +153,9 @@ int rst_table_threads(int threads, int64_t n);
 
 /* Turns 0 to n - 1, by rst_table_threads(threads, n) threads; `thread` counts them from 0. */
 void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of);
+
+/* Time of day, in s. */
+double rst_table_clock(void);
 
 /* Let one thread at a time through. */
 void rst_table_one_at_a_time(void (*act)(void *of), void *of);

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "builder.h"
 
+#include <time.h>
+
 #ifdef _OPENMP
 #include <fenv.h>
 #include <omp.h>
@@ -54,4 +56,11 @@ void rst_table_one_at_a_time(void (*act)(void *of), void *of)
 #pragma omp critical
 #endif
     act(of);
+}
+
+double rst_table_clock(void)
+{
+    struct timespec t = {0};
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }

@@ -5,9 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Impacts that refinement may still take: of max_impacts, and in the time that is left if they go on as fast as so far. */
 static int64_t left(const struct rst_builder *b)
 {
-    return (int64_t)(rst_for_refining * (double)b->options.max_impacts) - b->impacts;
+    const double spent = rst_table_clock() - b->began, limit = b->options.time_limit;
+    double most = (double)b->options.max_impacts;
+    if (limit < INFINITY && spent > 0) most = fmin(most, (double)b->impacts * (limit / spent));
+    return (int64_t)(rst_for_refining * most) - b->impacts;
 }
 
 void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stencil *s)

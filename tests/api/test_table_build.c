@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <string.h>
+#include <time.h>
 
 #include "../../src/table/table_data.h"
 #include "../support/child.h"
@@ -327,6 +328,28 @@ static void few_impacts_give_an_honest_table(void **state)
     restitute_material_destroy(material);
 }
 
+/* With chi = 50, where 20 s do not suffice, the build ends after a second or so; ten: machines and builds are slow, and its last
+ * checks cannot be cut short. */
+static void a_limit_of_time_is_kept(void **state)
+{
+    restitute_material *material;
+    restitute_table *table = NULL;
+    restitute_error error;
+    restitute_table_options options;
+    (void)state;
+    restitute_scene scene = ball_on(0.05, &material);
+    restitute_table_options_init(&options);
+    options.time_limit = 1;
+    scene.inertia1 = scene.mass1 * scene.radius1 * scene.radius1 / 149;
+    const clock_t start = clock();
+    assert_int_equal(restitute_table_build(&scene, &options, &table, &error), RESTITUTE_TOLERANCE_NOT_REACHED);
+    const double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
+    CHECK(taken < 10, "%g s", taken);
+    CHECK(describe(table).error_ex > 1e-5 && strstr(error.message, "time_limit = 1 s"), "%s", error.message);
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+}
+
 static void refuse(const restitute_scene *scene, const restitute_table_options *options, int status, const char *text)
 {
     restitute_table *table = NULL;
@@ -352,6 +375,8 @@ static void refusals(void **state)
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "tolerance");
     options = good, options.threads = -1;
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "threads");
+    options = good, options.time_limit = 0;
+    refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "time_limit (s) = 0");
     options = good, options.radius_limit = NAN;
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "radius_limit");
     options = good, options.max_impacts = 100;
@@ -377,6 +402,6 @@ int main(void)
         cmocka_unit_test(hardly_any_partial_slip),    cmocka_unit_test(data_makes_the_same_table),
         cmocka_unit_test(rebound_begins_at_a_seam),   cmocka_unit_test(limits_travel),
         cmocka_unit_test(many_tables_at_once),        cmocka_unit_test(few_impacts_give_an_honest_table),
-        cmocka_unit_test(refusals)};
+        cmocka_unit_test(a_limit_of_time_is_kept),    cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
