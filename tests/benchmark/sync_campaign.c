@@ -289,6 +289,7 @@ static int make_rows(struct row *rows, const restitute_options *tested, const do
     rows[0].options.max_updates = reference_updates;
     for (int i = 0; i < n; i++) {
         rows[k] = row_of(tested->method, tolerances[i], 1, count);
+        rows[k].options.time_limit = 0; /* the default */
         rows[k++].options.max_updates = tested->max_updates;
     }
     if (tested->method != restitute_method_sync()) return k;

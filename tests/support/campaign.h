@@ -241,6 +241,15 @@ static inline restitute_impact blocked_sinking_corner(struct campaign_draw *d)
     return impact;
 }
 
+/* Where U' swings many times, and most impacts take elements. */
+static inline restitute_impact large_chi_corner(struct campaign_draw *d)
+{
+    restitute_impact impact = draw_any_solid(d);
+    impact.chi = random_log(&d->random, 4, 1000);
+    impact.psi = draw_psi(d, &impact);
+    return impact;
+}
+
 /* Solids that are refused are none: nothing resists, or delta1 of the dashpot is above 1e12. */
 static inline int is_accepted(const restitute_material *solid)
 {
@@ -277,6 +286,7 @@ static const struct campaign_corner {
     {"nearly-elastic", nearly_elastic_corner},
     {"blocked-sinking", blocked_sinking_corner},
     {"limits", limit_corner},
+    {"large-chi", large_chi_corner},
 };
 
 enum { CAMPAIGN_CORNERS = sizeof campaign_corners / sizeof *campaign_corners };
