@@ -88,6 +88,7 @@ static int run_library(const struct bench_plan *plan, const struct bench_scene *
     options.method = bench_methods[run->method].handle();
     options.tolerance = run->tolerance;
     options.max_updates = (int64_t)fmax(1, plan->budget * updates_per_second);
+    options.time_limit = INFINITY;
     if (restitute_solver_create(&options, &work.solver, NULL)) return 1;
     const struct bench_time time = bench_time_work(solve_by_library, &work, long_work);
     if (work.status >= 0) bench_read_work(work.solver, run);

@@ -198,6 +198,7 @@ static int solve(const struct bench_scene *scene, const restitute_method *method
     options.method = method;
     options.tolerance = tolerance;
     options.max_updates = max_updates;
+    options.time_limit = INFINITY;
     int status = restitute_solver_create(&options, &solver, error);
     if (status) return status;
     const restitute_impact impact = bench_scene_impact(scene);

@@ -65,6 +65,7 @@ static int run_library(const struct bench_scene *scene, const struct bench_metho
     options.elements = elements;
     if (method->takes_time_step) options.time_step = scene->contact_time / (double)cell->steps;
     options.max_updates = (int64_t)fmax(1, budget * updates_per_second);
+    options.time_limit = INFINITY;
     if (restitute_solver_create(&options, &solver, NULL)) return 1;
     const int status = restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
     restitute_solver_destroy(solver);
