@@ -208,6 +208,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
         status = solver->options.method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
         if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;
+        if (rst_time_left(problem) <= 0) return status; /* its estimate has the bound of what was merged */
         window *= 8;
     }
 }
