@@ -274,11 +274,11 @@ typedef struct restitute_options {
                                        > 0; default 1e10, some ten seconds. Without elements `sync` counts points
                                        x (1 + terms). A call that reaches it before the tolerance returns its best
                                        with TOLERANCE_NOT_REACHED */
-    double time_limit;              /**< s of processor time of the thread that an impact may take, >= 0; kept within a
-                                       factor of two, a history, events and a ledger of `cvode` come on top. 0
-                                       (default): 1; no limit where `elements` or `time_step` is given, nor for `bem`.
-                                       infinity: none. A call that reaches it returns its best with
-                                       TOLERANCE_NOT_REACHED; how good that is depends on the machine */
+    double time_limit;              /**< processor time that an impact may take, in s, >= 0. From 0.1 s on it is kept
+                                       within a factor of two; a history, events and a ledger come on top. 0 (default):
+                                       1 s, but no limit where `elements` or `time_step` is given, nor with `bem`.
+                                       infinity: no limit. A call that reaches it returns its best with
+                                       TOLERANCE_NOT_REACHED. That best depends on the machine; max_updates does not */
     double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >= 0, default 0.3 */
