@@ -14,7 +14,8 @@
 !>     end do
 !>     status = restitute_fit(points, result, error=error)
 module restitute_fitting
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int64_t, c_loc, c_null_char, &
+    c_null_funptr, c_null_ptr, c_ptr, c_size_t
   use restitute, only: restitute_error, restitute_material, restitute_scene
   implicit none (type, external)
   private
@@ -41,7 +42,7 @@ module restitute_fitting
       sigma_contact_time = 0
   end type restitute_fit_point
 
-  !> How to fit; relaxation_time and known by restitute_fit_arrays.
+  !> How to fit; relaxation_time and known by restitute_fit_arrays, interrupted by c_funloc.
   type, bind(c) :: restitute_fit_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int) :: model = 0
@@ -53,6 +54,8 @@ module restitute_fitting
     integer(c_int) :: starts = 0
     integer(c_int64_t) :: seed = 0
     integer(c_int) :: threads = 0
+    type(c_funptr) :: interrupted = c_null_funptr
+    type(c_ptr) :: interrupted_data = c_null_ptr
   end type restitute_fit_options
 
   !> What came out.

@@ -102,6 +102,10 @@ typedef struct restitute_fit_options {
                                      residuals are far too large */
     uint64_t seed;                /**< shifts the quasi-random scan; default 1 */
     int threads;                  /**< as in @ref restitute_solve_many; default 1 */
+    /** Asked in the caller's thread before every batch of at most 200 impacts; nonzero ends the call with
+     *  ERROR_INTERRUPTED. NULL (default): nobody is asked */
+    int (*interrupted)(void *data);
+    void *interrupted_data; /**< is handed to it */
 } restitute_fit_options;
 
 RESTITUTE_API void restitute_fit_options_init(restitute_fit_options *options);
@@ -135,23 +139,23 @@ RESTITUTE_API void restitute_fit_result_init(restitute_fit_result *result);
  *  @param result    prepared by @ref restitute_fit_result_init
  *  @param error     optional; names the point, e.g. "points[3].ez = 1.2: must be in [0, 1]"
  *  @return OK, also if flags are raised; ERROR_DOMAIN (also for fewer values than constants), ERROR_NULL,
- *          ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_INTERNAL */
+ *          ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_INTERRUPTED, ERROR_INTERNAL */
 RESTITUTE_API int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
                                 restitute_fit_result *result, restitute_error *error);
 
-/** The same in pieces, for progress and interruption: create, run until done is 1, read, destroy. One thread at a time.
+/** The same in pieces, for progress: create, run until done is 1, read, destroy. One thread at a time.
  *
  *      double done = 0;
  *      while (done < 1 && restitute_fitter_run(fitter, &done, &error) == RESTITUTE_OK) show(done); */
 typedef struct restitute_fitter restitute_fitter;
 
-/** Points and options are copied; materials of partners must live as long as the fitter. */
+/** Points and options are copied; materials of partners and interrupted_data must live as long as the fitter. */
 RESTITUTE_API int restitute_fitter_create(size_t n, const restitute_fit_point *points,
                                           const restitute_fit_options *options, restitute_fitter **fitter,
                                           restitute_error *error);
 
-/** One piece of the work: some 200 impacts, hundredths of a second, and tenths where they are slow. The work has a thread
- *  of its own, which waits between the calls; a failed one ends the work.
+/** One piece of the work: the scan, a local fit, the intervals, the other models or the result. A failed one ends the
+ *  work: later calls return its status, and the fitter can only be destroyed.
  *  @param done  out: the part done, 1 at the end */
 RESTITUTE_API int restitute_fitter_run(restitute_fitter *fitter, double *done, restitute_error *error);
 
@@ -159,7 +163,8 @@ RESTITUTE_API int restitute_fitter_run(restitute_fitter *fitter, double *done, r
 RESTITUTE_API int restitute_fitter_result(const restitute_fitter *fitter, restitute_fit_result *result,
                                           restitute_error *error);
 
-/** What the fitted solid gives for each point, measured or not; n values each, NULL: not wanted. */
+/** What the fitted solid gives for each point, measured or not; n values each, NULL: not wanted.
+ *  options.interrupted is asked here, too; the fitter can still be used after it. */
 RESTITUTE_API int restitute_fitter_values(const restitute_fitter *fitter, double *ez, double *ex, double *contact_time,
                                           restitute_error *error);
 

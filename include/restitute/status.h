@@ -20,8 +20,9 @@
     X(ERROR_TOO_MUCH_WORK, -6, "the impact needs more element updates than max_updates allows")                        \
     X(ERROR_FILE, -7, "a file cannot be read or written")                                                              \
     X(ERROR_FORMAT, -8, "a file does not have the expected form")                                                      \
-    X(ERROR_INTERNAL, -9, "an internal check failed; please report it")                                                      \
-    X(ERROR_INTEGRATOR, -10, "the integrator of the method failed; the message has its words")
+    X(ERROR_INTERNAL, -9, "an internal check failed; please report it")                                                \
+    X(ERROR_INTEGRATOR, -10, "the integrator of the method failed; the message has its words")                         \
+    X(ERROR_INTERRUPTED, -11, "interrupted by the caller")
 
 #define RESTITUTE_STATUS_ENUM(name, value, text) RESTITUTE_##name = (value),
 /** Status of a call; see @ref RESTITUTE_STATUS_LIST for the texts. */

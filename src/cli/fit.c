@@ -21,7 +21,7 @@ static volatile sig_atomic_t stopped;
 static void on_signal(int number)
 {
     stopped = 1;
-    signal(number, SIG_DFL); /* a second one does not wait for the end of the piece */
+    signal(number, SIG_DFL); /* a second one does not wait for the end of a batch */
 }
 
 static bool check_outputs(const struct fit_settings *s, const struct fit_input *input, struct reason *why)
@@ -43,6 +43,12 @@ static bool check_outputs(const struct fit_settings *s, const struct fit_input *
     return places_check(&places, why);
 }
 
+static int is_stopped(void *data)
+{
+    (void)data;
+    return stopped;
+}
+
 /* All pieces, with progress; false: failed or stopped by a signal. A DMA curve comes in one piece: there signals end the
  * program as they always do, and nothing was written. */
 static bool run(restitute_fitter *fitter, struct reason *why)
@@ -53,13 +59,13 @@ static bool run(restitute_fitter *fitter, struct reason *why)
     int status = RESTITUTE_OK;
     if (signal(SIGINT, SIG_IGN) != SIG_IGN) signal(SIGINT, on_signal);
     if (signal(SIGTERM, SIG_IGN) != SIG_IGN) signal(SIGTERM, on_signal);
-    while (done < 1 && !status && !stopped) {
+    while (done < 1 && !status) {
         status = restitute_fitter_run(fitter, &done, &error);
         snprintf(text, sizeof text, "fit: %.0f %%", 100 * done);
         bench_progress(text);
     }
     bench_progress(NULL);
-    return status ? refuse(why, "%s", error.message) : !stopped;
+    return !stopped && (!status || refuse(why, "%s", error.message));
 }
 
 /* Remarks are printed; those that a caller in a script must not overlook make another exit status. */
@@ -79,8 +85,10 @@ static int fit_points(const struct fit_settings *s, const struct fit_input *inpu
     restitute_fit_result result;
     restitute_error error;
     struct reason why = {""};
+    restitute_fit_options options = s->options;
+    options.interrupted = is_stopped;
     restitute_fit_result_init(&result);
-    const bool done = (restitute_fitter_create(input->n, input->points, &s->options, &fitter, &error) >= 0 ||
+    const bool done = (restitute_fitter_create(input->n, input->points, &options, &fitter, &error) >= 0 ||
                        fit_input_place(input, error.message, &why)) &&
                       run(fitter, &why) &&
                       (restitute_fitter_result(fitter, &result, &error) >= 0 || refuse(&why, "%s", error.message)) &&

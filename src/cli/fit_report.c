@@ -205,10 +205,15 @@ static bool figure(const struct fit_settings *s, const struct fit_input *input, 
     static const char *const names[] = {"ez", "ex", "time (rel.)"},
                       *const labels[] = {"normal speed  (m/s)", "ez, ex", "measured - fitted"};
     const size_t n = input->n;
+    restitute_error error;
     double *fitted = allocate(3 * n, sizeof *fitted);
+    const int status = restitute_fitter_values(fitter, fitted, fitted + n, fitted + 2 * n, &error);
+    if (status) {
+        free(fitted);
+        return status != RESTITUTE_ERROR_INTERRUPTED && refuse(why, "%s", error.message);
+    }
     struct pairs *pairs = allocate(n, sizeof *pairs);
     struct chart *chart = new_chart(s, input, labels);
-    restitute_fitter_values(fitter, fitted, fitted + n, fitted + 2 * n, NULL);
     for (size_t i = 0, used = 0; i < r->count && used < sizeof chart->description; i++)
         used += (size_t)snprintf(chart->description + used, sizeof chart->description - used, "%s%s = %.4g",
                                  i ? ",  " : "", r->constant[i].name, r->constant[i].value);

@@ -18,7 +18,7 @@ struct restitute_fitter {
     double *weight;
     struct rst_fit_certainty certainty;
     size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the result */
-    size_t pieces;      /* that were run of this turn */
+    int status;         /* of the latest turn; negative: no other follows */
     restitute_fit_result result;
 };
 
@@ -153,7 +153,6 @@ int restitute_fitter_create(size_t n, const restitute_fit_point *points, const r
 void restitute_fitter_destroy(restitute_fitter *fitter)
 {
     if (!fitter) return;
-    rst_pieces_destroy(fitter->data.pieces);
     rst_fit_search_release(&fitter->search);
     rst_fit_data_release(&fitter->data);
     free(fitter->weight);
@@ -232,40 +231,29 @@ static int take_turn(restitute_fitter *f)
     return turn == starts + 1 ? settle(f) : turn == starts + 2 ? try_rivals(f) : finish(f);
 }
 
-static int work(void *own)
+static int failed(const restitute_fitter *f, restitute_error *error)
 {
-    restitute_fitter *f = own;
-    int status = RESTITUTE_OK;
-    while (f->turn < f->turns && status >= 0) {
-        status = take_turn(f);
-        if (status >= 0) f->turn++, f->pieces = 0;
-    }
-    return status;
-}
-
-static int failed(int status, restitute_error *error)
-{
-    return rst_report(error, status, "the fit failed: %s", restitute_status_text(status));
+    return rst_report(error, f->status, "the fit failed: %s", restitute_status_text(f->status));
 }
 
 int restitute_fitter_run(restitute_fitter *f, double *done, restitute_error *error)
 {
-    int status = RESTITUTE_OK, ended;
     if (!f || !done) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", f ? "done" : "fitter");
-    if (!f->data.pieces) status = rst_pieces_create(work, f, &f->data.pieces);
-    if (status < 0) return rst_report(error, status, "out of memory for a thread");
-    rst_fit_gsl_begin();
-    status = rst_pieces_run(f->data.pieces, &ended);
-    rst_fit_gsl_end();
-    if (status < 0) return failed(status, error);
-    f->pieces++; /* nobody knows how many a turn has: its share rises to 1 */
-    *done = ended ? 1 : ((double)f->turn + 1 - 1 / (double)(1 + f->pieces)) / (double)f->turns;
+    if (f->turn < f->turns && f->status >= 0) {
+        rst_fit_gsl_begin();
+        f->status = take_turn(f);
+        rst_fit_gsl_end();
+        if (f->status >= 0) f->turn++;
+    }
+    if (f->status < 0) return failed(f, error);
+    *done = (double)f->turn / (double)f->turns;
     return rst_done(error);
 }
 
 static int check_finished(const restitute_fitter *f, restitute_error *error)
 {
     if (!f) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
+    if (f->status < 0) return failed(f, error);
     if (f->turn == f->turns) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the fit has not come to its end: call restitute_fitter_run");
 }
@@ -291,7 +279,6 @@ int restitute_fitter_values(const restitute_fitter *f, double *ez, double *ex, d
     if (status) return status;
     restitute_result *results = calloc(f->data.n, sizeof *results);
     struct rst_fit_data data = f->data; /* a copy: only its count of impacts changes */
-    data.pieces = NULL;
     status = results ? rst_fit_solve_points(&data, &f->search.model, f->result.value, results) : RESTITUTE_ERROR_MEMORY;
     for (size_t i = 0; i < f->data.n && status >= 0; i++) {
         if (ez) ez[i] = results[i].ez;
@@ -306,14 +293,14 @@ int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_f
                   restitute_fit_result *result, restitute_error *error)
 {
     restitute_fitter *fitter;
+    double done = 0;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     int status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
     if (!status) status = restitute_fitter_create(n, points, options, &fitter, error);
     if (status) return status;
-    rst_fit_gsl_begin();
-    status = work(fitter);
-    rst_fit_gsl_end();
-    status = status < 0 ? failed(status, error) : restitute_fitter_result(fitter, result, error);
+    while (!status && done < 1)
+        status = restitute_fitter_run(fitter, &done, error);
+    if (!status) status = restitute_fitter_result(fitter, result, error);
     restitute_fitter_destroy(fitter);
     return status;
 }

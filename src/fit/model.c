@@ -7,7 +7,7 @@
 
 #include "report.h"
 
-/* Impacts that are solved in one call: many enough for threads, few enough for a piece of the fit. */
+/* Impacts that are solved in one call: many enough for threads, few enough for options.interrupted. */
 enum { BATCH = 200 };
 
 /* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
@@ -171,6 +171,11 @@ static void make_scenes(const struct rst_fit_model *m, const double *constants, 
     }
 }
 
+static int interrupted(const restitute_fit_options *o)
+{
+    return o->interrupted && o->interrupted(o->interrupted_data);
+}
+
 /* n impacts for every set of constants; one that failed has ez = NaN. */
 static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t sets, const double *constants, size_t n,
                  const struct rst_fit_impact *impacts, restitute_result *results)
@@ -186,10 +191,11 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
     }
     for (size_t first = 0, most = sets * n; first < most && status >= 0; first += BATCH) {
         const size_t count = most - first < BATCH ? most - first : BATCH;
-        status = restitute_solve_scenes(&d->solver, count, scenes + first, results + first, statuses + first,
-                                        d->options.threads, NULL);
+        status = interrupted(&d->options) ? RESTITUTE_ERROR_INTERRUPTED
+                                          : restitute_solve_scenes(&d->solver, count, scenes + first, results + first,
+                                                                   statuses + first, d->options.threads, NULL);
         d->impacts += (int64_t)count;
-        if (status != RESTITUTE_ERROR_MEMORY) status = rst_pieces_pause(d->pieces, count);
+        if (status != RESTITUTE_ERROR_MEMORY && status != RESTITUTE_ERROR_INTERRUPTED) status = RESTITUTE_OK;
     }
     for (size_t i = 0; solids && i < sets * d->groups; i++)
         restitute_material_destroy(solids[i]);

@@ -5,8 +5,6 @@
 
 #include <restitute/fit.h>
 
-#include "pieces.h"
-
 enum rst_fit_kind { RST_FIT_EZ, RST_FIT_EX, RST_FIT_TIME, RST_FIT_KINDS };
 
 /* One measured value. */
@@ -58,7 +56,6 @@ struct rst_fit_data {
     struct rst_temperatures temperature;
     restitute_options solver;
     int64_t impacts; /* that were solved */
-    struct rst_pieces *pieces; /* NULL: in one go */
 };
 
 /* One solid and which of its constants are fitted. Constants: those of the solid, friction, shifts. */

@@ -69,9 +69,9 @@ static int curve(struct given *given)
 
 static void every_call(void **state)
 {
-    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0, 0},
-                                              {"damped", NULL, damped, NULL, 3, 0, 0},
-                                              {"curve", NULL, curve, NULL, 6, 0, 0}};
+    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0},
+                                              {"damped", NULL, damped, NULL, 3, 0},
+                                              {"curve", NULL, curve, NULL, 6, 0}};
     (void)state;
     if (!CAN_FAIL) skip();
     allocator.ours_alone = 1;

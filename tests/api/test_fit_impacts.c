@@ -598,43 +598,89 @@ static void a_valley_that_noise_made_the_second_is_named(void **state)
     restitute_material_destroy(solid);
 }
 
-/* With e_x every point has an impact of its own. A piece has some 200 of them, whatever the number of points, and the same
- * bits come out as in one go. A fit may be left in the middle. */
-static void pieces_are_short(void **state)
+/* Calls of a callback in the thread of the test; in which of them it interrupts, 0: in none. */
+static _Thread_local int asked;
+
+static int interrupts_at(void *data)
 {
-    enum { MANY = 100 };
-    static restitute_fit_point points[MANY];
-    restitute_material *solid = kelvin_voigt(1e6, 100);
+    return ++asked == *(const int *)data;
+}
+
+static restitute_fit_options with_callback(size_t n, restitute_fit_point *points, int *at)
+{
     restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
-    restitute_fit_result whole, r;
+    restitute_material *solid = kelvin_voigt(1e6, 100);
+    drops(n, 0.01, 1, points);
+    measure(solid, n, points, 0.01, 1, 0, 1);
+    restitute_material_destroy(solid);
+    options.starts = 1;
+    options.interrupted = interrupts_at, options.interrupted_data = at;
+    asked = 0;
+    return options;
+}
+
+/* At most 200 impacts lie between two calls: values have as many as points. Once interrupted, they can be asked for again. */
+static void a_callback_is_asked_every_200_impacts(void **state)
+{
+    enum { MANY = 401 };
+    static restitute_fit_point points[MANY];
+    int at = 0;
+    restitute_fit_options options = with_callback(MANY, points, &at), alone = options;
+    restitute_fit_result r;
     restitute_fitter *fitter;
     restitute_error error;
-    double done = 0;
-    int calls = 0;
+    double ez[MANY] = {77};
     (void)state;
-    drops(MANY, 0.01, 1, points);
-    for (size_t i = 0; i < MANY; i++)
-        points[i].scene.friction = 0.3, points[i].scene.tangential_speed = 0.6 * points[i].scene.normal_speed;
-    measure(solid, MANY, points, 0.01, 1, 1, 1);
-    options.starts = 1;
-    whole = fitted(MANY, points, &options);
-    assert_int_equal(restitute_fitter_create(MANY, points, &options, &fitter, &error), RESTITUTE_OK);
-    for (; done < 1; calls++)
-        assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
+    alone.interrupted = NULL;
+    restitute_fit_result expected = fitted(MANY, points, &alone);
     restitute_fit_result_init(&r);
+    assert_int_equal(restitute_fitter_create(MANY, points, &options, &fitter, &error), RESTITUTE_OK);
+    for (double done = 0; done < 1;)
+        assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
     assert_int_equal(restitute_fitter_result(fitter, &r, &error), RESTITUTE_OK);
+    CHECK(asked > 0 && asked >= r.impacts / 200, "%d impacts, %d calls", (int)r.impacts, asked);
+    assert_memory_equal(r.high, expected.high, sizeof r.high);
+    at = 3, asked = 0;
+    assert_int_equal(restitute_fitter_values(fitter, ez, NULL, NULL, &error), RESTITUTE_ERROR_INTERRUPTED);
+    CHECK(asked == 3 && ez[0] == 77, "asked %d times, touched: %g", asked, ez[0]);
+    assert_int_equal(restitute_fitter_values(fitter, ez, NULL, NULL, &error), RESTITUTE_OK);
+    CHECK(asked == 6, "asked %d times", asked - 3);
+    CHECK_NEAR(ez[0], points[0].ez, 0.05, "value"); /* five times the noise */
     restitute_fitter_destroy(fitter);
-    CHECK(r.impacts > 4000 && calls > r.impacts / 400, "%d impacts in %d pieces", (int)r.impacts, calls);
-    assert_memory_equal(r.high, whole.high, sizeof r.high);
     restitute_material_destroy(r.material);
-    restitute_material_destroy(whole.material);
-    for (int pieces = 0; pieces < 12; pieces += 5) {
-        assert_int_equal(restitute_fitter_create(MANY, points, &options, &fitter, &error), RESTITUTE_OK);
-        for (int k = 0; k < pieces; k++)
-            assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_OK);
-        restitute_fitter_destroy(fitter);
+    restitute_material_destroy(expected.material);
+}
+
+/* Wherever it interrupts, the fit ends, and it is not asked again. A fitter then stays so. */
+static void a_callback_interrupts_a_fit(void **state)
+{
+    restitute_fit_point points[N];
+    int at = 0, status;
+    restitute_fit_options options = with_callback(N, points, &at);
+    restitute_fit_result r;
+    restitute_fitter *fitter;
+    restitute_error error;
+    double done = 0, before = 0;
+    (void)state;
+    r = fitted(N, points, &options);
+    restitute_material_destroy(r.material);
+    restitute_fit_result_init(&r);
+    r.rms = 77;
+    for (int part = 0, all = asked; part <= 8; part++) {
+        at = 1 + part * (all - 1) / 8, asked = 0;
+        status = restitute_fit(N, points, &options, &r, &error);
+        CHECK(status == RESTITUTE_ERROR_INTERRUPTED && error.status == status, "call %d: %d", at, status);
+        CHECK(asked == at && r.rms == 77 && !r.material, "call %d: asked %d times", at, asked);
     }
-    restitute_material_destroy(solid);
+    options.threads = 2, asked = 0;
+    assert_int_equal(restitute_fitter_create(N, points, &options, &fitter, &error), RESTITUTE_OK);
+    while ((status = restitute_fitter_run(fitter, &done, &error)) == RESTITUTE_OK && done < 1)
+        before = done;
+    CHECK(status == RESTITUTE_ERROR_INTERRUPTED && done == before && done > 0, "%d at %g", status, done);
+    assert_int_equal(restitute_fitter_run(fitter, &done, &error), RESTITUTE_ERROR_INTERRUPTED);
+    assert_int_equal(restitute_fitter_result(fitter, &r, &error), RESTITUTE_ERROR_INTERRUPTED);
+    CHECK(asked == at && r.rms == 77, "asked %d times, not %d", asked, at);
+    restitute_fitter_destroy(fitter);
 }
 
 int main(void)
@@ -660,6 +706,7 @@ int main(void)
                                        cmocka_unit_test(data_that_determine_nothing_have_no_condition),
                                        cmocka_unit_test(wide_intervals_reach_as_far_as_the_likelihood),
                                        cmocka_unit_test(a_valley_that_noise_made_the_second_is_named),
-                                       cmocka_unit_test(pieces_are_short)};
+                                       cmocka_unit_test(a_callback_is_asked_every_200_impacts),
+                                       cmocka_unit_test(a_callback_interrupts_a_fit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
