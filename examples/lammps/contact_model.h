@@ -92,7 +92,7 @@ class ContactModel
     restitute_contact_rates rates = {};
     restitute_contact_motion motion;
     restitute_error error = {};
-    std::string remark; /* of the library on the law */
+    std::string remark;      /* of the library on the law */
     double file_density = 0; /* of the denser material; 0: not given */
 };
 

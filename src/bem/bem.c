@@ -418,12 +418,17 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }
 
-const struct restitute_method rst_bem_base_method = {
-    .name = "bem", .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record};
+const struct restitute_method rst_bem_base_method = {.name = "bem",
+                                                     .time_limit = INFINITY,
+                                                     .takes_time_step = 1,
+                                                     .takes_all_terms = 1,
+                                                     .solve = bem_solve,
+                                                     .record = bem_record};
 
 #define BASE(its_name)                                                                                                 \
     {                                                                                                                  \
-        .name = its_name, .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve, .record = bem_record         \
+        .name = its_name, .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve,      \
+        .record = bem_record                                                                                           \
     }
 static const struct bem_method standard = {.base = BASE("bem")};
 static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),

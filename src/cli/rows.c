@@ -203,8 +203,8 @@ void row_write(FILE *stream, const struct cases *cases, size_t index, const stru
 static bool read_number(const char *cell, size_t column, bool solved, double *number, struct reason *why)
 {
     const double low = result_columns[column].low, high = result_columns[column].high;
-    const bool good = solved ? restitute_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high
-                             : !*cell;
+    const bool good =
+        solved ? restitute_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high : !*cell;
     return good || refuse(why, "%s = \"%.64s\": %s", result_columns[column].name, cell,
                           solved ? result_columns[column].range : "must be empty as method is");
 }

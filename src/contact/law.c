@@ -55,10 +55,11 @@ static int judge_reduction(const restitute_contact_law_options *o, size_t n_term
                           "modulus; take a shorter time",
                           o->longest, n_terms);
     const int poor = bound <= largest_error;
-    return rst_report(error, poor ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_ERROR_DOMAIN,
-                      "options.terms = %d, shortest = %g s, longest = %g s: the law misses G(t) of the %zu terms of the "
-                      "material by up to %.0f %%%s; take more terms or a narrower window",
-                      o->terms, o->shortest, o->longest, n_terms, 100 * bound, poor ? "" : ", at most 50 % are allowed");
+    return rst_report(
+        error, poor ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_ERROR_DOMAIN,
+        "options.terms = %d, shortest = %g s, longest = %g s: the law misses G(t) of the %zu terms of the "
+        "material by up to %.0f %%%s; take more terms or a narrower window",
+        o->terms, o->shortest, o->longest, n_terms, 100 * bound, poor ? "" : ", at most 50 % are allowed");
 }
 
 /* The material's series, all of it or reduced. */

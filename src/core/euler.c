@@ -166,8 +166,8 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     if (run->state.phase < RST_DONE)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "%s: reached after %lld steps of %.3g %s; raise it or take the method sync",
-                          rst_spent(problem, late).text, (long long)run->state.n_steps,
-                          run->step * problem->time_unit, problem->unit_name);
+                          rst_spent(problem, late).text, (long long)run->state.n_steps, run->step * problem->time_unit,
+                          problem->unit_name);
     return RESTITUTE_OK;
 }
 
@@ -264,10 +264,11 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         last = now;
     }
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
-    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent; the method sync is faster",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex,
-                      rst_spent(problem, late || rst_time_left(problem) <= 0).text);
+    return rst_report(
+        error, RESTITUTE_TOLERANCE_NOT_REACHED,
+        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent; the method sync is faster",
+        problem->tolerance, outcome->error_ez, outcome->error_ex,
+        rst_spent(problem, late || rst_time_left(problem) <= 0).text);
 }
 
 static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,

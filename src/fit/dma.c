@@ -107,10 +107,11 @@ static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
     if (!laid) strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
     const size_t used = strlen(r->remarks);
     if (high < 10 * low)
-        rst_print(r->remarks + used, sizeof r->remarks - used,
-                  "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
-                  "more\n",
-                  high / low);
+        rst_print(
+            r->remarks + used, sizeof r->remarks - used,
+            "rows within a factor of %.3g in frequency do not determine relaxation times: measure over a decade or "
+            "more\n",
+            high / low);
 }
 
 /* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted so that errors of log10 a count alike. */

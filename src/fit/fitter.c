@@ -164,8 +164,8 @@ static double quantile(const restitute_fitter *f)
 {
     const double upper = 0.5 + 0.5 * f->data.options.confidence;
     return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
-                                       : f->certainty.dof ? gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof)
-                                                           : INFINITY;
+           : f->certainty.dof          ? gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof)
+                                       : INFINITY;
 }
 
 /* Robust weights until they settle, then what they determine. */

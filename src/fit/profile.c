@@ -58,7 +58,8 @@ int rst_fit_profile(struct rst_fit_search *s, double quantile, struct rst_fit_ce
     for (size_t k = 0; k < p && status >= 0; k++) {
         const double linear = c->determined[k] ? quantile * sqrt(c->variance[k * p + k]) : INFINITY;
         c->below[k] = c->above[k] = linear;
-        if (s->data->options.loss || s->model.index[k] >= s->model.solid || !(linear > LINEAR && linear < INFINITY)) continue;
+        if (s->data->options.loss || s->model.index[k] >= s->model.solid || !(linear > LINEAR && linear < INFINITY))
+            continue;
         status = find_end(s, c, k, quantile, -1, &c->below[k]);
         if (status >= 0) status = find_end(s, c, k, quantile, 1, &c->above[k]);
     }

@@ -110,7 +110,8 @@ static void remark_other(const struct rst_fit_search *s, const struct rst_fit_ce
 }
 
 /* Constants that may be as large or as small as you like, with the others fitted to them. */
-static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+                          restitute_fit_result *result)
 {
     char name[RESTITUTE_FIT_NAME];
     for (size_t i = 0; i < s->model.free; i++) {

@@ -54,7 +54,8 @@ struct rst_fit_certainty {
     double values[RESTITUTE_FIT_CONSTANTS];                             /* singular values */
     double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];   /* directions, as of rst_fit_singular */
     double variance[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS]; /* covariance of the logarithms */
-    double below[RESTITUTE_FIT_CONSTANTS], above[RESTITUTE_FIT_CONSTANTS]; /* the interval's ends, from the best logarithm */
+    double below[RESTITUTE_FIT_CONSTANTS],
+        above[RESTITUTE_FIT_CONSTANTS]; /* the interval's ends, from the best logarithm */
     int determined[RESTITUTE_FIT_CONSTANTS];
     int otherwise[RESTITUTE_FIT_CONSTANTS]; /* not determined, since another value fits as well */
 };

@@ -98,8 +98,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
             (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
-        if ((walked > 2 && rst_meets(problem, outcome)) ||
-            !can_double(problem, now.n, left, outcome))
+        if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;
     }

@@ -176,8 +176,8 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     int known = 0, walks = 0, tried = 0;
     for (int halvings = first; halvings <= rst_most_halvings; halvings++) {
         const int late = rst_time_left(problem) <= 0;
-        const int status = late ? rst_sync_too_much_work(problem, error)
-                                : attempt(motion, problem, halvings, &now, outcome, error);
+        const int status =
+            late ? rst_sync_too_much_work(problem, error) : attempt(motion, problem, halvings, &now, outcome, error);
         if (late && walks) break;
         outcome->late = late;
         if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;

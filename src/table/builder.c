@@ -143,10 +143,10 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
                   struct rst_builder *b, restitute_error *error)
 {
     const double finer = pow(1e-5 / options->tolerance, 0.25);
-    *b = (struct rst_builder){.options = *options,
-                              .began = rst_table_clock(),
-                              .first = {(int64_t)fmax(8, ceil(first_stick * finer)),
-                                        (int64_t)fmax(16, ceil(first_slip * finer))}};
+    *b = (struct rst_builder){
+        .options = *options,
+        .began = rst_table_clock(),
+        .first = {(int64_t)fmax(8, ceil(first_stick * finer)), (int64_t)fmax(16, ceil(first_slip * finer))}};
     int status = rst_contact_set(scene, &b->contact, error);
     const double chi = b->contact.numbers.chi;
     if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))
@@ -187,9 +187,10 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
     *table = made;
     const struct rst_table_data *d = restitute_private_table_data(made);
     if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
-    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts and %.2g s; time_limit = %g s",
-                      d->tolerance, d->error_ez, d->error_ex, (long long)d->impacts, taken, options->time_limit);
+    return rst_report(
+        error, RESTITUTE_TOLERANCE_NOT_REACHED,
+        "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts and %.2g s; time_limit = %g s",
+        d->tolerance, d->error_ez, d->error_ex, (long long)d->impacts, taken, options->time_limit);
 }
 
 int restitute_table_build(const restitute_scene *scene, const restitute_table_options *options, restitute_table **table,

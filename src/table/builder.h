@@ -76,7 +76,7 @@ struct rst_builder {
     restitute_table_options options;
     struct rst_column *column;
     int64_t columns, room;
-    double began; /* of rst_table_clock() */
+    double began;               /* of rst_table_clock() */
     int64_t first[2], cells[2]; /* of psi: at first, and of all columns */
     struct rst_column_solver *solver; /* one a thread */
     int threads;

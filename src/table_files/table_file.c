@@ -12,8 +12,9 @@ static const char title[] = "table";
 /* Members that are fields of the set `numbers`, in this order, before the version; 8 bytes each. */
 #define NUMBERS(X)                                                                                                     \
     X(low)                                                                                                             \
-    X(high) X(tolerance) X(error_ez) X(error_ex) X(chi) X(gamma) X(delta1) X(psi_factor) X(duration) X(friction)       \
-        X(radius) X(mass) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity) X(speed_limit) X(radius_limit) \
+    X(high)                                                                                                            \
+    X(tolerance) X(error_ez) X(error_ex) X(chi) X(gamma) X(delta1) X(psi_factor) X(duration) X(friction) X(radius)     \
+        X(mass) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity) X(speed_limit) X(radius_limit)           \
             X(displacement_limit)
 #define INTEGERS(X) X(impacts) X(checks) X(terms) X(speeds) X(stick_cells) X(slip_cells)
 #define COUNT(member) +1

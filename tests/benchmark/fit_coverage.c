@@ -102,7 +102,8 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
     restitute_solver_destroy(solver);
     for (size_t i = with_time ? 0 : 1; i < constants; i++)
         printf("%d,%g,%s,%s,%.3f,%.3f,%d,%d\n", model, noise, with_time ? "ez and contact time" : "ez; modulus1 known",
-               names[i], (double)held[i] / draws, (double)(held[i] - open[i]) / (draws - failed - open[i]), open[i], failed);
+               names[i], (double)held[i] / draws, (double)(held[i] - open[i]) / (draws - failed - open[i]), open[i],
+               failed);
     fflush(stdout);
 }
 

@@ -407,8 +407,8 @@ static void large_chi_keeps_its_estimate(void **state)
         for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
             const restitute_result r = solve_impact(sync_to(tolerance), impact).result;
             const double error = fabs(r.ex - fine.ex) - fine.error_ex;
-            CHECK(error <= fmin(3 * r.error_ex, tolerance), "chi %g, psi %g at %g: off by %.2e, estimated %.2e", impact.chi,
-                  impact.psi, tolerance, error, r.error_ex);
+            CHECK(error <= fmin(3 * r.error_ex, tolerance), "chi %g, psi %g at %g: off by %.2e, estimated %.2e",
+                  impact.chi, impact.psi, tolerance, error, r.error_ex);
             low += error > r.error_ex;
         }
     }

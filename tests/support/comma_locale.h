@@ -14,7 +14,8 @@ static inline void set_comma_locale(void)
     char folder[] = "/tmp/restitute-locale-XXXXXX", command[400];
     assert_non_null(mkdtemp(folder));
     snprintf(command, sizeof command,
-             "printf 'LC_NUMERIC\\ndecimal_point \",\"\\nthousands_sep \"\"\\ngrouping -1\\nEND LC_NUMERIC\\n' >%s/comma.src && "
+             "printf 'LC_NUMERIC\\ndecimal_point \",\"\\nthousands_sep \"\"\\ngrouping -1\\nEND LC_NUMERIC\\n' "
+             ">%s/comma.src && "
              "localedef -c -i %s/comma.src %s/comma >/dev/null 2>&1",
              folder, folder, folder);
     const int made = system(command); /* not 0 either way: other categories are missing */

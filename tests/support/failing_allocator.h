@@ -207,7 +207,8 @@ static inline int subject_round(const struct subject *s, long failing, const str
         CHECK(allocator.count == 0, "%s: %ld allocations in later calls", s->name, allocator.count);
     }
     if (s->end) s->end();
-    CHECK(allocator.live == live || allocator.others_lose, "%s, allocation %ld: %ld blocks lost", s->name, failing, allocator.live - live);
+    CHECK(allocator.live == live || allocator.others_lose, "%s, allocation %ld: %ld blocks lost", s->name, failing,
+          allocator.live - live);
     return reached;
 }
 

@@ -94,7 +94,8 @@ static void converges(const struct solid *s, double chi, double psi, double expe
 {
     const double coarse = impact(s, 64, chi, psi).rebound, fine = impact(s, 256, chi, psi).rebound;
     CHECK_NEAR(coarse, expected, 2e-3, "%s, chi = %g, psi = %g", s->name, chi, psi);
-    CHECK_NEAR(fine, expected, fabs(coarse - expected) / 8 + 1.0 / (256 * 256), "%s, chi = %g, psi = %g", s->name, chi, psi);
+    CHECK_NEAR(fine, expected, fabs(coarse - expected) / 8 + 1.0 / (256 * 256), "%s, chi = %g, psi = %g", s->name, chi,
+               psi);
 }
 
 /* Where springs make U' swing many times, nearly all of the error would be its phase: the trapezoidal rule is off by 0.53 and
