@@ -54,14 +54,15 @@ typedef struct restitute_table_options {
     double speed[2];      /**< m/s, lowest and highest normal speed; 1e-50 <= lowest <= highest <= 1e12,
                              highest/lowest up to 1e15; default 1e-4, 100 */
     double tolerance;     /**< largest absolute error of ez and of ex, in [1e-7, 0.1]; default 1e-5 */
-    int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all.
+    int threads;          /**< in [0, 1024]; 0: as many as OpenMP offers; default 1. The table has the same bits for all,
+                             unless time_limit ends it.
                              OpenMP ends a program whose threads it cannot start, and hangs in a child (fork) of one that
                              used them; 1 never enters it */
     int64_t max_impacts;  /**< refinement ends at 0.8 of so many impacts, > 0; default 12000. Checks come on top: in all it is
                              a tenth more at 12000, twice as many at some hundred. The build gives its best then, with
                              TOLERANCE_NOT_REACHED, or ERROR_TOO_MUCH_WORK if the first columns take more */
-    double time_limit;    /**< refinement ends likewise at 0.8 of so many s by the clock on the wall, > 0, infinity: none;
-                             default 20. A table that it ends depends on the machine; its verified errors are as good */
+    double time_limit;    /**< refinement ends likewise at 0.8 of so many seconds of elapsed time, > 0, default 20;
+                             infinity: no limit. A table that it ends depends on the machine. Its stated errors hold */
     double speed_limit, radius_limit, displacement_limit; /**< as in @ref restitute_options, with the same defaults */
 } restitute_table_options;
 
