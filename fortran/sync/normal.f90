@@ -18,7 +18,7 @@ module rst_normal_motion
   !> will not be faster than normal%left; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
-  real(dp), parameter :: worth_telling = 1.0e-2_dp !! a rebound that is slower, though nothing else is known of it
+  real(dp), parameter :: largest_unresolved_rebound = 1.0e-2_dp !! one that is slower is unknown otherwise
 
   integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
   real(dp), parameter :: unit = acos(0.0_dp)/real(whole, dp)
@@ -141,7 +141,7 @@ contains
       found = does_not_converge
       if (normal%n_panels == 0) return
       normal%left = fastest_later(normal)
-      if (.not. normal%left < worth_telling) return
+      if (.not. normal%left < largest_unresolved_rebound) return
       found = stops
       normal%n_panels = normal%n_compression
     end subroutine give_up

@@ -23,7 +23,7 @@ module rst_slip
   !> early or too late may look as if it stuck again, and stick may end in all elements at once.)
   real(dp), parameter :: at_edge = 0.1_dp
   real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
-  real(dp), parameter :: turning_room = 0.02_dp !! a piece so short in which slip would turn back ends the search for its event
+  real(dp), parameter :: shortest_piece = 0.02_dp !! below this width of a piece slip that turns back is reported as re-stick
   real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
 
   !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in
@@ -67,7 +67,7 @@ contains
       end if
       if (.not. fails) then
         if (.not. s%returns .and. last_coefficient(s%w) <= contact%roughness) exit
-        if (s%returns .and. to - x < turning_room) return
+        if (s%returns .and. to - x < shortest_piece) return
       end if
       to = x + 0.5_dp*(to - x)
       if (to - x < narrowest) return

@@ -34,7 +34,7 @@
  *  - Threads: solvers in several threads are safe beside each other; a solver works in one. They plan transforms, now and then, in any call
  *    of restitute_solve, and FFTW's planner is one for the process: a program that itself makes or destroys FFTW plans in another thread meanwhile
  *    must call fftw_make_planner_thread_safe() (libfftw3_threads) before the first of either. That covers the plans of this component too.
- *  - Where there is no memory left this component returns ERROR_MEMORY; what FFTW does is its own matter: its planner ends the program.
+ *  - Where there is no memory left this component returns ERROR_MEMORY, but FFTW's planner ends the program.
  *  - In the ledger, the viscous parts are the work on the surface less what else it went to.
  *
  *  SPDX-License-Identifier: BSD-3-Clause (this file and the component's source)

@@ -137,7 +137,7 @@ typedef struct restitute_contact_force {
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of another law; a
  *          new contact of less than ten steps; a normal that has turned by 60 degrees
  *          towards the stored axis, see @ref restitute_contact_turn. State and force are untouched then. Also
- *          ERROR_DOMAIN: a state spoilt so that its force is not finite; it stays spoilt */
+ *          ERROR_DOMAIN: a corrupt state, whose force is not finite; it cannot be repaired */
 RESTITUTE_API int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
                                          const restitute_contact_motion *motion, double *state,
                                          restitute_contact_force *force, restitute_error *error);

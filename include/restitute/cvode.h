@@ -1,6 +1,6 @@
 /** @file cvode.h
- *  The method `cvode` of `restitute`: the impact as the ordinary differential equation that it is, integrated by SUNDIALS
- *  CVODE with adaptive order and step, and the log of its events.
+ *  The method `cvode` of `restitute`: the impact as an ordinary differential equation, integrated by SUNDIALS CVODE with
+ *  adaptive order and step, and the log of its events.
  *
  *  What is integrated is the motion of the sphere and the dashpots of the foundation. Those of single elements are
  *  eliminated exactly: an element that sticks and one that slips follow from the sphere's states between the instants at

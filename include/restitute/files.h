@@ -4,8 +4,8 @@
  *  Link restitute::files. It needs Jansson and libcsv; the core needs neither. The rules of restitute.h hold here too:
  *  every function returns a @ref restitute_status, a failed call leaves its outputs untouched, nothing is printed, and
  *  the optional last argument names the file, the line, the offending value and its allowed range. Numbers are read
- *  with a point, whatever locale the program has set. Where there is no memory left this component returns ERROR_MEMORY; what
- *  Jansson does is its own matter.
+ *  with a point, whatever locale the program has set. Where there is no memory left this component returns ERROR_MEMORY; the
+ *  behaviour of Jansson is then unspecified.
  *
  *      restitute_material *rubber;
  *      restitute_error error;

@@ -114,11 +114,11 @@ RESTITUTE_API int restitute_material_kelvin_voigt(double modulus1, double viscos
 RESTITUTE_API int restitute_material_maxwell(double modulus, double viscosity, double poisson_ratio,
                                              restitute_material **material, restitute_error *error);
 
-/** What two bodies of unlike materials are to each other: one solid, for a @ref restitute_scene in which one body deforms.
+/** The effective solid of two bodies of unlike materials, for a @ref restitute_scene in which one body deforms.
  *
  *  Compliances add (theory.md, 10): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned back into one Prony
  *  series. Exact if both are incompressible or nu_1 = nu_2 and elastically similar; for other pairs normal and
- *  tangential problem are coupled in truth, which is neglected, as usual. How much is told by Dundurs' constant
+ *  tangential problem are coupled, which the model neglects, as usual. Dundurs' constant says how much:
  *
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
  *
@@ -304,7 +304,7 @@ RESTITUTE_API void restitute_solver_destroy(restitute_solver *solver);
     X(FAST, 1, "the speed is not small against the shear wave speed: waves carry energy away")                         \
     X(LARGE_CONTACT, 2, "the contact is not small against the sphere: the half-space model overrates the depth")       \
     X(LONG_SLIDE, 4, "the sphere slides far during the contact: it is not axisymmetric any more")                      \
-    X(COUPLED, 8, "the materials are elastically unlike: normal and tangential problem are coupled in truth")
+    X(COUPLED, 8, "the materials are elastically unlike: the model neglects that normal and tangential problem are coupled")
 
 #define RESTITUTE_FLAG_ENUM(name, bit, text) RESTITUTE_FLAG_##name = (bit),
 /** One bit a strained assumption, see @ref RESTITUTE_FLAG_LIST. */
@@ -325,7 +325,7 @@ typedef struct restitute_result {
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */
     double merging_bound;      /**< bound on the change of ez and ex by merged relaxation times, docs/theory.md */
-    int64_t terms_merged;      /**< relaxation times that the scene cannot feel and that were merged */
+    int64_t terms_merged;      /**< relaxation times that were merged: too fast or too slow to matter */
     int64_t elements, steps;   /**< of the run that gave the pair: elements over the largest radius, time steps; of
                                   `sync` without elements its points of collocation, there and in the whole contact */
     double element_spacing;    /**< dx: a_el or m */
@@ -437,9 +437,9 @@ RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_
 
 /** The normal motion of one impact, for any number of sliding speeds.
  *
- *  A sphere that meets the same partner with the same normal speed moves in z as it did before, however it slides. With
- *  the method `sync` a plan solves this normal motion once, at each resolution that a call needs. Every further call has
- *  the tangential motion alone to solve, which is half of the work. With other methods each call solves the whole impact.
+ *  The normal motion is independent of sliding. With the method `sync` a plan solves it once, at each resolution that a
+ *  call needs. Every further call has the tangential motion alone to solve, which is half of the work. With other methods
+ *  each call solves the whole impact.
  *
  *  Every call gives the status, the message and the bits that @ref restitute_solve gives this impact; `updates` counts
  *  what was solved before as if it were solved again. One thread at a time, as a solver. */

@@ -21,7 +21,7 @@
     X(ERROR_FILE, -7, "a file cannot be read or written")                                                              \
     X(ERROR_FORMAT, -8, "a file does not have the expected form")                                                      \
     X(ERROR_INTERNAL, -9, "an internal check failed; please report it")                                                \
-    X(ERROR_INTEGRATOR, -10, "the integrator of the method failed; the message has its words")                         \
+    X(ERROR_INTEGRATOR, -10, "the ODE integrator failed; see the message")                                             \
     X(ERROR_INTERRUPTED, -11, "interrupted by the caller")
 
 #define RESTITUTE_STATUS_ENUM(name, value, text) RESTITUTE_##name = (value),

@@ -27,8 +27,8 @@
  *    Folders, sockets and block devices are refused.
  *  - The temporary file is locked (flock). What a killed process left is removed by the next call with that path.
  *
- *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; what HDF5 itself does then, in writing, is its
- *  own matter.
+ *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; the behaviour of HDF5 in writing is then
+ *  unspecified.
  *
  *  Schema 7. The dataset `numbers` is one compound of doubles and 64-bit integers: the range of speeds `low` and `high`;
  *  `tolerance`, `error_ez`, `error_ex`, `impacts`, `checks`, `restitute_version` (text); the contact: `chi`, `gamma`, `delta1`,

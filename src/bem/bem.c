@@ -282,7 +282,7 @@ static int too_many_steps(struct impact *impact, double elements, double step, r
 }
 
 /* Elements or step given: one run with them, and one with half the cells and twice the step. */
-static int solve_as_told(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
+static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
     const double duration = duration_of(impact);
@@ -348,7 +348,7 @@ static int bem_solve(const struct rst_problem *problem, struct rst_workspace *wo
     if (!status) status = find_box(&impact, error);
     if (status) return status;
     impact.keep_ledger = keep_ledger;
-    status = problem->elements > 0 || problem->time_step > 0 ? solve_as_told(&impact, outcome, error)
+    status = problem->elements > 0 || problem->time_step > 0 ? solve_prescribed(&impact, outcome, error)
                                                              : solve_refining(&impact, outcome, error);
     if (status == RESTITUTE_OK && error) *error = (restitute_error){.status = RESTITUTE_OK};
     return status;

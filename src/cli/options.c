@@ -74,12 +74,12 @@ static struct poptOption solution_options[] = {
     OPTION("time-limit", CODE_TEXT + TEXT_TIME_LIMIT, "SECONDS",
           "processor time an impact may take; 0 (default): 1, no limit with --elements, --time-step or bem"),
     OPTION("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
-          "normal speed over wave speed that is told; default 0.1"),
+          "flag FAST above this normal speed over wave speed; default 0.1"),
     OPTION("radius-limit", CODE_TEXT + TEXT_RADIUS_LIMIT, "RATIO",
-          "contact radius over radius that is told; default 0.1"),
+          "flag LARGE_CONTACT above this contact radius over radius; default 0.1"),
     OPTION("displacement-limit", CODE_TEXT + TEXT_DISPLACEMENT_LIMIT, "RATIO",
-          "slide over contact radius that is told; default 0.3"),
-    OPTION("dundurs-limit", CODE_TEXT + TEXT_DUNDURS_LIMIT, "BETA", "Dundurs' constant that is told; default 0.1"),
+          "flag LONG_SLIDE above this slide over contact radius; default 0.3"),
+    OPTION("dundurs-limit", CODE_TEXT + TEXT_DUNDURS_LIMIT, "BETA", "flag COUPLED above this constant of Dundurs; default 0.1"),
     POPT_TABLEEND};
 
 static struct poptOption pair_output_options[] = {

@@ -120,9 +120,9 @@ static int is_finite(const restitute_contact_force *f)
 }
 
 /* Within their ranges all inputs give finite forces. */
-static int refuse_spoilt(restitute_error *error)
+static int refuse_corrupt(restitute_error *error)
 {
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is spoilt, the force that it gives is not finite");
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
 }
 
 /* A checked step; what is refused leaves nothing behind. */
@@ -140,7 +140,7 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
     }
     rst_law_step(&law->kernel, rates, motion, state, &found, &why);
     if (why != rst_step_done) return refuse_step(why, rates, motion, error);
-    if (!is_finite(&found)) return refuse_spoilt(error);
+    if (!is_finite(&found)) return refuse_corrupt(error);
     mark(law, &state[0]);
     *force = found;
     return RESTITUTE_OK;
@@ -195,7 +195,7 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
     if (status) return status;
     restitute_contact_force found;
     rst_law_force(normal, state, &found);
-    if (!is_finite(&found)) return refuse_spoilt(error);
+    if (!is_finite(&found)) return refuse_corrupt(error);
     *force = found;
     return rst_done(error);
 }

@@ -294,7 +294,7 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
 static const double smooth_part = 0.2;
 
 /* Elements or step given: one run with them, and one beside it, coarser or finer, for the error. */
-static int solve_as_told(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
     struct run told = {0}, beside;
@@ -323,7 +323,7 @@ static int euler_solve(const struct rst_problem *problem, struct rst_workspace *
     struct scout scout;
     look_ahead(problem, workspace, &scout);
     if (problem->elements > 0 || problem->time_step > 0)
-        return solve_as_told(problem, workspace, &scout, keep_ledger, outcome, error);
+        return solve_prescribed(problem, workspace, &scout, keep_ledger, outcome, error);
     return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
 }
 

@@ -273,7 +273,7 @@ static int reserve(double tolerance, struct rst_workspace *workspace)
     return !motion || rst_workspace_terms(workspace, 1) || rst_motion_reserve(motion, first, first + 2, 2);
 }
 
-/* Newton's steps that diverge raise what the caller may trap. They are seen and left, so he is not told. */
+/* Divergent iterates of Newton's method are discarded. They must not trap in a host. */
 static int sync_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                       struct rst_outcome *outcome, restitute_error *error)
 {

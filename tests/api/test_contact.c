@@ -201,7 +201,7 @@ static void peek_repeats_the_last_force(void **unused)
 }
 
 /* A state that gives no finite force is found, whether it is advanced or asked for it. */
-static void spoilt_states_are_refused(void **unused)
+static void corrupt_states_are_refused(void **unused)
 {
     (void)unused;
     restitute_contact_law *law = standard_law(0.5);
@@ -210,10 +210,10 @@ static void spoilt_states_are_refused(void **unused)
     restitute_error error;
     d.state[2] = NAN; /* the normal force */
     assert_int_equal(restitute_contact_peek(law, d.motion.normal, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
-    assert_non_null(strstr(error.message, "spoilt"));
+    assert_non_null(strstr(error.message, "corrupt"));
     d.state[16] = NAN; /* a tangential displacement */
     assert_int_equal(restitute_contact_step(law, &d.rates, &d.motion, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
-    assert_non_null(strstr(error.message, "spoilt"));
+    assert_non_null(strstr(error.message, "corrupt"));
     assert_memory_equal(&force, &d.force, sizeof force);
     restitute_contact_law_destroy(law);
 }
@@ -317,7 +317,7 @@ int main(void)
         cmocka_unit_test(steps_too_long_are_refused),
         cmocka_unit_test(time_step_limit_of_an_elastic_impact),
         cmocka_unit_test(peek_repeats_the_last_force),
-        cmocka_unit_test(spoilt_states_are_refused),
+        cmocka_unit_test(corrupt_states_are_refused),
         cmocka_unit_test(bodies_apart_are_no_contact),
         cmocka_unit_test(least_overlap_spoils_nothing),
         cmocka_unit_test(many_steps_are_single_steps),

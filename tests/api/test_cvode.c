@@ -116,7 +116,7 @@ static void time_limit_ends_with_the_best_result(void **state)
 {
     (void)state;
     check_time_limit(cvode_to(1e-6),
-                     impact_of(388.75154582840514, 26.42748466847636, 1.8011568930709814, 0.049585286428120476), 0.5);
+                     impact_of(388.75154582840514, 26.42748466847636, 1.8011568930709814, 0.049585286428120476), 0.5, 0.0002665);
 }
 
 static void arguments_are_checked(void **state)

@@ -7,14 +7,14 @@
 static void euler_keeps_it(void **state)
 {
     (void)state;
-    check_time_limit(to_tolerance(1e-6), impact_of(7.0 / 6, 0.5, 1, 1), 0.2);
+    check_time_limit(to_tolerance(1e-6), impact_of(7.0 / 6, 0.5, 1, 1), 0.2, 0.2239108);
 }
 
 /* Without a limit elements would be doubled to 16384, which take some 2 s. */
 static void sync_keeps_the_default(void **state)
 {
     (void)state;
-    check_time_limit(sync_to(1e-8), impact_of(900, 0.5, 0.1, 1), 0);
+    check_time_limit(sync_to(1e-8), impact_of(900, 0.5, 0.1, 1), 0, 0.187390);
 }
 
 static void no_time_at_all_is_refused(void **state)
