@@ -10,17 +10,22 @@
 static const char title[] = "table";
 
 /* Members that are fields of the set `numbers`, in this order, before the version; 8 bytes each. */
-#define NUMBERS(X)                                                                                                     \
+#define MEMBERS(X)                                                                                                     \
     X(low)                                                                                                             \
     X(high)                                                                                                            \
-    X(tolerance) X(error_ez) X(error_ex) X(chi) X(gamma) X(delta1) X(psi_factor) X(duration) X(friction) X(radius)     \
-        X(mass) X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity) X(speed_limit) X(radius_limit)           \
-            X(displacement_limit)
-#define INTEGERS(X) X(impacts) X(checks) X(terms) X(speeds) X(stick_cells) X(slip_cells)
-#define COUNT(member) +1
-enum { numbers = 0 NUMBERS(COUNT), fields = numbers INTEGERS(COUNT) };
+    X(tolerance)                                                                                                       \
+    X(error_ez) X(error_ex) X(chi) X(gamma) X(delta1) X(psi_factor) X(duration) X(friction) X(radius) X(mass)          \
+        X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity) X(speed_limit) X(radius_limit)                   \
+            X(displacement_limit) X(impacts) X(checks) X(terms) X(speeds) X(stick_cells) X(slip_cells)
+#define FIELD(m)                                                                                                       \
+    {#m, offsetof(struct rst_table_data, m), _Generic(((struct rst_table_data *)0)->m, int64_t : 1, double : 0)},
+static const struct {
+    const char *name;
+    size_t at;
+    int is_integer;
+} field[] = {MEMBERS(FIELD)};
+enum { fields = sizeof field / sizeof *field };
 enum { version_size = sizeof((struct rst_table_data *)0)->version, numbers_size = 8 * fields + version_size };
-#undef COUNT
 
 static const char units_of_numbers[] =
     "low, high m/s; duration s (of the contact at 1 m/s); radius m; mass kg; equilibrium_modulus Pa; "
@@ -72,14 +77,9 @@ static void put_little(uint64_t value, unsigned char *bytes)
 
 static void pack_numbers(const struct rst_table_data *d, unsigned char *bytes)
 {
-    const double number[] = {
-#define VALUE(member) d->member,
-        NUMBERS(VALUE)};
-    const int64_t integer[] = {INTEGERS(VALUE)};
-#undef VALUE
     for (int i = 0; i < fields; i++) {
         uint64_t bits;
-        memcpy(&bits, i < numbers ? (const void *)&number[i] : &integer[i - numbers], 8);
+        memcpy(&bits, (const char *)d + field[i].at, 8);
         put_little(bits, bytes + 8 * i);
     }
     memcpy(bytes + 8 * fields, d->version, version_size);
@@ -88,14 +88,10 @@ static void pack_numbers(const struct rst_table_data *d, unsigned char *bytes)
 /* The type of the set; negative if HDF5 fails. */
 static hid_t type_of_numbers(void)
 {
-    static const char *const name[] = {
-#define NAME(member) #member,
-        NUMBERS(NAME) INTEGERS(NAME)};
-#undef NAME
     const hid_t type = H5Tcreate(H5T_COMPOUND, numbers_size), text = H5Tcopy(H5T_C_S1);
     int good = type >= 0 && text >= 0 && H5Tset_size(text, version_size) >= 0;
     for (int i = 0; i < fields && good; i++)
-        good = H5Tinsert(type, name[i], 8 * (size_t)i, i < numbers ? H5T_IEEE_F64LE : H5T_STD_I64LE) >= 0;
+        good = H5Tinsert(type, field[i].name, 8 * (size_t)i, field[i].is_integer ? H5T_STD_I64LE : H5T_IEEE_F64LE) >= 0;
     good = good && H5Tinsert(type, "restitute_version", 8 * fields, text) >= 0;
     if (text >= 0) H5Tclose(text);
     if (good) return type;
@@ -164,16 +160,11 @@ static int get_numbers(const struct rst_old_file *file, struct rst_table_data *d
 {
     const unsigned char *bytes = find(file, SET_NUMBERS, numbers_size);
     if (!bytes) return 1;
-#define GET(member)                                                                                                    \
-    {                                                                                                                  \
-        const uint64_t bits = little(bytes);                                                                           \
-        memcpy(&d->member, &bits, 8);                                                                                  \
-        bytes += 8;                                                                                                    \
+    for (int i = 0; i < fields; i++) {
+        const uint64_t bits = little(bytes + 8 * i);
+        memcpy((char *)d + field[i].at, &bits, 8);
     }
-    NUMBERS(GET)
-    INTEGERS(GET)
-#undef GET
-    memcpy(d->version, bytes, version_size);
+    memcpy(d->version, bytes + 8 * fields, version_size);
     d->version[version_size - 1] = '\0';
     /* sizes that multiply without overflow; what a table may have is asked later */
     const int64_t most = 1 << 20;
@@ -204,6 +195,7 @@ static int read_table(const char *path, const struct rst_old_file *file, restitu
     struct set set[SETS];
     restitute_error why = {.status = RESTITUTE_ERROR_FORMAT, .message = "parts are missing"};
     int failed = get_numbers(file, &d);
+    if (failed) d = (struct rst_table_data){0}; /* list_sets adds and multiplies the counts */
     list_sets(&d, set);
     for (int i = 0; i < SETS && !failed; i++)
         failed = get_set(file, i, &set[i], &why);

@@ -267,12 +267,13 @@ static void places_beyond_the_file_are_refused(void **state)
 static void odd_numbers_are_refused(void **state)
 {
     const double wild = -1;
-    const int64_t none = 0, many = 1 << 20, more = INT64_C(1) << 61;
+    const int64_t none = 0, many = 1 << 20, more = INT64_C(1) << 61, most = INT64_MAX;
     const struct {
         const char *member;
         const void *value;
-    } odd[] = {{"chi", &wild},    {"stick_cells", &none}, {"speeds", &none},      {"speeds", &many},
-               {"speeds", &more}, {"terms", &many},       {"stick_cells", &more}, {"slip_cells", &many}};
+    } odd[] = {{"chi", &wild},         {"stick_cells", &none}, {"speeds", &none},
+               {"speeds", &many},      {"speeds", &more},      {"terms", &many},
+               {"stick_cells", &more}, {"slip_cells", &many},  {"stick_cells", &most}};
     unsigned char *damaged = malloc(size);
     (void)state;
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
