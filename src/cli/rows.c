@@ -206,7 +206,7 @@ static bool read_number(const char *cell, size_t column, bool solved, double *nu
     const bool good =
         solved ? restitute_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high : !*cell;
     return good || refuse(why, "%s = \"%.64s\": %s", result_columns[column].name, cell,
-                          solved ? result_columns[column].range : "must be empty as method is");
+                          solved ? result_columns[column].range : "must be empty, since method is empty");
 }
 
 bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,

@@ -10,9 +10,9 @@
 
 enum { CODE_BLOCKED = CODE_HELP + 1 };
 
-const char *const table_text_names[TABLE_TEXTS] = {"material", "partner",   "speed",   "normal-speed", "tangential-speed",
-                                                   "input",    "tolerance", "threads", "max-impacts",  "time-limit", "format",
-                                                   "output",   "figure"};
+const char *const table_text_names[TABLE_TEXTS] = {
+    "material", "partner",     "speed",      "normal-speed", "tangential-speed", "input", "tolerance",
+    "threads",  "max-impacts", "time-limit", "format",       "output",           "figure"};
 
 static const char *const action_names[TABLE_ACTIONS] = {"build", "info", "query"};
 
@@ -30,7 +30,8 @@ static const struct poptOption build_options[] = {
     TEXT(TABLE_THREADS, "N", "solve by so many threads, 1 to 1024; default all processors"),
     TEXT(TABLE_MAX_IMPACTS, "N", "refine until so many impacts are solved; default 12000"),
     TEXT(TABLE_TIME_LIMIT, "SECONDS", "or until so much time is spent; default 20, inf: no limit"),
-    TEXT(TABLE_FIGURE, "FILE.svg|png|pdf", "draw ez and ex too, shaded where the model's limits are passed; needs gnuplot"),
+    TEXT(TABLE_FIGURE, "FILE.svg|png|pdf",
+         "draw ez and ex too, shaded where the model's limits are passed; needs gnuplot"),
     HELP};
 
 static const struct poptOption info_options[] = {TEXT(TABLE_FORMAT, "text|json", "default text"), HELP};

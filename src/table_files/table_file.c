@@ -11,20 +11,17 @@ static const char title[] = "table";
 
 /* Members that are fields of the set `numbers`, in this order, before the version; 8 bytes each. */
 #define MEMBERS(X)                                                                                                     \
-    X(low)                                                                                                             \
-    X(high)                                                                                                            \
-    X(tolerance)                                                                                                       \
-    X(error_ez) X(error_ex) X(chi) X(gamma) X(delta1) X(psi_factor) X(duration) X(friction) X(radius) X(mass)          \
-        X(poisson_ratio) X(equilibrium_modulus) X(parallel_viscosity) X(speed_limit) X(radius_limit)                   \
-            X(displacement_limit) X(impacts) X(checks) X(terms) X(speeds) X(stick_cells) X(slip_cells)
-#define FIELD(m)                                                                                                       \
-    {#m, offsetof(struct rst_table_data, m), _Generic(((struct rst_table_data *)0)->m, int64_t : 1, double : 0)},
-static const struct {
-    const char *name;
-    size_t at;
-    int is_integer;
-} field[] = {MEMBERS(FIELD)};
-enum { fields = sizeof field / sizeof *field };
+    X(low), X(high), X(tolerance), X(error_ez), X(error_ex), X(chi), X(gamma), X(delta1), X(psi_factor), X(duration),  \
+        X(friction), X(radius), X(mass), X(poisson_ratio), X(equilibrium_modulus), X(parallel_viscosity),              \
+        X(speed_limit), X(radius_limit), X(displacement_limit), X(impacts), X(checks), X(terms), X(speeds),            \
+        X(stick_cells), X(slip_cells)
+#define NAME(member) #member
+#define AT(member) offsetof(struct rst_table_data, member)
+#define IS_INTEGER(member) _Generic(((struct rst_table_data *)0)->member, int64_t : 1, double : 0)
+static const char *const field_name[] = {MEMBERS(NAME)};
+static const size_t field_at[] = {MEMBERS(AT)};
+static const int is_integer[] = {MEMBERS(IS_INTEGER)};
+enum { fields = sizeof field_at / sizeof *field_at };
 enum { version_size = sizeof((struct rst_table_data *)0)->version, numbers_size = 8 * fields + version_size };
 
 static const char units_of_numbers[] =
@@ -79,7 +76,7 @@ static void pack_numbers(const struct rst_table_data *d, unsigned char *bytes)
 {
     for (int i = 0; i < fields; i++) {
         uint64_t bits;
-        memcpy(&bits, (const char *)d + field[i].at, 8);
+        memcpy(&bits, (const char *)d + field_at[i], 8);
         put_little(bits, bytes + 8 * i);
     }
     memcpy(bytes + 8 * fields, d->version, version_size);
@@ -91,7 +88,7 @@ static hid_t type_of_numbers(void)
     const hid_t type = H5Tcreate(H5T_COMPOUND, numbers_size), text = H5Tcopy(H5T_C_S1);
     int good = type >= 0 && text >= 0 && H5Tset_size(text, version_size) >= 0;
     for (int i = 0; i < fields && good; i++)
-        good = H5Tinsert(type, field[i].name, 8 * (size_t)i, field[i].is_integer ? H5T_STD_I64LE : H5T_IEEE_F64LE) >= 0;
+        good = H5Tinsert(type, field_name[i], 8 * (size_t)i, is_integer[i] ? H5T_STD_I64LE : H5T_IEEE_F64LE) >= 0;
     good = good && H5Tinsert(type, "restitute_version", 8 * fields, text) >= 0;
     if (text >= 0) H5Tclose(text);
     if (good) return type;
@@ -162,7 +159,7 @@ static int get_numbers(const struct rst_old_file *file, struct rst_table_data *d
     if (!bytes) return 1;
     for (int i = 0; i < fields; i++) {
         const uint64_t bits = little(bytes + 8 * i);
-        memcpy((char *)d + field[i].at, &bits, 8);
+        memcpy((char *)d + field_at[i], &bits, 8);
     }
     memcpy(d->version, bytes + 8 * fields, version_size);
     d->version[version_size - 1] = '\0';

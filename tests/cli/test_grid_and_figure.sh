@@ -114,7 +114,7 @@ nan,0.2,3,1,0,0,euler, ez = "nan": must be in [0, 1]
 0.7,0.2,3,1,-5,0,euler, error_ez = "-5": must be >= 0
 0.7,0.2,3,1,0,1x,euler, error_ex = "1x": must be >= 0
 0.7,0.2,3,1,0,0,sync, method = "sync": must be euler
-0.7,,,,,,,failed ez = "0.7": must be empty as method is
+0.7,,,,,,,failed ez = "0.7": must be empty, since method is empty
 ,,,,,,, method and status are empty
 END
 edited 'edited.csv: column 4 is "ex": must be ez' '1s/ez,ex/ex,ez/'
