@@ -70,7 +70,7 @@ std::string Record::warning(Ratio which, long long step) const
     char line[200] = "";
     if (which == STEP && beyond[STEP] > 0)
         std::snprintf(line, sizeof line,
-                      "restitute: a contact began at step %lld that needs a time step %.3g times as short", step,
+                      "restitute: a contact began at step %lld that needs a time step shorter by a factor of %.3g", step,
                       largest[STEP]);
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,

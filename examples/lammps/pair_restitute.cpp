@@ -95,8 +95,8 @@ void PairRestitute::init_style()
         its->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
     keep_history();
-    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run, and compute() sets
-     * this back. Between runs the fix has them already, and atoms have moved since the lists were made. */
+    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run, for which compute()
+     * sets this to 1. Between runs the fix has the contacts already, and the lists are of atoms in other places. */
     histories->restart_global = 0;
     check_tags();
     change_pages();
@@ -181,7 +181,7 @@ void PairRestitute::change_pages()
         next += histories->unpack_exchange(i, &kept[next]);
 }
 
-/* Of each type, spheres that fixes are to create included: fixes pour and deposit tell their radii by this name. */
+/* Of each type. Fixes that create spheres, such as pour and deposit, answer extract("radius", type). */
 void PairRestitute::find_largest_radii()
 {
     std::vector<double> own(width, 0.0);
@@ -240,8 +240,8 @@ void PairRestitute::compute(int eflag, int vflag)
     warn(lmp, own, warned);
 }
 
-/* Since the last step: as far move images of spheres, and spheres that `fix deform` maps. With `remap v` their
- * velocities say so, and sides that LAMMPS wraps around the spheres move none. */
+/* Largest change of a side or a tilt since the last step. Periodic images and the spheres that `fix deform` maps move by
+ * as much, without velocities. With `remap v` they have them. Sides that LAMMPS wraps around the spheres move no sphere. */
 double PairRestitute::change_of_box()
 {
     std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
@@ -254,8 +254,8 @@ double PairRestitute::change_of_box()
     return domain->deform_vremap ? 0 : change;
 }
 
-/* Neighbor lists are made for the largest radii at the start of a run, and reach further by the skin: by that they find
- * spheres of larger radii as long as each has half of it in excess at most. */
+/* Neighbor lists reach as far as the largest radii at the start of a run, and the skin. So they still find spheres that
+ * have grown, each by half of the skin at most. */
 void PairRestitute::check_radius(int i)
 {
     const double largest = largest_radius[atom->type[i]] + 0.5 * neighbor->skin;

@@ -239,7 +239,7 @@ contains
     lacking = margin*(weight_inside - weight(law%x(inside), sqrt(y)))
   end function lacking
 
-  !> A vector no longer than `limit`, within rounding, and exactly zero where that is.
+  !> The vector, cut to the length `limit` if it is longer; exactly zero if `limit` is.
   pure function within(vector, limit)
     real(dp), intent(in) :: vector(2), limit
     real(dp), parameter :: small = 1.0e-60_dp, rounding = 1.0e-15_dp

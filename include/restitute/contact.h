@@ -60,8 +60,9 @@ RESTITUTE_API void restitute_contact_law_options_init(restitute_contact_law_opti
  *
  *  @param material  any; may be destroyed after the call
  *  @param options   NULL for the defaults
- *  @return OK, TOLERANCE_NOT_REACHED, ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_DOMAIN: also for a material with more
- *          terms than are kept and no times to reduce them for, or times at which too little of G(t) is met or left */
+ *  @return OK, TOLERANCE_NOT_REACHED, ERROR_NULL, ERROR_STRUCT_SIZE, ERROR_MEMORY, ERROR_DOMAIN: also if terms must be reduced
+ *          but `shortest` and `longest` are not given, or the law misses more than 50 % of G(t), or nothing is left of G(t) at
+ *          `longest` */
 RESTITUTE_API int restitute_contact_law_create(const restitute_material *material,
                                                const restitute_contact_law_options *options, restitute_contact_law **law,
                                                restitute_error *error);

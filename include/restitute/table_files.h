@@ -11,11 +11,10 @@
  *  that says what it is, the version of its schema, a checksum, and at which bytes the datasets begin. The checksum is of
  *  all bytes behind the block and of these places: a damaged or cut file is refused.
  *
- *  HDF5 writes files here but reads none. @ref restitute_table_read takes the values from the places that the block names,
- *  within the file, and checks them. So a file of a stranger, who can compute a checksum, is a wrong table at worst. Other
- *  programs do hand it to HDF5, which has read beyond its buffers in damaged files (1.10.8 in H5Aexists): open files of
- *  strangers with this function alone.
- *  What is read is a regular file of at most 4 GiB, and room is made for no more values than it has bytes.
+ *  Files of strangers: @ref restitute_table_read does not use HDF5. It takes the values from the places that the block names
+ *  and checks them, so that the worst a forged file can be is a wrong table. Do not open such a file with other programs:
+ *  they use HDF5, which has read beyond its buffers in damaged files (1.10.8 in H5Aexists).
+ *  A file must be regular and of at most 4 GiB. No array is larger than the file.
  *
  *  How files are written:
  *  - A file is made in memory and written beside its place as PATH.restitute-N.tmp. It gets its name when it is
@@ -46,8 +45,8 @@
  *  t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - (y (1 - y) + c)^(1/4)), c = 2e-4, y = (psi - 1)/(psi_c - 1). g is
  *  ex up to psi = 1, and psi ex - y ez beyond. Between nodes ez and g are Hermite's cubics: examples/tables/read_table.py.
  *
- *  Files of schemas 1 to 6 are refused: build the table again. Tables of 1 to 5 were of other kinds, or had another t(y); of
- *  6 numbers were attributes, which only HDF5 could read.
+ *  Files of schemas 1 to 6 are refused: build the table again. Schemas 1 to 5 had tables of other kinds or another t(y). In
+ *  schema 6 the numbers were attributes, which only HDF5 can read.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -69,8 +68,8 @@ RESTITUTE_API int restitute_table_write(const restitute_table *table, const char
 /** Read a table. It looks up the bits that the written one does.
  *
  *  @param table  the new table, for @ref restitute_table_destroy
- *  @return OK; ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT (damaged, cut, of another schema, or no table at all); ERROR_NULL,
- *          ERROR_MEMORY */
+ *  @return OK; ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT (damaged, cut, of another schema, or no
+ *          table at all); ERROR_NULL, ERROR_MEMORY */
 RESTITUTE_API int restitute_table_read(const char *path, restitute_table **table, restitute_error *error);
 
 #ifdef __cplusplus

@@ -55,7 +55,7 @@ static int read_all(const char *path, struct rst_old_file *file, restitute_error
     return status;
 }
 
-/* Not what was expected: say how far it is from it. */
+/* Says what is wrong with the block. */
 static int refuse_block(const char *path, const char *title, const struct rst_old_file *file,
                         restitute_error *error)
 {
