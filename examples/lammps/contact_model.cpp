@@ -70,8 +70,8 @@ std::string Record::warning(Ratio which, long long step) const
     char line[200] = "";
     if (which == STEP && beyond[STEP] > 0)
         std::snprintf(line, sizeof line,
-                      "restitute: a contact began at step %lld that needs a time step shorter by a factor of %.3g", step,
-                      largest[STEP]);
+                      "restitute: a contact began at step %lld that needs a time step shorter by a factor of %.3g",
+                      step, largest[STEP]);
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
