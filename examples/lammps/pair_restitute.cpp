@@ -181,7 +181,8 @@ void PairRestitute::change_pages()
         next += histories->unpack_exchange(i, &kept[next]);
 }
 
-/* Of each type. Fixes that create spheres, such as pour and deposit, answer extract("radius", type). */
+/* Of each type. Fixes that create spheres, such as pour and deposit, answer extract("radius", type). Under `fix adapt`
+ * spheres may grow by half of the skin: LAMMPS looks for neighbors only as far as the cutoffs of init_one() say. */
 void PairRestitute::find_largest_radii()
 {
     std::vector<double> own(width, 0.0);
@@ -195,6 +196,9 @@ void PairRestitute::find_largest_radii()
         }
     largest_radius.resize(width);
     MPI_Allreduce(own.data(), largest_radius.data(), width, MPI_DOUBLE, MPI_MAX, world);
+    if (!modify->get_fix_by_style("^adapt").empty())
+        for (double &radius : largest_radius)
+            radius += 0.5 * neighbor->skin;
 }
 
 double PairRestitute::init_one(int i, int j)
@@ -254,16 +258,17 @@ double PairRestitute::change_of_box()
     return domain->deform_vremap ? 0 : change;
 }
 
-/* Neighbor lists reach as far as the largest radii at the start of a run, and the skin. So they still find spheres that
- * have grown, each by half of the skin at most. */
+/* Contacts of a larger sphere may not be found. */
 void PairRestitute::check_radius(int i)
 {
-    const double largest = largest_radius[atom->type[i]] + 0.5 * neighbor->skin;
+    const double largest = largest_radius[atom->type[i]];
     if (atom->radius[i] > largest)
-        error->one(FLERR,
-                   "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, half of the skin more than "
-                   "type {} had when the run began. Begin a new run when radii have grown, or take a larger skin",
-                   atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
+        error->one(
+            FLERR,
+            "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, the largest of type {} when the "
+            "run began, plus half of the skin under fix adapt. Begin a new run when radii have grown, or take a "
+            "larger skin",
+            atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
 }
 
 /* The atom with the smaller tag is body 1: in every list, on every process. */

@@ -128,6 +128,11 @@ SHRINK = "fix d all deform 1 x erate -10 remap {}\n" + RUN.replace("100", "1000"
 warnings("spheres of a box that shrinks", 0, SHRINK.format("x"), distance=0.0101, speed=1e-3, boundary="p p p")
 warnings("images of spheres of a box that shrinks", 0, SHRINK.format("none"), first=-0.4925, distance=0.985, speed=1e-3,
          boundary="p p p")
+# Spheres that have grown by less than half the skin. The second neighbor list of the run is made when they are three bins
+# apart that LAMMPS makes for the radii of the start, 1/181 m wide: then it looks two bins far.
+warnings("spheres that have grown", 0, "variable d equal 0.0109\nfix grow all adapt 1 atom diameter v_d\n"
+         + RUN.replace("100", "2500"), first=-0.5 + 90 / 181 - 3e-5 - 5.005e-4, distance=0.01125 + 5.005e-4, speed=0.5,
+         atom_style="sphere 1")
 
 
 # A law that misses its material by more than a fifth runs, with a warning.
