@@ -1,5 +1,5 @@
-!> All procedures that C calls, under their C names, and nothing else. Arguments are described where they are computed.
-module rst_c_interfaces
+!> The procedures of this folder that C calls, under their C names. Arguments are described where they are computed.
+module rst_common_interface
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_relaxation, only: relaxation_modulus, step_coefficients, largest_stable_step
   use rst_dimensionless, only: elastic_contact_radius, tangential_mass_ratio, sliding_ratio, damping_modulus, critical_psi, &
@@ -7,8 +7,7 @@ module rst_c_interfaces
   use rst_merging, only: merge_terms
   use rst_series, only: chain_type, series_chain
   use rst_profile, only: plane_profile
-  use rst_compression, only: likely_depth, scout_compression
-  use rst_euler, only: scene_type, state_type, start_impact, advance_impact
+  use rst_look_ahead, only: likely_depth, scout_compression
   implicit none (type, external)
   private
 contains
@@ -112,27 +111,6 @@ contains
     call scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
   end subroutine rst_scout_compression
 
-  pure subroutine rst_start_impact(scene, state, x2) bind(c, name="rst_start_impact")
-    type(scene_type), intent(in) :: scene
-    type(state_type), intent(out) :: state
-    real(c_double), intent(out) :: x2(scene%capacity)
-    call start_impact(scene, state, x2)
-  end subroutine rst_start_impact
-
-  pure subroutine rst_advance_impact(scene, g, tau, decay, gain, x2, f, yz, u, yx, q, slip, move, q_before, n_steps, &
-                                     state) bind(c, name="rst_advance_impact")
-    type(scene_type), intent(in) :: scene
-    integer(c_int64_t), intent(in), value :: n_steps
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), decay(scene%n_terms), gain(scene%n_terms)
-    real(c_double), intent(in) :: x2(scene%capacity)
-    real(c_double), intent(inout) :: f(scene%capacity), yz(scene%capacity, scene%n_terms)
-    real(c_double), intent(inout) :: u(scene%capacity), yx(scene%capacity, scene%n_terms)
-    real(c_double), intent(inout) :: q(scene%capacity), slip(scene%capacity)
-    real(c_double), intent(inout) :: move(scene%capacity), q_before(scene%capacity)
-    type(state_type), intent(inout) :: state
-    call advance_impact(scene, g, tau, decay, gain, x2, f, yz, u, yx, q, slip, move, q_before, n_steps, state)
-  end subroutine rst_advance_impact
-
   pure function rst_likely_depth(g_inf, eta, n_terms, g, tau) result(depth) bind(c, name="rst_likely_depth")
     real(c_double), intent(in), value :: g_inf, eta
     integer(c_int64_t), intent(in), value :: n_terms
@@ -140,4 +118,4 @@ contains
     real(c_double) :: depth
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
   end function rst_likely_depth
-end module rst_c_interfaces
+end module rst_common_interface

@@ -2,13 +2,13 @@
 !>
 !> While the contact grows, P_k = int_0^A y_k dX obeys P_k' = g_k A D' - P_k/tau_k with A = sqrt(D), and the force
 !> per unit of dX is (2/3) G_inf D^(3/2) + eta A D' + sum P_k. One state a relaxation time, whatever the foundation.
-module rst_compression
+module rst_look_ahead
+  use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
   public :: likely_depth, scout_compression
 
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
   real(dp), parameter :: growth = 0.01_dp  !! steps grow with the time elapsed: decades cost alike
 
 contains
@@ -116,4 +116,4 @@ contains
     end do
     energy = mass_factor*energy
   end function recoverable_energy
-end module rst_compression
+end module rst_look_ahead

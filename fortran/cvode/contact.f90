@@ -13,12 +13,11 @@
 module rst_cvode_contact
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, state_depth, state_velocity, memory_at, loading_at
+  use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
   public :: normal_rates, past_of, hermite
-
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
 
 contains
 

@@ -23,6 +23,7 @@ module rst_cvode_elements
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
                              shear_velocity_at, shear_memory_at
+  use rst_motion_factors, only: shear_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -31,7 +32,6 @@ module rst_cvode_elements
   !> What an element does; twin of `enum cvode_motion`.
   integer(ip), parameter :: sticks = 0, slips_forward = 1, slips_backward = -1
 
-  real(dp), parameter :: shear_factor = 15.0_dp/4.0_dp  !! U'' = -(15/4) chi int_0^A q dX
 
 contains
 

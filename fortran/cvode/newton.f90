@@ -8,12 +8,11 @@ module rst_cvode_newton
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, loading_at, &
                              shift_at, shear_velocity_at, shear_memory_at
+  use rst_motion_factors, only: mass_factor, shear_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
   public :: solve_newton
-
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp, shear_factor = 15.0_dp/4.0_dp
 
 contains
 

@@ -11,7 +11,9 @@
 module rst_euler
   use rst_precision, only: dp, ip
   use rst_foundation, only: place_elements, normal_forces, sticking_forces, friction_forces, total_force
-  use rst_ledger, only: ledger_type, post_viscous, post_friction, post_unloading, post_left_behind
+  use rst_euler_ledger, only: post_viscous, post_friction, post_unloading, post_left_behind
+  use rst_ledger, only: ledger_type
+  use rst_motion_factors, only: mass_factor
   implicit none (type, external)
   private
   public :: scene_type, state_type, start_impact, advance_impact
@@ -21,7 +23,6 @@ module rst_euler
   integer(ip), parameter :: phase_compression = 0, phase_restitution = 1, phase_done = 2, phase_sunk = 3, &
                             phase_overflow = 4, phase_stalled = 5
   integer(ip), parameter :: mode_frictionless = 0, mode_gross_slip = 1, mode_partial_slip = 2, mode_no_slip = 3
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   integer(ip), parameter :: stalled_for_good = 10000  !! at the turning point a few steps may stall
 
   !> What is impacted, and how finely it is resolved. Twin of `struct euler_scene` in C.

@@ -1,5 +1,5 @@
 !> What the tangential problem of the method `sync` works on: views of the caller's arrays, set by the interface to C.
-module rst_contact_views
+module rst_store
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages
   implicit none (type, external)
@@ -45,4 +45,4 @@ module rst_contact_views
     real(dp), pointer, contiguous, dimension(:, :, :) :: kernel, room
     real(dp), pointer, contiguous, dimension(:, :) :: now_z, now_x, now_l !! M_k in z, in x, P_k in x
   end type store_type
-end module rst_contact_views
+end module rst_store

@@ -4,7 +4,7 @@ module rst_tangential_motion
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
   use rst_panel, only: normal_type
-  use rst_contact_views, only: contact_type, piece_type, store_type
+  use rst_store, only: contact_type, piece_type, store_type
   use rst_piece, only: ground_type, lay_ground, advance_memory
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
   implicit none (type, external)

@@ -13,14 +13,14 @@
 !> This is second order: in a short step 1 - drop is O(h/tau) without a dashpot, so that v is constant but for O(h);
 !> with a dashpot drop is O(h), and kappa changes by O(h).
 module rst_sync_element_step
+  use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
   implicit none (type, external)
   private
-  public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force, mass_factor
+  public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force
   public :: measure_step, relax, friction_force, move_elements, weighted_sum
 
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp
   integer(ip), parameter :: lanes = 8  !! partial sums, so that no result depends on the width of vectors
 
   !> What an element has besides its stresses: weight in X, f, q for v1 = 0, kappa, q, v0.

@@ -11,11 +11,12 @@
 !> shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
 !> contain. Results: shear(0:end) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
 module rst_sync_walk
+  use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
   use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
-                                   c_force, mass_factor, measure_step, relax, friction_force, move_elements, weighted_sum
+                                   c_force, measure_step, relax, friction_force, move_elements, weighted_sum
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, walk_level_type, walk_shear_type, columns, follow_elements
