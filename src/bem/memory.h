@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "../core/workspace.h"
+#include "../base/workspace.h"
 #include "transform.h"
 
 enum { BEM_SIZES = 256 }; /* more than a solver comes to use */

@@ -3,8 +3,8 @@
 #ifndef BEM_METHOD_H
 #define BEM_METHOD_H
 
-#include "../core/method.h"
-#include "../core/report.h"
+#include "../base/method.h"
+#include "../base/report.h"
 #include "run.h"
 
 struct bem_method {

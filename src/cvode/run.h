@@ -3,7 +3,7 @@
 #ifndef RST_CVODE_RUN_H
 #define RST_CVODE_RUN_H
 
-#include "cvode_kernels.h"
+#include "kernels.h"
 #include "integrator.h"
 #include "log.h"
 #include "method.h"

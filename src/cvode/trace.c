@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cvode_kernels.h"
+#include "kernels.h"
 
 void rst_trace_begin(struct trace *trace, int64_t n_terms)
 {

@@ -6,8 +6,8 @@
 #include "axis.h"
 #include "table_data.h"
 
-#include "../core/ranges.h"
-#include "../core/status.h"
+#include "../base/ranges.h"
+#include "../base/status.h"
 
 /* A node along the speed. */
 struct rst_node {

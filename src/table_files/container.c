@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../core/whole_file.h"
-#include "../output/new_file.h"
+#include "../base/whole_file.h"
+#include "../io/new_file.h"
 
 enum { block_size = 512 };
 
