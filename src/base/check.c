@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "status.h"
+#include "base/status.h"
 
 int rst_check_size(size_t found, size_t expected, const char *name, restitute_error *error)
 {

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "material.h"
-#include "problem.h"
-#include "status.h"
+#include "base/material.h"
+#include "base/problem.h"
+#include "base/status.h"
 
 /* A body with J = 0 would have chi = infinity; no sphere that turns has more than this, and the steps grow with it. */
 const double rst_largest_chi = 1000;

@@ -1,12 +1,12 @@
 /* Linear-viscoelastic solids: G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta delta(t) (docs/theory.md, section 1).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "material.h"
+#include "base/material.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "kernels.h"
-#include "status.h"
+#include "base/kernels.h"
+#include "base/status.h"
 
 /* The k-th of the times or moduli. */
 static int check_term(double value, struct rst_range range, const char *what, size_t k, const char *unit,

@@ -3,8 +3,8 @@
 #ifndef RST_METHOD_H
 #define RST_METHOD_H
 
-#include "problem.h"
-#include "workspace.h"
+#include "base/problem.h"
+#include "base/workspace.h"
 
 struct restitute_method {
     const char *name;

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kernels.h"
-#include "material.h"
-#include "status.h"
+#include "base/kernels.h"
+#include "base/material.h"
+#include "base/status.h"
 
 /* Workspace of the series and its result, in one block. */
 struct scratch {

@@ -8,7 +8,7 @@
 
 #include <restitute/restitute.h>
 
-#include "kernels.h"
+#include "base/kernels.h"
 
 /* Dimensionless solid: moduli over G_r, times over T. The arrays live in the solver's workspace. */
 struct rst_solid {

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "material.h"
-#include "problem.h"
-#include "status.h"
+#include "base/material.h"
+#include "base/problem.h"
+#include "base/status.h"
 
 void restitute_scene_init(restitute_scene *scene)
 {

@@ -1,8 +1,8 @@
 /* Status texts, version.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "status.h"
+#include "base/status.h"
 
-#include "version.h"
+#include "base/version.h"
 
 const char *restitute_status_text(int status)
 {

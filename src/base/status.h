@@ -3,8 +3,8 @@
 #ifndef RST_STATUS_H
 #define RST_STATUS_H
 
-#include "ranges.h"
-#include "report.h"
+#include "base/ranges.h"
+#include "base/report.h"
 
 /* The struct was prepared by its _init function, of this version. */
 int rst_check_size(size_t found, size_t expected, const char *name, restitute_error *error);

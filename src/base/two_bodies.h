@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "status.h"
+#include "base/status.h"
 
 typedef struct {
     double x[3];

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "report.h"
+#include "base/report.h"
 
 /* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its writer. */
 static inline int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size,

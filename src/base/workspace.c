@@ -1,6 +1,6 @@
 /* Growing, never shrinking workspace.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "workspace.h"
+#include "base/workspace.h"
 
 #include <stdlib.h>
 

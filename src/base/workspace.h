@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kernels.h"
+#include "base/kernels.h"
 
 /* First member of what a method of another component keeps in the workspace. */
 struct rst_own_memory {

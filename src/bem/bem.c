@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "box.h"
-#include "method.h"
+#include "bem/box.h"
+#include "bem/method.h"
 
 /* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
 static const double grid_error_ez = 0.002, grid_error_ex = 0.04;

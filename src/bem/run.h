@@ -3,8 +3,8 @@
 #ifndef BEM_RUN_H
 #define BEM_RUN_H
 
-#include "memory.h"
-#include "solid.h"
+#include "bem/memory.h"
+#include "bem/solid.h"
 
 /* How the steps are made; all 0: the method of the component. */
 struct bem_variant {

@@ -3,8 +3,8 @@
 #ifndef BEM_STEPPER_H
 #define BEM_STEPPER_H
 
-#include "bounded.h"
-#include "run.h"
+#include "bem/bounded.h"
+#include "bem/run.h"
 
 struct bem_stepper {
     const struct bem_setup *setup;

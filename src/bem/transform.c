@@ -2,8 +2,8 @@
  * convolution. SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
-#include "transform.h"
-#include "plane.h"
+#include "bem/transform.h"
+#include "bem/plane.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -3,7 +3,7 @@
 #ifndef BEM_TRANSFORM_H
 #define BEM_TRANSFORM_H
 
-#include "kernels.h"
+#include "bem/kernels.h"
 
 /* A two-dimensional cosine transform of length n of m x m values: plans and room. */
 struct bem_cosine {

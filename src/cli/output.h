@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#include "../io/new_file.h"
+#include "io/new_file.h"
 #include "message.h"
 
 struct output {

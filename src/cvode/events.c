@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
 
 void restitute_cvode_events_init(restitute_cvode_events *events)
 {

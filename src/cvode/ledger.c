@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
 
 /* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
  * others. */

@@ -1,12 +1,12 @@
 /* The method `euler`: the paper's foundation and explicit Euler (9)-(17), refined until its error estimate is met.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "euler.h"
+#include "euler/euler.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "kernels.h"
-#include "status.h"
+#include "base/kernels.h"
+#include "base/status.h"
 
 /* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer
  * division than space for errors of like size (docs/theory.md, "The default method"). */

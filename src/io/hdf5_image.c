@@ -1,6 +1,6 @@
 /* HDF5 files made in memory.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "hdf5_image.h"
+#include "io/hdf5_image.h"
 
 #include <stdlib.h>
 #include <string.h>

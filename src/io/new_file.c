@@ -3,7 +3,7 @@
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE /* flock, the lock that belongs to the open file and not to the process */
 
-#include "new_file.h"
+#include "io/new_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#include "place.h"
+#include "io/place.h"
 
 struct rst_new_file {
     struct rst_place place;

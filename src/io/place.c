@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
-#include "place.h"
+#include "io/place.h"
 
 #include <errno.h>
 #include <fcntl.h>

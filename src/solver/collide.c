@@ -1,6 +1,6 @@
 /* One impact of two bodies in space, solved.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "two_bodies.h"
+#include "base/two_bodies.h"
 
 void restitute_body_init(restitute_body *body)
 {

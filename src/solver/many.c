@@ -9,8 +9,8 @@
 #include <omp.h>
 #endif
 
-#include "solver.h"
-#include "status.h"
+#include "base/status.h"
+#include "solver/solver.h"
 
 /* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
 static const int most_threads = 1024;

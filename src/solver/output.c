@@ -1,6 +1,6 @@
 /* From a method's outcome to the public structs, in the caller's units.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "output.h"
+#include "solver/output.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #ifndef RST_OUTPUT_H
 #define RST_OUTPUT_H
 
-#include "problem.h"
+#include "base/problem.h"
 
 /* Factors from the units of the problem to the caller's. */
 struct rst_units {

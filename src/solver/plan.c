@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
-#include "solver.h"
-#include "status.h"
+#include "base/status.h"
+#include "solver/solver.h"
 
 /* One of the two has its struct_size. */
 struct restitute_plan {

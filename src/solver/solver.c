@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clock.h"
-#include "euler.h"
-#include "material.h"
-#include "method.h"
-#include "output.h"
-#include "solver.h"
-#include "status.h"
-#include "sync.h"
-#include "validity.h"
+#include "solver/solver.h"
+#include "base/clock.h"
+#include "base/material.h"
+#include "base/method.h"
+#include "base/status.h"
+#include "euler/euler.h"
+#include "solver/output.h"
+#include "solver/validity.h"
+#include "sync/sync.h"
 
 struct restitute_solver {
     restitute_options options;

@@ -1,10 +1,10 @@
 /* How far a scene strains the assumptions of the model (3), (4), docs/theory.md, section 11.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "validity.h"
+#include "solver/validity.h"
 
 #include <math.h>
 
-#include "report.h"
+#include "base/report.h"
 
 const char *restitute_flag_text(int flag)
 {

@@ -3,7 +3,7 @@
 #ifndef RST_VALIDITY_H
 #define RST_VALIDITY_H
 
-#include "problem.h"
+#include "base/problem.h"
 
 /* Add the limits that are passed to the message of `error`. */
 void rst_name_limits(const restitute_options *options, const restitute_result *result, restitute_error *error);

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "record.h"
-#include "status.h"
-#include "tuning.h"
-#include "walk.h"
+#include "base/status.h"
+#include "sync/record.h"
+#include "sync/tuning.h"
+#include "sync/walk.h"
 
 /* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
  * `velocity`. */

@@ -3,7 +3,7 @@
 #ifndef RST_WALK_H
 #define RST_WALK_H
 
-#include "kernels.h"
+#include "base/kernels.h"
 
 /* Twin of walk_type. */
 struct walk {

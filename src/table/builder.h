@@ -8,7 +8,7 @@
 #ifndef RST_TABLE_BUILDER_H
 #define RST_TABLE_BUILDER_H
 
-#include "column.h"
+#include "table/column.h"
 
 /* Constants of the build, measured with the target table-campaign (docs/table.md). */
 

@@ -1,6 +1,6 @@
 /* Other contacts that a table serves.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "column.h"
+#include "table/column.h"
 
 #include <stdlib.h>
 

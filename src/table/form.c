@@ -1,6 +1,6 @@
 /* Making a table from its numbers: one block of memory, checked.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "table/form.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* A panel of psi in one column: even cells, as many as its cubics need (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* Columns of a build, by several threads. Each is solved at the first places of psi, then where its cubics miss.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 
