@@ -9,7 +9,7 @@ module rst_ledger
   private
   public :: ledger_type
 
-  !> Twin of `struct euler_ledger` in C.
+  !> Twin of `struct rst_ledger` in C.
   type, bind(c) :: ledger_type
     real(dp) :: viscous_z, left_z
     real(dp) :: friction_x, viscous_x, left_x

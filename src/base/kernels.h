@@ -1,44 +1,17 @@
-/* The Fortran procedures that C calls, and the twins of their derived types; see fortran/c_interfaces.f90.
+/* The Fortran procedures that all methods share, and the twins of their derived types; see fortran/common/interface.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_KERNELS_H
 #define RST_KERNELS_H
 
 #include <stdint.h>
 
-/* Phases and modes of fortran/euler.f90. */
-enum rst_phase {
-    RST_COMPRESSION = 0,
-    RST_RESTITUTION = 1,
-    RST_DONE = 2,
-    RST_SUNK = 3,
-    RST_OVERFLOW = 4,
-    RST_STALLED = 5
-};
+/* How the tangential side begins; modes of fortran/euler/euler.f90. */
 enum rst_mode { RST_FRICTIONLESS = 0, RST_GROSS_SLIP = 1, RST_PARTIAL_SLIP = 2, RST_NO_SLIP = 3 };
 
 /* Twin of ledger_type. */
-struct euler_ledger {
+struct rst_ledger {
     double viscous_z, left_z;
     double friction_x, viscous_x, left_x;
-};
-
-/* Twin of scene_type. */
-struct euler_scene {
-    double chi, psi;
-    double g_inf, eta;
-    double step, spacing;
-    double rest_speed;
-    int64_t n_terms, capacity;
-    int64_t can_sink, keep_ledger, mode;
-};
-
-/* Twin of state_type. */
-struct euler_state {
-    double time, depth, velocity, shift, shear_velocity;
-    double force, shear_force, true_edge_force, true_edge_shear, centre_force, leave_time;
-    double max_depth, max_force, max_time;
-    int64_t n_contact, max_contact, phase, mode, n_steps, n_updates, n_stalled;
-    struct euler_ledger ledger;
 };
 
 /* Twin of chain_type. */
@@ -68,12 +41,6 @@ void rst_series_chain(const struct rst_chain *a, const double *m_a, const double
 void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                            int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,
                            double *force, int64_t *sinks);
-
-void rst_start_impact(const struct euler_scene *scene, struct euler_state *state, double *x2);
-void rst_advance_impact(const struct euler_scene *scene, const double *g, const double *tau, const double *decay,
-                        const double *gain, const double *x2, double *f, double *yz, double *u, double *yx, double *q,
-                        double *slip, double *move, double *q_before, int64_t n_steps, struct euler_state *state);
-
 double rst_likely_depth(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau);
 
 #endif

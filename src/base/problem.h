@@ -73,7 +73,7 @@ struct rst_outcome {
     double max_indentation, max_contact_radius, max_normal_force;
     double spacing, step;
     int64_t elements, steps, updates;
-    struct euler_ledger ledger;
+    struct rst_ledger ledger;
     int sunk;
     int late;         /* sync: the limit of time ended refinement */
     int halvings;     /* sync: those of the run that gave the pair */

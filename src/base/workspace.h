@@ -6,8 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/kernels.h"
-
 /* First member of what a method of another component keeps in the workspace. */
 struct rst_own_memory {
     void (*release)(struct rst_own_memory *memory);

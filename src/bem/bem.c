@@ -192,7 +192,7 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                              .steps = run->steps,
                              .updates = impact->updates,
                              .sunk = sunk};
-    outcome->ledger = (struct euler_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
+    outcome->ledger = (struct rst_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
                                             .left_z = w->left_normal,
                                             .friction_x = w->friction,
                                             .viscous_x = elastic ? 0 : w->shear - w->friction - w->left_shear,

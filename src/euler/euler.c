@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/kernels.h"
 #include "base/status.h"
+#include "euler/kernels.h"
 
 /* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer
  * division than space for errors of like size (docs/theory.md, "The default method"). */

@@ -80,7 +80,7 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
 
 void rst_write_ledger(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_ledger *ledger)
 {
-    const struct euler_ledger *l = &outcome->ledger;
+    const struct rst_ledger *l = &outcome->ledger;
     double energy_x = problem->psi * problem->psi;
     ledger->rebound_z = outcome->velocity * outcome->velocity;
     ledger->viscous_z = l->viscous_z;

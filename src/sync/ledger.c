@@ -20,7 +20,7 @@ static double gross_slip_work(double chi, double psi, double velocity)
 static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     const double chi = problem->chi, psi = problem->psi;
-    struct euler_ledger *ledger = &outcome->ledger;
+    struct rst_ledger *ledger = &outcome->ledger;
     ledger->viscous_z = 1;
     if (problem->mode == RST_FRICTIONLESS) return;
     if (problem->mode == RST_GROSS_SLIP) {

@@ -12,7 +12,7 @@ struct rst_walk {
     double velocity;
     const double *time;
     const struct walk_shear *shear;
-    struct euler_ledger ledger;
+    struct rst_ledger ledger;
 };
 
 /* Whether the contact slips to the end, sticks at some time, or has no friction. */
