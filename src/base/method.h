@@ -23,9 +23,4 @@ struct restitute_method {
                   struct rst_history *history, restitute_error *error);
 };
 
-/* The method and the workspace of a solver, for components of the same version that bring a method. Exported from the
- * shared library, but no part of its interface. */
-RESTITUTE_API const struct restitute_method *restitute_private_method(const restitute_solver *solver);
-RESTITUTE_API struct rst_workspace *restitute_private_workspace(restitute_solver *solver);
-
 #endif

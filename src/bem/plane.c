@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bem/transform.h"
+#include "bem/kernels.h"
+#include "bem/planner.h"
 
 struct bem_plane {
     int64_t m, n;

@@ -4,7 +4,8 @@
 #define BEM_STEPPER_H
 
 #include "bem/bounded.h"
-#include "bem/run.h"
+#include "bem/memory.h"
+#include "bem/setup.h"
 
 struct bem_stepper {
     const struct bem_setup *setup;

@@ -21,10 +21,6 @@ struct bem_transform {
     double *spectrum[2], *inverse[2]; /* of BEM_NORMAL and BEM_SHEAR: times n^-2; 1/spectrum of the unpadded grid */
 };
 
-/* FFTW plans by one thread at a time. */
-void rst_bem_lock_planner(void);
-void rst_bem_unlock_planner(void);
-
 /* A new transform; NULL: out of memory. m: even. */
 struct bem_transform *rst_bem_transform_create(int64_t m);
 void rst_bem_transform_destroy(struct bem_transform *transform);

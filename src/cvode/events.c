@@ -4,6 +4,7 @@
 
 #include "base/report.h"
 #include "cvode/solve.h"
+#include "solver/solver.h"
 
 void restitute_cvode_events_init(restitute_cvode_events *events)
 {

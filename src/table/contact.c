@@ -4,12 +4,6 @@
 
 #include <stdlib.h>
 
-void restitute_table_contact_init(restitute_table_contact *contact)
-{
-    if (!contact) return;
-    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
-}
-
 /* Both are what the core computes from its material. */
 static int alike(double a, double b)
 {

@@ -123,6 +123,12 @@ static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
     t->own.mass = d->mass;
 }
 
+void restitute_table_contact_init(restitute_table_contact *contact)
+{
+    if (!contact) return;
+    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
+}
+
 int restitute_private_table_make(const struct rst_table_data *data, restitute_table **table, restitute_error *error)
 {
     int status = check_counts(data, error);

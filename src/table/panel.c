@@ -40,6 +40,24 @@ double rst_even_slope(const double *f, int64_t cells, int64_t i)
     return sum;
 }
 
+double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
+{
+    return panel ? 1 + rst_panel_y(x) * rst_share(b->contact.numbers.chi) * (1 + ez) : x;
+}
+
+int rst_panel_solve(const struct rst_panel *p, double x, double *g)
+{
+    struct rst_column *c = &p->task->column;
+    const double psi = rst_psi_at(p->b, p->panel, x, c->normal.ez);
+    double ex, error;
+    const int status = rst_column_solve(p->solver, psi, &ex, &error, &p->task->why);
+    if (status < 0) return status;
+    c->impacts++;
+    c->solver = fmax(c->solver, error);
+    *g = p->panel ? psi * ex - rst_panel_y(x) * c->normal.ez : ex;
+    return RESTITUTE_OK;
+}
+
 /* In the middle of cell i the polynomial through the eight values around it, by Neville's scheme. */
 static double middle_of(const double *f, int64_t cells, int64_t i)
 {
