@@ -8,6 +8,7 @@ module rst_sync_interface
   use rst_tangential_motion, only: follow_contact, find_velocity
   implicit none (type, external)
   private
+  public :: normal_arrays_type, store_arrays_type
   public :: rst_follow_normal, rst_follow_contact, rst_find_velocity, rst_weights_at
 
   !> Twin of `struct sync_normal` in C: see normal_type.
