@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sync_kernels.h"
+#include "sync/sync_kernels.h"
 
 enum { arms = 2, room = 64, samples = 24 };
 

@@ -7,10 +7,11 @@
 !> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2) too.
 module rst_compression_panel
   use rst_precision, only: dp, ip
+  use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, integrated, applied, factors_type, factorize, solution_of, &
                              has_converged, keeps_matrix
   use rst_arms, only: respond, advance
-  use rst_panel, only: panel_type, normal_type, mass_factor
+  use rst_panel, only: panel_type, normal_type
   implicit none (type, external)
   private
   public :: compress

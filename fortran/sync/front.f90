@@ -10,7 +10,7 @@ module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
   use rst_panel, only: normal_type
-  use rst_contact_views, only: store_type, of_edge, of_arm
+  use rst_store, only: store_type, of_edge, of_arm
   implicit none (type, external)
   private
   public :: element_type, slack_type, look_at, find_front, held_by

@@ -2,8 +2,9 @@
 !> is one, or else by the panel before.
 module rst_guess
   use rst_precision, only: dp, ip
+  use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, differential, weights_at, applied
-  use rst_panel, only: panel_type, normal_type, place_on, mass_factor
+  use rst_panel, only: panel_type, normal_type, place_on
   implicit none (type, external)
   private
   public :: guess_compression, guess_restitution

@@ -4,10 +4,11 @@ module rst_sync_interface
   use rst_collocation, only: stages, weights_at
   use rst_panel, only: panel_type, normal_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: contact_type, store_type, of_arm
+  use rst_store, only: contact_type, store_type, of_arm
   use rst_tangential_motion, only: follow_contact, find_velocity
   implicit none (type, external)
   private
+  public :: normal_arrays_type, store_arrays_type
   public :: rst_follow_normal, rst_follow_contact, rst_find_velocity, rst_weights_at
 
   !> Twin of `struct sync_normal` in C: see normal_type.

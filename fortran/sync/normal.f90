@@ -5,8 +5,9 @@
 module rst_normal_motion
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use rst_precision, only: dp, ip
+  use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, last_coefficient
-  use rst_panel, only: panel_type, normal_type, mass_factor
+  use rst_panel, only: panel_type, normal_type
   use rst_guess, only: guess_compression
   use rst_compression_panel, only: compress
   use rst_restitution_panel, only: rebound

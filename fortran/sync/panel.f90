@@ -4,9 +4,7 @@ module rst_panel
   use rst_collocation, only: stages, weights_at
   implicit none (type, external)
   private
-  public :: panel_type, normal_type, place_on, find_angle, mass_factor
-
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp  !! D'' = -(15/8) int_0^A f dX
+  public :: panel_type, normal_type, place_on, find_angle
 
   !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression
   !> and downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.

@@ -1,11 +1,12 @@
 !> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
 module rst_piece
   use rst_precision, only: dp, ip
+  use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, factors_type, &
                              factorize, solution_of
   use rst_arms, only: respond_all, answer_of, advance
-  use rst_panel, only: normal_type, mass_factor
-  use rst_contact_views, only: contact_type, store_type
+  use rst_panel, only: normal_type
+  use rst_store, only: contact_type, store_type
   implicit none (type, external)
   private
   public :: ground_type, lay_ground, stick, advance_memory, push_factor, value_on

@@ -6,11 +6,12 @@
 !> and the force is what is left of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
+  use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, start_of, integrated, applied, composed, &
                              factors_type, factorize, solution_of, has_converged, keeps_matrix
   use rst_arms, only: respond
   use rst_guess, only: guess_restitution
-  use rst_panel, only: panel_type, normal_type, find_angle, mass_factor
+  use rst_panel, only: panel_type, normal_type, find_angle
   implicit none (type, external)
   private
   public :: rebound

@@ -5,7 +5,7 @@ module rst_slip
                              factors_type, factorize, solution_of, &
                              has_converged
   use rst_panel, only: normal_type
-  use rst_contact_views, only: contact_type, store_type
+  use rst_store, only: contact_type, store_type
   use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
   use rst_front, only: element_type, slack_type, look_at, find_front, held_by
   implicit none (type, external)

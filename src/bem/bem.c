@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "box.h"
-#include "method.h"
+#include "bem/box.h"
+#include "bem/method.h"
 
 /* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
 static const double grid_error_ez = 0.002, grid_error_ex = 0.04;
@@ -192,7 +192,7 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                              .steps = run->steps,
                              .updates = impact->updates,
                              .sunk = sunk};
-    outcome->ledger = (struct euler_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
+    outcome->ledger = (struct rst_ledger){.viscous_z = elastic ? 0 : w->normal - w->left_normal,
                                             .left_z = w->left_normal,
                                             .friction_x = w->friction,
                                             .viscous_x = elastic ? 0 : w->shear - w->friction - w->left_shear,

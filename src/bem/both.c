@@ -5,8 +5,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "plane.h"
-#include "stepper.h"
+#include "bem/plane.h"
+#include "bem/stepper.h"
 
 /* Turns end when no tau_y changes by more than this part of the largest pressure. */
 static const double closeness = 1e-6, settled = 1e-4;

@@ -1,7 +1,7 @@
 /* Conjugate gradients with bounds and a spectral preconditioner. After Polonsky & Keer (1999): cells that would pass a
  * bound are held there, cells whose residual pulls them off it are let go, and the directions start anew when the set
  * of free cells changes. SPDX-License-Identifier: BSD-3-Clause */
-#include "bounded.h"
+#include "bem/bounded.h"
 
 #include <math.h>
 #include <string.h>

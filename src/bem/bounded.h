@@ -3,7 +3,7 @@
 #ifndef BEM_BOUNDED_H
 #define BEM_BOUNDED_H
 
-#include "transform.h"
+#include "bem/transform.h"
 
 /* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x m in lines of ld.
  * */

@@ -2,7 +2,7 @@
  * impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at
  * the time 1.47). Runs on a coarse grid correct it until they fit into their box.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "box.h"
+#include "bem/box.h"
 
 #include <math.h>
 

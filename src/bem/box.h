@@ -3,7 +3,7 @@
 #ifndef BEM_BOX_H
 #define BEM_BOX_H
 
-#include "run.h"
+#include "bem/run.h"
 
 struct bem_box {
     double radius, time; /* of contact; time is infinite if it sinks */

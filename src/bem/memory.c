@@ -1,6 +1,6 @@
 /* Memory that outlives a call, so that plans are made once.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "memory.h"
+#include "bem/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-#include "../core/workspace.h"
-#include "transform.h"
+#include "base/workspace.h"
+#include "bem/transform.h"
 
 enum { BEM_SIZES = 256 }; /* more than a solver comes to use */
 

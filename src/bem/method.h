@@ -3,9 +3,9 @@
 #ifndef BEM_METHOD_H
 #define BEM_METHOD_H
 
-#include "../core/method.h"
-#include "../core/report.h"
-#include "run.h"
+#include "base/method.h"
+#include "base/report.h"
+#include "bem/run.h"
 
 struct bem_method {
     struct restitute_method base; /* first: the core's pointer is one to the whole */

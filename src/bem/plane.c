@@ -2,12 +2,13 @@
  * (DST-II) of an odd one and k, l wave numbers: an even kernel multiplies either by its own spectrum, and the kernel x
  * y/r^3, odd in both, takes each into the other: S = kappa X, X = kappa S, kappa its sine transform (DST-I).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "plane.h"
+#include "bem/plane.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "transform.h"
+#include "bem/kernels.h"
+#include "bem/planner.h"
 
 struct bem_plane {
     int64_t m, n;

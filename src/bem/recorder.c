@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "method.h"
+#include "bem/method.h"
 
 struct snapshot {
     double time, spacing;

@@ -2,12 +2,12 @@
  * tangential one for tau (docs/bem.md). All is of second order in the step.
  *   D'' = -(15/64) int p dA,   U'' = -(15/32) chi int tau dA,   u_x = (3/2) U where it sticks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "run.h"
+#include "bem/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "stepper.h"
+#include "bem/stepper.h"
 
 static const double normal_mass_factor = 15.0 / 64, shear_mass_factor = 15.0 / 32, pull = 1.5;
 

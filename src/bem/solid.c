@@ -5,11 +5,11 @@
  * sum J_k/lambda_k + J_0), near 1 where the instantaneous compliance is next to nothing, as in the trapezoidal rule.
  * The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "solid.h"
+#include "bem/solid.h"
 
 #include <math.h>
 
-#include "kernels.h"
+#include "bem/kernels.h"
 
 void rst_bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep)
 {

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "../core/problem.h"
+#include "base/problem.h"
 
 /* J(t) = instantaneous + sum_k compliance_k (1 - exp(-t/lambda_k)) + flow t, over 1/G_r. */
 struct bem_solid {

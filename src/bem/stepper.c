@@ -1,7 +1,7 @@
 /* The contact problems of a step. Residuals are of displacements, as part of the displacement of the sphere: a stick
  * condition is kept as an anchor, not as an increment, so that what an iteration leaves does not add up from step to
  * step. SPDX-License-Identifier: BSD-3-Clause */
-#include "stepper.h"
+#include "bem/stepper.h"
 
 #include <float.h>
 #include <math.h>

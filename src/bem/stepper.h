@@ -3,8 +3,9 @@
 #ifndef BEM_STEPPER_H
 #define BEM_STEPPER_H
 
-#include "bounded.h"
-#include "run.h"
+#include "bem/bounded.h"
+#include "bem/memory.h"
+#include "bem/setup.h"
 
 struct bem_stepper {
     const struct bem_setup *setup;

@@ -1,27 +1,13 @@
 /* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the images of the periodic
  * convolution. SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
-#include "transform.h"
-#include "plane.h"
+#include "bem/transform.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing needs no lock. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
-
-void rst_bem_lock_planner(void)
-{
-    pthread_mutex_lock(&planner);
-}
-
-void rst_bem_unlock_planner(void)
-{
-    pthread_mutex_unlock(&planner);
-}
+#include "bem/plane.h"
+#include "bem/planner.h"
 
 /* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
 enum { line_gap = 4 };

@@ -3,7 +3,7 @@
 #ifndef BEM_TRANSFORM_H
 #define BEM_TRANSFORM_H
 
-#include "kernels.h"
+#include "bem/kernels.h"
 
 /* A two-dimensional cosine transform of length n of m x m values: plans and room. */
 struct bem_cosine {
@@ -20,10 +20,6 @@ struct bem_transform {
     struct bem_plane *plane;          /* NULL: not made */
     double *spectrum[2], *inverse[2]; /* of BEM_NORMAL and BEM_SHEAR: times n^-2; 1/spectrum of the unpadded grid */
 };
-
-/* FFTW plans by one thread at a time. */
-void rst_bem_lock_planner(void);
-void rst_bem_unlock_planner(void);
 
 /* A new transform; NULL: out of memory. m: even. */
 struct bem_transform *rst_bem_transform_create(int64_t m);

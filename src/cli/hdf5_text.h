@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "../output/hdf5_image.h"
+#include "io/hdf5_image.h"
 
 /* Give a file, a group or a dataset a text attribute. */
 bool hdf5_write_text(hid_t place, const char *name, const char *text);

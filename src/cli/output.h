@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#include "../output/new_file.h"
+#include "io/new_file.h"
 #include "message.h"
 
 struct output {

@@ -1,12 +1,12 @@
 /* Contact laws: made from a material, then immutable.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "law.h"
+#include "contact/law.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "report.h"
+#include "base/report.h"
 
 void restitute_contact_law_options_init(restitute_contact_law_options *options)
 {

@@ -3,7 +3,7 @@
 #ifndef RST_CONTACT_LAW_H
 #define RST_CONTACT_LAW_H
 
-#include "kernels.h"
+#include "contact/kernels.h"
 
 struct restitute_contact_law {
     struct rst_law kernel;

@@ -3,7 +3,7 @@
  * (docs/contact.md). SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "law.h"
+#include "contact/law.h"
 
 /* Times are sampled that often; for the bound ten times as often, since G falls between samples. */
 enum { samples = 128, checks = 10 * samples, unknowns = rst_most_terms + 1, most_sweeps = 20000 };

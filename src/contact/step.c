@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "law.h"
-#include "report.h"
+#include "base/report.h"
+#include "contact/law.h"
 
 /* The lowest bits of the grid width, the first number of a state, are those of the law's hash: a width needs no nine digits. */
 static const uint64_t mark_bits = (1u << 24) - 1;

@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
+#include "solver/solver.h"
 
 void restitute_cvode_events_init(restitute_cvode_events *events)
 {

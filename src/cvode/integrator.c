@@ -1,7 +1,7 @@
 /* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or fixed-point iteration,
  * and messages that are kept and never printed.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "integrator.h"
+#include "cvode/integrator.h"
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>

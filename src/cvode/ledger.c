@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
 
 /* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
  * others. */
@@ -14,7 +14,7 @@ static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
 /* What has been added up, and what was last seen. */
 struct bookkeeper {
-    struct euler_ledger ledger;
+    struct rst_ledger ledger;
     double rate[3], square;
     double *held_z, *held_x, *before_z, *before_x;
     int64_t inside;
@@ -80,7 +80,7 @@ static double gross_slip_work(double chi, double psi, double velocity)
 }
 
 /* What friction takes before the contact sticks; without sticking, to the end. */
-static void add_gross_slip(const struct run_setup *setup, double end, struct euler_ledger *ledger)
+static void add_gross_slip(const struct run_setup *setup, double end, struct rst_ledger *ledger)
 {
     if (setup->mode == RST_FRICTIONLESS)
         ledger->viscous_x = ledger->left_x = 0;
@@ -92,9 +92,9 @@ static void add_gross_slip(const struct run_setup *setup, double end, struct eul
  * relax. */
 static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
 {
-    struct euler_ledger *ledger = &outcome->ledger;
+    struct rst_ledger *ledger = &outcome->ledger;
     const double chi = setup->chi, psi = setup->psi * setup->shear_scale;
-    *ledger = (struct euler_ledger){.viscous_z = 1};
+    *ledger = (struct rst_ledger){.viscous_z = 1};
     if (setup->mode == RST_FRICTIONLESS) return;
     if (setup->mode == RST_GROSS_SLIP)
         ledger->friction_x =

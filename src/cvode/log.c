@@ -1,6 +1,6 @@
 /* A growing array of events.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "log.h"
+#include "cvode/log.h"
 
 #include <stdlib.h>
 

@@ -3,8 +3,8 @@
 #include <restitute/cvode.h>
 #include <stdlib.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
 
 static void release(struct rst_own_memory *own)
 {

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "report.h"
-#include "solve.h"
+#include "base/report.h"
+#include "cvode/solve.h"
 
 struct recorder {
     struct rst_history *history;

@@ -4,7 +4,7 @@
  * changes, and where elements that stick again would otherwise have been taken to slip for too long a part of a step.
  * Entries, exits and stick -> slip leave the right-hand side continuous and do not interrupt it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "run.h"
+#include "cvode/run.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,11 +3,11 @@
 #ifndef RST_CVODE_RUN_H
 #define RST_CVODE_RUN_H
 
-#include "cvode_kernels.h"
-#include "integrator.h"
-#include "log.h"
-#include "method.h"
-#include "trace.h"
+#include "base/method.h"
+#include "cvode/integrator.h"
+#include "cvode/kernels.h"
+#include "cvode/log.h"
+#include "cvode/trace.h"
 
 /* The scene and how closely it is followed. */
 struct run_setup {

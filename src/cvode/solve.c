@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "report.h"
-#include "solve.h"
+#include "cvode/solve.h"
+#include "base/report.h"
 
 /* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add
  * up to this many times as much (docs/cvode.md). */

@@ -3,7 +3,7 @@
 #ifndef RST_CVODE_SOLVE_H
 #define RST_CVODE_SOLVE_H
 
-#include "run.h"
+#include "cvode/run.h"
 
 /* What a solver keeps from call to call. */
 struct cvode_memory {

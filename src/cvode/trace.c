@@ -1,12 +1,12 @@
 /* Growing arrays of the compression, and the time of a depth by Newton's method on Hermite's cubic.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "trace.h"
+#include "cvode/trace.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cvode_kernels.h"
+#include "cvode/kernels.h"
 
 void rst_trace_begin(struct trace *trace, int64_t n_terms)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file_text.h"
+#include "files/file_text.h"
 
 /* A growing array of bytes or of positions. */
 struct buffer {

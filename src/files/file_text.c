@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
-#include "file_text.h"
+#include "files/file_text.h"
 
-#include "whole_file.h"
+#include "base/whole_file.h"
 
 const char *rst_file_name_for_message(const char *path)
 {

@@ -5,7 +5,7 @@
 
 #include <restitute/files.h>
 
-#include "report.h"
+#include "base/report.h"
 
 /* A file in memory; `bytes` has a NUL behind its `length` bytes. */
 struct file_text {

@@ -1,6 +1,6 @@
 /* Walks a JSON text that a parser has already accepted, counting lines and depth.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "json_place.h"
+#include "files/json_place.h"
 
 #include <string.h>
 

@@ -8,9 +8,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "file_text.h"
-#include "json_place.h"
-#include "prony_terms.h"
+#include "files/file_text.h"
+#include "files/json_place.h"
+#include "files/prony_terms.h"
 
 /* A JSON material file while it is read. */
 struct material_file {

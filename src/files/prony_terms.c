@@ -1,12 +1,12 @@
 /* Prony terms from a CSV file, and the checks on terms from any file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "prony_terms.h"
+#include "files/prony_terms.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "file_text.h"
+#include "files/file_text.h"
 
 int rst_prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error)
 {

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "least.h"
-#include "search.h"
+#include "fit/least.h"
+#include "fit/search.h"
 
 /* No drop test measures e better than PRACTICAL: what would need that is called undetermined. The impacts themselves are
  * solved to SOLVED. */

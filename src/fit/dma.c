@@ -1,6 +1,6 @@
 /* From a DMA curve to a solid: checks, first shifts of the temperatures, and the result.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "dma.h"
+#include "fit/dma.h"
 
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_math.h>
@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "least.h"
-#include "model.h"
-#include "report.h"
+#include "base/report.h"
+#include "fit/least.h"
+#include "fit/model.h"
 
 void restitute_dma_options_init(restitute_dma_options *options)
 {

@@ -3,7 +3,7 @@
 #ifndef RST_FIT_DMA_H
 #define RST_FIT_DMA_H
 
-#include "model.h"
+#include "fit/model.h"
 
 /* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then loss. */
 struct rst_dma {

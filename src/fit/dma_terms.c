@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dma.h"
-#include "least.h"
+#include "fit/dma.h"
+#include "fit/least.h"
 
 /* PER_DECADE: terms of the first series; the end has about one a decade. BEYOND: decades before and behind the window of
  * 1/w, where terms still are seen. STEPS of one refinement. TRIES: shorter series that are refined, the cheapest first,

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "least.h"
-#include "report.h"
-#include "search.h"
+#include "base/report.h"
+#include "fit/least.h"
+#include "fit/search.h"
 
 /* Rounds of robust weights; most starts, unless options say how many. */
 enum { ROUNDS = 30, STARTS = 8 };

@@ -1,6 +1,6 @@
 /* Least squares by GSL: a trust region, and singular values.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "least.h"
+#include "fit/least.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>

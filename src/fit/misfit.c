@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "search.h"
+#include "fit/search.h"
 
 /* Chance below which a model is called wrong, and residuals that are suspect whatever their order. The latter are chosen, not
  * derived: noise of 5 % is to pass, while searches that ended in a wrong place had left 6 to 18 %. */

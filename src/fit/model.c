@@ -1,11 +1,11 @@
 /* From constants to solids, and from solids to what was measured.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "model.h"
+#include "fit/model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "report.h"
+#include "base/report.h"
 
 /* Impacts that are solved in one call: many enough for threads, few enough for options.interrupted. */
 enum { BATCH = 200 };

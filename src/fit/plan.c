@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "model.h"
-#include "report.h"
+#include "base/report.h"
+#include "fit/model.h"
 
 /* Polynomials through six impacts. A relaxation bends e_z over y = log T as 1/(1 + exp(2 y)) does, with poles at i pi/2:
  * its sixth derivative is about 6!/(pi/2)^6 = 50, so the error is 0.005 x 50 STEP^6 = 2e-7, as that of the impacts.

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "model.h"
-#include "report.h"
+#include "base/report.h"
+#include "fit/model.h"
 
 void restitute_fit_point_init(restitute_fit_point *p)
 {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "search.h"
+#include "fit/search.h"
 
 /* Half an interval, in the logarithm, up to which the linearised problem is trusted; and beyond which there is no bound: a
  * factor of 1000. Both are chosen, not derived. An end is where the rise is NEAR the one that is asked for, or above; TRIALS

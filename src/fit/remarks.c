@@ -1,6 +1,6 @@
 /* Remarks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "search.h"
+#include "fit/search.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report.h"
+#include "base/report.h"
 
 /* Chances below which a difference is called one: to prefer a model with fewer constants, to call a model wrong. */
 static const double SIMPLER_FROM = 0.05, WRONG_BELOW = 0.01;

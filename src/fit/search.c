@@ -1,6 +1,6 @@
 /* The search: a quasi-random scan, local fits, differences.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "search.h"
+#include "fit/search.h"
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_sort.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "least.h"
+#include "fit/least.h"
 
 /* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. Shifts are scanned
  * DECADES up and down: beyond, solids are elastic or relaxed. STEPS of a local fit and ROUNDS of the last one; most need

@@ -3,7 +3,7 @@
 #ifndef RST_FIT_SEARCH_H
 #define RST_FIT_SEARCH_H
 
-#include "model.h"
+#include "fit/model.h"
 
 /* A model, its best constants so far, and room for the impacts of a step. */
 struct rst_fit_search {

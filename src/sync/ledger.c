@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "record.h"
-#include "status.h"
-#include "tuning.h"
-#include "walk.h"
+#include "base/status.h"
+#include "sync/record.h"
+#include "sync/tuning.h"
+#include "sync/walk.h"
 
 /* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
  * `velocity`. */
@@ -20,7 +20,7 @@ static double gross_slip_work(double chi, double psi, double velocity)
 static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     const double chi = problem->chi, psi = problem->psi;
-    struct euler_ledger *ledger = &outcome->ledger;
+    struct rst_ledger *ledger = &outcome->ledger;
     ledger->viscous_z = 1;
     if (problem->mode == RST_FRICTIONLESS) return;
     if (problem->mode == RST_GROSS_SLIP) {

@@ -1,12 +1,12 @@
 /* The normal motion at several resolutions (motion.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "motion.h"
+#include "sync/motion.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tuning.h"
+#include "sync/tuning.h"
 
 static void release(struct rst_own_memory *own)
 {

@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-#include "problem.h"
-#include "sync_kernels.h"
-#include "workspace.h"
+#include "base/problem.h"
+#include "base/workspace.h"
+#include "sync/sync_kernels.h"
 
 /* Resolutions: each has panels half as wide as the one before. */
 enum { rst_most_halvings = 8 };

@@ -1,12 +1,12 @@
 /* The history of an impact by the method `sync`: the polynomials of the run that gave the pair, sampled.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "record.h"
+#include "sync/record.h"
 
 #include <math.h>
 
-#include "status.h"
-#include "walk.h"
-#include "walk_kernels.h"
+#include "base/status.h"
+#include "sync/walk.h"
+#include "sync/walk_kernels.h"
 
 /* The tangential side: pieces, or where elements were stepped their levels, or gross slip alone. */
 struct trace {

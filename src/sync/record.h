@@ -3,7 +3,7 @@
 #ifndef RST_SYNC_RECORD_H
 #define RST_SYNC_RECORD_H
 
-#include "motion.h"
+#include "sync/motion.h"
 
 /* Fill outcome->ledger; the rest of the outcome is known. */
 int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,

@@ -1,7 +1,7 @@
 /* Elements where slip sticks again (docs/sync.md, section 9): walks with more and more of them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "verdict.h"
-#include "walk.h"
+#include "sync/verdict.h"
+#include "sync/walk.h"
 
 static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *ground,
                      int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)

@@ -4,11 +4,11 @@
 #include <fenv.h>
 #include <math.h>
 
-#include "motion.h"
-#include "record.h"
-#include "sync.h"
-#include "verdict.h"
-#include "walk.h"
+#include "sync/motion.h"
+#include "sync/record.h"
+#include "sync/sync.h"
+#include "sync/verdict.h"
+#include "sync/walk.h"
 
 /* One resolution. */
 struct attempt {

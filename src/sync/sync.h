@@ -3,7 +3,7 @@
 #ifndef RST_SYNC_H
 #define RST_SYNC_H
 
-#include "method.h"
+#include "base/method.h"
 
 extern const struct restitute_method rst_method_sync;
 

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-#include "motion.h"
-#include "status.h"
-#include "tuning.h"
+#include "base/status.h"
+#include "sync/motion.h"
+#include "sync/tuning.h"
 
 static inline double rst_larger_error(const struct rst_outcome *outcome)
 {

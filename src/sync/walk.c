@@ -1,11 +1,11 @@
 /* The walk over elements (walk.h): levels at which the edge is on a node, from the panels of the normal motion.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "walk.h"
+#include "sync/walk.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "walk_kernels.h"
+#include "sync/walk_kernels.h"
 
 /* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
 struct ladder {

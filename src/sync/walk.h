@@ -3,7 +3,7 @@
 #ifndef RST_SYNC_WALK_H
 #define RST_SYNC_WALK_H
 
-#include "motion.h"
+#include "sync/motion.h"
 
 /* What a walk found: U' at the end, over psi as the problem has it, and the ledger. Its levels stay in the motion: `n` of
  * each phase, with their times, and U' and S at each of the 2 n + 1; of a sphere that stops in the solid at the first n + 1. */
@@ -12,7 +12,7 @@ struct rst_walk {
     double velocity;
     const double *time;
     const struct walk_shear *shear;
-    struct euler_ledger ledger;
+    struct rst_ledger ledger;
 };
 
 /* Whether the contact slips to the end, sticks at some time, or has no friction. */

@@ -3,7 +3,7 @@
 #ifndef RST_WALK_H
 #define RST_WALK_H
 
-#include "kernels.h"
+#include "base/kernels.h"
 
 /* Twin of walk_type. */
 struct walk {
@@ -32,6 +32,6 @@ enum { walk_columns = 6, walk_lanes = 8 };
  * stress 2 capacity (n_terms + 1). */
 void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
                          const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,
-                         double *stress, struct euler_ledger *ledger);
+                         double *stress, struct rst_ledger *ledger);
 
 #endif

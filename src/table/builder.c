@@ -1,6 +1,6 @@
 /* The build of a table from first columns to last check (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,7 @@
 #ifndef RST_TABLE_BUILDER_H
 #define RST_TABLE_BUILDER_H
 
-#include "column.h"
+#include "table/column.h"
 
 /* Constants of the build, measured with the target table-campaign (docs/table.md). */
 
@@ -124,7 +124,7 @@ struct rst_panel {
     double missed; /* by the last cubics, in e_x: too much if there are the most cells */
 };
 
-/* g at x in [0, 1] (solve.c). */
+/* g at x in [0, 1]. */
 int rst_panel_solve(const struct rst_panel *p, double x, double *g);
 
 /* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled

@@ -1,8 +1,8 @@
 /* One impact of two bodies in space, looked up.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "table/form.h"
 
-#include "../core/two_bodies.h"
+#include "base/two_bodies.h"
 
 /* Times a speed it does not overflow. */
 static const double largest_factor = 1e200;

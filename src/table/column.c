@@ -1,6 +1,6 @@
 /* Columns by a plan: all impacts of a column share their normal motion.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "column.h"
+#include "table/column.h"
 
 #include <math.h>
 /* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated

@@ -3,7 +3,7 @@
 #ifndef RST_TABLE_COLUMN_H
 #define RST_TABLE_COLUMN_H
 
-#include "form.h"
+#include "table/form.h"
 
 /* How friction acts: not at all, as usual, or without slip. */
 enum rst_sliding { RST_NO_FRICTION, RST_SLIDES, RST_NEVER_SLIPS };

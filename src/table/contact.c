@@ -1,14 +1,8 @@
 /* Other contacts that a table serves.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "column.h"
+#include "table/column.h"
 
 #include <stdlib.h>
-
-void restitute_table_contact_init(restitute_table_contact *contact)
-{
-    if (!contact) return;
-    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
-}
 
 /* Both are what the core computes from its material. */
 static int alike(double a, double b)

@@ -1,6 +1,6 @@
 /* Making a table from its numbers: one block of memory, checked.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "table/form.h"
 
 #include <stdlib.h>
 
@@ -121,6 +121,12 @@ static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
     t->own.psi_factor = d->psi_factor;
     t->own.radius = d->radius;
     t->own.mass = d->mass;
+}
+
+void restitute_table_contact_init(restitute_table_contact *contact)
+{
+    if (!contact) return;
+    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
 }
 
 int restitute_private_table_make(const struct rst_table_data *data, restitute_table **table, restitute_error *error)

@@ -3,11 +3,11 @@
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
 
-#include "axis.h"
-#include "table_data.h"
+#include "table/axis.h"
+#include "table/table_data.h"
 
-#include "../core/ranges.h"
-#include "../core/status.h"
+#include "base/ranges.h"
+#include "base/status.h"
 
 /* A node along the speed. */
 struct rst_node {

@@ -1,6 +1,6 @@
 /* What a table says of itself, and which limits of the model an impact passes.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "table/form.h"
 
 #include <float.h>
 

@@ -1,7 +1,7 @@
 /* The one code path of all lookups. It takes no branch on the place: on which side of psi = 1 and of psi_c it lies cannot
  * be foreseen. Nothing is written but the outputs, and nothing overflows or is invalid, for hosts that trap that.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "table/form.h"
 
 #include <float.h>
 

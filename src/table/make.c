@@ -1,6 +1,6 @@
 /* A table from columns: values, and slopes by seven neighbours.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 

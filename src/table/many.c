@@ -1,6 +1,6 @@
 /* Tables of all pairs of some materials.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 

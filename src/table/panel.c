@@ -1,6 +1,6 @@
 /* A panel of psi in one column: even cells, as many as its cubics need (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 
@@ -38,6 +38,24 @@ double rst_even_slope(const double *f, int64_t cells, int64_t i)
     for (int j = 0; j < s.n; j++)
         sum += s.w[j] * f[first + j];
     return sum;
+}
+
+double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
+{
+    return panel ? 1 + rst_panel_y(x) * rst_share(b->contact.numbers.chi) * (1 + ez) : x;
+}
+
+int rst_panel_solve(const struct rst_panel *p, double x, double *g)
+{
+    struct rst_column *c = &p->task->column;
+    const double psi = rst_psi_at(p->b, p->panel, x, c->normal.ez);
+    double ex, error;
+    const int status = rst_column_solve(p->solver, psi, &ex, &error, &p->task->why);
+    if (status < 0) return status;
+    c->impacts++;
+    c->solver = fmax(c->solver, error);
+    *g = p->panel ? psi * ex - rst_panel_y(x) * c->normal.ez : ex;
+    return RESTITUTE_OK;
 }
 
 /* In the middle of cell i the polynomial through the eight values around it, by Neville's scheme. */

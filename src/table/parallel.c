@@ -1,6 +1,6 @@
 /* Loops by several threads (builder.h). They round as the caller does, or bits would depend on who takes a turn.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <time.h>
 

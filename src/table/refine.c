@@ -1,6 +1,6 @@
 /* Where a table needs more columns (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Columns of a build, by several threads. Each is solved at the first places of psi, then where its cubics miss.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 
@@ -8,24 +8,6 @@ struct work {
     struct rst_builder *b;
     struct rst_task *task;
 };
-
-double rst_psi_at(const struct rst_builder *b, int panel, double x, double ez)
-{
-    return panel ? 1 + rst_panel_y(x) * rst_share(b->contact.numbers.chi) * (1 + ez) : x;
-}
-
-int rst_panel_solve(const struct rst_panel *p, double x, double *g)
-{
-    struct rst_column *c = &p->task->column;
-    const double psi = rst_psi_at(p->b, p->panel, x, c->normal.ez);
-    double ex, error;
-    const int status = rst_column_solve(p->solver, psi, &ex, &error, &p->task->why);
-    if (status < 0) return status;
-    c->impacts++;
-    c->solver = fmax(c->solver, error);
-    *g = p->panel ? psi * ex - rst_panel_y(x) * c->normal.ez : ex;
-    return RESTITUTE_OK;
-}
 
 /* The ends of the slip panel are e_x at psi = 1, and 0. */
 static int solve_panel(struct rst_panel *p)

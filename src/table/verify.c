@@ -1,6 +1,6 @@
 /* Verification: every cell of speed is compared with impacts at one other speed and at many places of psi.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "builder.h"
+#include "table/builder.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
  * the block, then of the places: a change of one of them always changes it. SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
-#include "container.h"
+#include "table_files/container.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../core/whole_file.h"
-#include "../output/new_file.h"
+#include "base/whole_file.h"
+#include "io/new_file.h"
 
 enum { block_size = 512 };
 

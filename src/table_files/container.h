@@ -7,8 +7,8 @@
 
 #include <restitute/table_files.h>
 
-#include "../core/report.h"
-#include "../output/hdf5_image.h"
+#include "base/report.h"
+#include "io/hdf5_image.h"
 
 /* Of what is written, and alone is read. */
 enum { rst_schema = 7, rst_sets = 7 };

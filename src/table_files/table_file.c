@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../table/table_data.h"
-#include "container.h"
+#include "table/table_data.h"
+#include "table_files/container.h"
 
 static const char title[] = "table";
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "container.h"
+#include "table_files/container.h"
 
 static int close_all(int good, hid_t a, hid_t b, hid_t c)
 {

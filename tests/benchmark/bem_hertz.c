@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bounded.h"
+#include "bem/bounded.h"
 
 static double now(void)
 {

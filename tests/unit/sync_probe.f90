@@ -9,7 +9,7 @@ module sync_probe
   use rst_arms, only: respond
   use rst_panel, only: panel_type, normal_type
   use rst_normal_motion, only: normal_control_type, follow_normal
-  use rst_contact_views, only: contact_type, record_type, piece_type, store_type, of_arm
+  use rst_store, only: contact_type, record_type, piece_type, store_type, of_arm
   use rst_front, only: element_type, slack_type, look_at, find_front
   use rst_tangential_motion, only: follow_contact
   implicit none (type, external)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../support/check.h"
-#include "bounded.h"
+#include "bem/bounded.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -4,8 +4,8 @@
 
 #include "../support/check.h"
 #include "../support/random.h"
-#include "kernels.h"
-#include "solid.h"
+#include "bem/kernels.h"
+#include "bem/solid.h"
 
 enum { most = 32 };
 

@@ -4,8 +4,8 @@
 
 #include "../support/check.h"
 #include "../support/random.h"
-#include "plane.h"
-#include "transform.h"
+#include "bem/plane.h"
+#include "bem/transform.h"
 
 static const double pi = 3.14159265358979323846;
 

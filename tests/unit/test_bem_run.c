@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "../support/check.h"
-#include "run.h"
+#include "bem/run.h"
 
 static double g = 2, tau = 0.5, room[8];
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "solve.h"
+#include "cvode/solve.h"
 
 #include "../support/solve.h"
 

@@ -5,7 +5,7 @@
 
 #include "../support/data.h"
 #include "../support/solve.h"
-#include "kernels.h"
+#include "euler/kernels.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,7 +1,7 @@
 /* The normal motion that a plan or a batch keeps: when a run of the method sync stays, and when it is solved anew.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../../src/sync/motion.h"
 #include "../support/check.h"
+#include "sync/motion.h"
 
 #include <math.h>
 

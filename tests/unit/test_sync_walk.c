@@ -13,7 +13,7 @@ enum { n_solids = 4 };
 
 struct result {
     struct walk_shear shear[2 * most_nodes + 1];
-    struct euler_ledger ledger;
+    struct rst_ledger ledger;
     double rebound, left_over_z, left_over_x; /* e_x and what is missing in both balances, parts of the energy */
 };
 
@@ -36,7 +36,7 @@ static void follow(const struct solid *s, const struct motion *m, const struct w
     for (size_t i = 0; i < sizeof stress / sizeof *stress; i++)
         stress[i] = NAN;
     rst_follow_elements(walk, s->g, s->tau, m->level, m->memory, result->shear, term, body, stress, &result->ledger);
-    const struct euler_ledger *l = &result->ledger;
+    const struct rst_ledger *l = &result->ledger;
     double z = m->level[2 * m->n].velocity, x = result->shear[2 * m->n].velocity, psi2 = walk->psi * walk->psi;
     result->rebound = -x / walk->psi;
     result->left_over_z = 1 - z * z - l->viscous_z - l->left_z;
@@ -193,7 +193,7 @@ static void ledger_closes(void **state)
         for (int c = 0; c < 4; c++) {
             struct result coarse = impact(solids[i], 48, cases[c][0], cases[c][1]);
             struct result fine = impact(solids[i], 96, cases[c][0], cases[c][1]);
-            const struct euler_ledger *l = &fine.ledger;
+            const struct rst_ledger *l = &fine.ledger;
             double least = fmin(fmin(l->viscous_z, l->left_z), fmin(l->friction_x, fmin(l->viscous_x, l->left_x)));
             CHECK(least >= 0, "%s, chi = %g", solids[i]->name, cases[c][0]);
             CHECK_NEAR(coarse.left_over_z, 0, 1e-3, "%s", solids[i]->name);

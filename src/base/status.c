@@ -1,0 +1,23 @@
+/* Status texts, version.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/status.h"
+
+#include "base/version.h"
+
+const char *restitute_status_text(int status)
+{
+    switch (status) {
+#define TEXT_OF(name, value, text)                                                                                     \
+    case RESTITUTE_##name:                                                                                             \
+        return text;
+        RESTITUTE_STATUS_LIST(TEXT_OF)
+#undef TEXT_OF
+    default:
+        return "unknown status";
+    }
+}
+
+const char *restitute_version(void)
+{
+    return RESTITUTE_VERSION_TEXT;
+}

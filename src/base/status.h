@@ -1,0 +1,18 @@
+/* The checks that most calls share.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_STATUS_H
+#define RST_STATUS_H
+
+#include "base/ranges.h"
+#include "base/report.h"
+
+/* The struct was prepared by its _init function, of this version. */
+int rst_check_size(size_t found, size_t expected, const char *name, restitute_error *error);
+
+/* low <= value <= high; NaN fails. */
+int rst_check_range(double value, double low, double high, const char *name, restitute_error *error);
+
+/* In the range, or `besides`: 0 or infinity where that has a meaning, NAN where neither has. */
+int rst_check_within(double value, struct rst_range range, double besides, const char *name, restitute_error *error);
+
+#endif

@@ -1,0 +1,145 @@
+/* How an output is written.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700
+#define _DEFAULT_SOURCE /* flock, the lock that belongs to the open file and not to the process */
+
+#include "io/new_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+int rst_lock(int descriptor, const char *name)
+{
+    struct stat ours, named;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno;
+    const int same = fstat(descriptor, &ours) == 0 && lstat(name, &named) == 0 && ours.st_dev == named.st_dev &&
+                     ours.st_ino == named.st_ino;
+    return same ? 0 : ESTALE;
+}
+
+/* Owner and mode of an existing file. Who may not give the group away gives it no more than others
+ * have. */
+static void make_alike(int descriptor, const struct stat *model)
+{
+    mode_t mode = model->st_mode & 0777;
+    if (fchown(descriptor, model->st_uid, model->st_gid) != 0 && fchown(descriptor, (uid_t)-1, model->st_gid) != 0)
+        mode = (mode & 0707) | (mode & (mode & 0007) << 3);
+    fchmod(descriptor, mode);
+}
+
+int rst_create(const char *name, const struct rst_place *place)
+{
+    const int file = open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place->exists ? 0600 : 0666);
+    if (file >= 0 && place->exists) make_alike(file, &place->status);
+    return file;
+}
+
+/* Left by a process that was killed: whoever writes a temporary file has it locked. */
+static void remove_stale(const char *name)
+{
+    const int file = open(name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return;
+    if (rst_lock(file, name) == 0) unlink(name);
+    close(file);
+}
+
+/* Under the first free number. Between making and locking it another process may take it for left
+ * behind. */
+static int open_temporary(struct rst_new_file *file)
+{
+    enum { numbers = 1000 };
+    const size_t size = strlen(file->place.target) + 32;
+    int problem = EEXIST;
+    file->temporary = malloc(size);
+    if (!file->temporary) return ENOMEM;
+    for (int i = 0; i < numbers && problem == EEXIST; i++) {
+        snprintf(file->temporary, size, "%s.restitute-%d.tmp", file->place.target, i);
+        remove_stale(file->temporary);
+        file->descriptor = rst_create(file->temporary, &file->place);
+        problem = file->descriptor < 0 ? errno : 0;
+        if (problem) continue;
+        const int lock = rst_lock(file->descriptor, file->temporary);
+        if (lock != EWOULDBLOCK && lock != ESTALE) return 0;
+        close(file->descriptor);
+        problem = EEXIST;
+    }
+    file->descriptor = -1;
+    free(file->temporary);
+    file->temporary = NULL;
+    return problem;
+}
+
+int rst_open_through(const struct rst_place *place)
+{
+    if (place->descriptor >= 0) return fcntl(place->descriptor, F_DUPFD_CLOEXEC, 3);
+    return open(place->target, O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC);
+}
+
+int rst_write_all(int descriptor, const char *bytes, size_t size)
+{
+    while (size > 0) {
+        const ssize_t count = write(descriptor, bytes, size);
+        if (count == 0) return EIO;
+        if (count < 0 && errno != EINTR) return errno;
+        if (count < 0) continue;
+        bytes += count;
+        size -= (size_t)count;
+    }
+    return 0;
+}
+
+int rst_new_file_write(const char *path, const void *bytes, size_t size, struct rst_new_file *file)
+{
+    *file = (struct rst_new_file){.descriptor = -1};
+    int problem = rst_place_find(path, &file->place);
+    if (!problem) problem = rst_place_check(&file->place);
+    if (!problem && !file->place.through)
+        problem = open_temporary(file);
+    else if (!problem && (file->descriptor = rst_open_through(&file->place)) < 0)
+        problem = errno;
+    if (!problem) problem = rst_write_all(file->descriptor, bytes, size);
+    if (!problem && file->temporary && fsync(file->descriptor) != 0) problem = errno;
+    if (problem) rst_new_file_drop(file);
+    return problem;
+}
+
+/* The new name itself must reach the disk too; a file system that cannot do this is no reason to
+ * fail. */
+int rst_rename(const char *name, const char *target)
+{
+    if (rename(name, target) != 0) return errno;
+    char *folder = rst_folder_of(target);
+    const int file = folder ? open(folder, O_RDONLY | O_CLOEXEC) : -1;
+    if (file >= 0) {
+        fsync(file);
+        close(file);
+    }
+    free(folder);
+    return 0;
+}
+
+int rst_new_file_commit(struct rst_new_file *file)
+{
+    int problem = 0;
+    if (file->temporary) problem = rst_rename(file->temporary, file->place.target);
+    if (!problem) {
+        free(file->temporary);
+        file->temporary = NULL;
+    }
+    rst_new_file_drop(file);
+    return problem;
+}
+
+void rst_new_file_drop(struct rst_new_file *file)
+{
+    if (file->temporary) unlink(file->temporary);
+    if (file->descriptor >= 0) close(file->descriptor);
+    free(file->temporary);
+    rst_place_release(&file->place);
+    *file = (struct rst_new_file){.descriptor = -1};
+}

@@ -1,0 +1,173 @@
+/* Many impacts by several threads. Each case is solved by itself, and a solver brings nothing from one case into the
+ * next but what that would find itself, bit by bit, so that neither the number of threads nor the order in which they
+ * take the cases is seen in the results.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <fenv.h>
+#include <stdlib.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/status.h"
+#include "solver/solver.h"
+
+/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
+static const int most_threads = 1024;
+
+/* One of the two arrays of cases is there. */
+struct batch {
+    const restitute_options *options;
+    size_t n;
+    const restitute_impact *impacts;
+    const restitute_scene *scenes;
+    restitute_result *results;
+    int *statuses;
+};
+
+/* What a thread has to itself: a solver, and the case that it would name to the caller. */
+struct worker {
+    restitute_solver *solver;
+    size_t index;
+    restitute_error error; /* of that case; its status is 0 as long as all are done without a remark */
+};
+
+/* Failures come before remarks, then the lower index. */
+static void note(struct worker *worker, size_t index, const restitute_error *error)
+{
+    const int first = worker->error.status == 0;
+    const int graver = error->status < 0 && worker->error.status >= 0;
+    const int as_grave = (error->status < 0) == (worker->error.status < 0);
+    if (!first && !graver && !(as_grave && index < worker->index)) return;
+    worker->index = index;
+    worker->error = *error;
+}
+
+static void solve_case(const struct batch *batch, size_t i, struct worker *worker)
+{
+    restitute_error error;
+    restitute_result *result = batch->results ? &batch->results[i] : NULL;
+    error.status = batch->scenes ? restitute_solve_scene(worker->solver, &batch->scenes[i], result, NULL, NULL, &error)
+                                 : restitute_solve(worker->solver, &batch->impacts[i], result, NULL, NULL, &error);
+    if (batch->statuses) batch->statuses[i] = error.status;
+    if (error.status != RESTITUTE_OK) note(worker, i, &error);
+}
+
+#ifdef _OPENMP
+/* Threads of a pool keep the rounding and the treatment of tiny numbers that were set when they were made; they take
+ * the caller's for the time of the call, or his case would depend on who solves it. */
+static void solve_in_parallel(const struct batch *batch, struct worker *workers, int threads)
+{
+    fenv_t callers;
+    fegetenv(&callers);
+#pragma omp parallel num_threads(threads)
+    {
+        fenv_t own;
+        fegetenv(&own);
+        fesetenv(&callers);
+#pragma omp for schedule(dynamic)
+        for (size_t i = 0; i < batch->n; i++)
+            solve_case(batch, i, &workers[omp_get_thread_num()]);
+        fesetenv(&own);
+    }
+}
+#endif
+
+static void solve_all(const struct batch *batch, struct worker *workers, int threads)
+{
+#ifdef _OPENMP
+    if (threads > 1) {
+        solve_in_parallel(batch, workers, threads);
+        return;
+    }
+#endif
+    (void)threads;
+    for (size_t i = 0; i < batch->n; i++)
+        solve_case(batch, i, &workers[0]);
+}
+
+/* How many threads there will be: never more than cases. */
+static int threads_for(size_t n, int wanted)
+{
+    int threads = 1;
+#ifdef _OPENMP
+    threads = wanted > 0 ? wanted : omp_get_max_threads();
+#else
+    (void)wanted;
+#endif
+    if (threads > most_threads) threads = most_threads;
+    if ((size_t)threads > n) threads = n > 0 ? (int)n : 1;
+    return threads;
+}
+
+static int create_workers(const struct batch *batch, int threads, struct worker *workers, restitute_error *error)
+{
+    for (int i = 0; i < threads; i++) {
+        const int status = restitute_solver_create(batch->options, &workers[i].solver, error);
+        if (status) return status;
+        rst_solver_keep_motion(workers[i].solver); /* for impacts on end that are on one solid */
+    }
+    return RESTITUTE_OK;
+}
+
+/* The case that the caller hears of. */
+static int report_first(const struct batch *batch, const struct worker *workers, int threads, restitute_error *error)
+{
+    struct worker first = workers[0];
+    for (int i = 1; i < threads; i++)
+        if (workers[i].error.status != RESTITUTE_OK) note(&first, workers[i].index, &workers[i].error);
+    if (first.error.status == RESTITUTE_OK) return rst_done(error);
+    return rst_report(error, first.error.status, "%s[%zu]: %s", batch->scenes ? "scene" : "impact", first.index,
+                      first.error.message);
+}
+
+/* The size that the first struct of an array names tells how far apart all are: of another version, none can be found.
+ * */
+static int check_batch(const struct batch *batch, int threads, restitute_error *error)
+{
+    if (threads < 0 || threads > most_threads)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)", threads,
+                          most_threads);
+    if (batch->n == 0) return RESTITUTE_OK;
+    int status = batch->scenes
+                     ? rst_check_size(batch->scenes[0].struct_size, sizeof *batch->scenes, "restitute_scene", error)
+                     : rst_check_size(batch->impacts[0].struct_size, sizeof *batch->impacts, "restitute_impact", error);
+    if (!status && batch->results)
+        status = rst_check_size(batch->results[0].struct_size, sizeof *batch->results, "restitute_result", error);
+    return status;
+}
+
+static int solve_batch(const struct batch *batch, int wanted, restitute_error *error)
+{
+    int status = check_batch(batch, wanted, error);
+    if (status) return status;
+    const int threads = threads_for(batch->n, wanted);
+    struct worker *workers = calloc((size_t)threads, sizeof *workers);
+    if (!workers) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %d threads", threads);
+    status = create_workers(batch, threads, workers, error);
+    if (!status) {
+        solve_all(batch, workers, threads);
+        status = report_first(batch, workers, threads, error);
+    }
+    for (int i = 0; i < threads; i++)
+        restitute_solver_destroy(workers[i].solver);
+    free(workers);
+    return status;
+}
+
+int restitute_solve_many(const restitute_options *options, size_t n, const restitute_impact *impacts,
+                         restitute_result *results, int *statuses, int threads, restitute_error *error)
+{
+    const struct batch batch = {
+        .options = options, .n = n, .impacts = impacts, .results = results, .statuses = statuses};
+    if (n > 0 && !impacts) return rst_report(error, RESTITUTE_ERROR_NULL, "impacts is NULL");
+    return solve_batch(&batch, threads, error);
+}
+
+int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
+                           restitute_result *results, int *statuses, int threads, restitute_error *error)
+{
+    const struct batch batch = {.options = options, .n = n, .scenes = scenes, .results = results, .statuses = statuses};
+    if (n > 0 && !scenes) return rst_report(error, RESTITUTE_ERROR_NULL, "scenes is NULL");
+    return solve_batch(&batch, threads, error);
+}
