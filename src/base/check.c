@@ -4,14 +4,6 @@
 
 #include "base/status.h"
 
-int rst_check_size(size_t found, size_t expected, const char *name, restitute_error *error)
-{
-    if (found == expected) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                      "%s.struct_size = %zu: must be %zu; prepare the struct with %s_init of this version", name, found,
-                      expected, name);
-}
-
 int rst_check_range(double value, double low, double high, const char *name, restitute_error *error)
 {
     if (value >= low && value <= high) return RESTITUTE_OK;

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/status.h"
 
-#include "base/version.h"
+#define TEXT(number) #number
+#define VERSION_TEXT(major, minor, patch) TEXT(major) "." TEXT(minor) "." TEXT(patch)
 
 const char *restitute_status_text(int status)
 {
@@ -19,5 +20,5 @@ const char *restitute_status_text(int status)
 
 const char *restitute_version(void)
 {
-    return RESTITUTE_VERSION_TEXT;
+    return VERSION_TEXT(RESTITUTE_VERSION_MAJOR, RESTITUTE_VERSION_MINOR, RESTITUTE_VERSION_PATCH);
 }

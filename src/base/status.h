@@ -6,9 +6,6 @@
 #include "base/ranges.h"
 #include "base/report.h"
 
-/* The struct was prepared by its _init function, of this version. */
-int rst_check_size(size_t found, size_t expected, const char *name, restitute_error *error);
-
 /* low <= value <= high; NaN fails. */
 int rst_check_range(double value, double low, double high, const char *name, restitute_error *error);
 

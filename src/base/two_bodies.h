@@ -5,103 +5,16 @@
 #define RST_TWO_BODIES_H
 
 #include <math.h>
-#include <stdio.h>
 
-#include "base/status.h"
+#include <restitute/restitute.h>
 
 typedef struct {
     double x[3];
-} vector;
-
-static const double largest_overlap = 0.1; /* of the radii: more is no first touch of two spheres */
-
-static inline vector from(const double x[3])
-{
-    return (vector){{x[0], x[1], x[2]}};
-}
-
-static inline vector combine(double a, vector x, double b, vector y)
-{
-    return (vector){{a * x.x[0] + b * y.x[0], a * x.x[1] + b * y.x[1], a * x.x[2] + b * y.x[2]}};
-}
-
-static inline double dot(vector a, vector b)
-{
-    return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
-}
-
-static inline vector cross(vector a, vector b)
-{
-    return (vector){
-        {a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2], a.x[0] * b.x[1] - a.x[1] * b.x[0]}};
-}
-
-static inline double length(vector a)
-{
-    return hypot(hypot(a.x[0], a.x[1]), a.x[2]);
-}
-
-static inline int is_plane(const restitute_body *body)
-{
-    return isinf(body->radius);
-}
-
-/* A member of a body; its name is made only for a message. */
-static inline int check_member(double value, struct rst_range range, double besides, const char *body, const char *name,
-                               restitute_error *error)
-{
-    char place[48];
-    if ((value >= range.low && value <= range.high) || value == besides) return RESTITUTE_OK;
-    snprintf(place, sizeof place, name[0] == ' ' ? "length of %s.%s" : "%s.%s", body, name + (name[0] == ' '));
-    return rst_check_within(value, range, besides, place, error);
-}
-
-static inline int check_vector(const double x[3], struct rst_range range, const char *body, const char *const name[3],
-                               restitute_error *error)
-{
-    int status = RESTITUTE_OK;
-    for (int i = 0; i < 3 && !status; i++)
-        status = check_member(x[i], range, NAN, body, name[i], error);
-    return status;
-}
-
-static inline int check_body(const restitute_body *b, const char *name, restitute_error *error)
-{
-    static const char *const position[3] = {"position[0]", "position[1]", "position[2]"};
-    static const char *const velocity[3] = {"velocity[0]", "velocity[1]", "velocity[2]"};
-    static const char *const normal[3] = {"normal[0]", "normal[1]", "normal[2]"};
-    static const char *const spin[3] = {"spin[0]", "spin[1]", "spin[2]"};
-    int status = rst_check_size(b->struct_size, sizeof *b, "restitute_body", error);
-    if (!status) status = check_vector(b->position, rst_positions, name, position, error);
-    if (!status) status = check_vector(b->velocity, rst_speeds, name, velocity, error);
-    if (!status) status = check_member(b->radius, rst_sizes, INFINITY, name, "radius (m)", error);
-    if (status) return status;
-    if (is_plane(b)) {
-        status = check_vector(b->normal, rst_positions, name, normal, error);
-        return status ? status : check_member(length(from(b->normal)), rst_lengths, NAN, name, " normal", error);
-    }
-    status = check_vector(b->spin, rst_spins, name, spin, error);
-    if (!status) status = check_member(b->mass, rst_sizes, INFINITY, name, "mass (kg)", error);
-    if (!status) status = check_member(b->inertia, rst_inertias, 0, name, "inertia (kg m^2)", error);
-    return status;
-}
-
-/* One of two bodies can move. */
-static inline int check_bodies(const restitute_body *a, const restitute_body *b, restitute_error *error)
-{
-    int status = check_body(a, "first", error);
-    if (!status) status = check_body(b, "second", error);
-    if (status) return status;
-    if (is_plane(a) || isinf(a->mass))
-        if (is_plane(b) || isinf(b->mass))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                              "first and second cannot move: one must have a finite mass");
-    return RESTITUTE_OK;
-}
+} rst_vector;
 
 /* Frame of the impact: n from `a` into `b`, t along the sliding of a's surface on b's. `a` can move. */
-struct frame {
-    vector n, t;
+struct rst_frame {
+    rst_vector n, t;
     double gap, reach;     /* m: distance of the surfaces, and what it is compared with */
     double approach;       /* m/s: normal speed at which they close */
     double sliding;        /* m/s: of the contact point, along t, >= 0 */
@@ -109,97 +22,23 @@ struct frame {
     double spin_a, spin_b; /* rad/s: along n x t, with the sign of restitute_scene */
 };
 
-static inline vector direction(vector a, vector fallback)
+static inline int rst_is_plane(const restitute_body *body)
 {
-    double size = length(a);
-    return size > 0 ? (vector){{a.x[0] / size, a.x[1] / size, a.x[2] / size}} : fallback;
+    return isinf(body->radius);
 }
 
-/* Any unit vector across n. */
-static inline vector across(vector n)
-{
-    vector axis = {{0, 0, 0}};
-    const int smaller = fabs(n.x[0]) < fabs(n.x[1]) ? 0 : 1; /* below 0.71 */
-    axis.x[smaller] = 1;
-    vector c = cross(n, axis);
-    return combine(1 / length(c), c, 0, c);
-}
+/* All members are in their ranges, and one of the bodies can move. */
+int rst_check_bodies(const restitute_body *a, const restitute_body *b, restitute_error *error);
 
-static inline struct frame frame_of(const restitute_body *a, const restitute_body *b)
-{
-    struct frame f;
-    vector apart = combine(1, from(b->position), -1, from(a->position));
-    if (is_plane(b)) {
-        f.n = direction(combine(-1, from(b->normal), 0, apart), apart);
-        f.gap = dot(apart, f.n) - a->radius;
-        f.reach = a->radius;
-    } else {
-        f.n = direction(apart, (vector){{1, 0, 0}});
-        f.gap = length(apart) - a->radius - b->radius;
-        f.reach = a->radius + b->radius;
-    }
-    vector velocity = combine(1, from(a->velocity), -1, from(b->velocity));
-    vector rolling = combine(a->radius, from(a->spin), 0, from(a->spin));
-    if (!is_plane(b)) rolling = combine(1, rolling, b->radius, from(b->spin));
-    vector point = combine(1, velocity, 1, cross(rolling, f.n));
-    f.approach = dot(velocity, f.n);
-    vector tangential = combine(1, point, -dot(point, f.n), f.n);
-    f.t = direction(tangential, across(f.n));
-    f.sliding = dot(point, f.t);
-    f.translation = dot(velocity, f.t);
-    vector axis = cross(f.n, f.t); /* (w x n).t = w.(n x t) */
-    f.spin_a = dot(from(a->spin), axis);
-    f.spin_b = is_plane(b) ? 0 : dot(from(b->spin), axis);
-    return f;
-}
+struct rst_frame rst_frame_of(const restitute_body *a, const restitute_body *b);
 
-static inline int check_approach(const struct frame *f, double touch_gap, restitute_error *error)
-{
-    if (f->gap > touch_gap * f->reach)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "gap = %g m: the bodies do not touch, must be <= %g m", f->gap,
-                          touch_gap * f->reach);
-    if (f->gap < -largest_overlap * f->reach)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "overlap = %g m: must be <= %g m, a tenth of the radii",
-                          -f->gap, largest_overlap * f->reach);
-    if (!(f->approach > 0))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "approach speed = %g m/s: must be > 0, the bodies are not closing", f->approach);
-    return RESTITUTE_OK;
-}
-
-static inline double inertia_of(const restitute_body *body)
-{
-    return body->inertia > 0 ? body->inertia : 0.4 * body->mass * body->radius * body->radius;
-}
+/* They touch and approach. */
+int rst_check_approach(const struct rst_frame *f, double touch_gap, restitute_error *error);
 
 /* Mobility of the contact point along t. */
-static inline double mobility_of(const restitute_body *body)
-{
-    if (is_plane(body) || isinf(body->mass)) return 0;
-    return 1 / body->mass + body->radius * body->radius / inertia_of(body);
-}
-
-/* An impulse at the contact point, which lies at side * radius * n from the centre. */
-static inline void strike(restitute_body *body, double side, const struct frame *f, vector impulse)
-{
-    if (is_plane(body) || isinf(body->mass)) return;
-    vector velocity = combine(1, from(body->velocity), 1 / body->mass, impulse);
-    vector spin = combine(1, from(body->spin), side * body->radius / inertia_of(body), cross(f->n, impulse));
-    for (int i = 0; i < 3; i++) {
-        body->velocity[i] = velocity.x[i];
-        body->spin[i] = spin.x[i];
-    }
-}
+double rst_mobility_of(const restitute_body *body);
 
 /* The bodies part with the pair (ez, ex). `a` can move. */
-static inline void part_with(double ez, double ex, const struct frame *f, restitute_body *a, restitute_body *b)
-{
-    double inverse_mass = 1 / a->mass + (is_plane(b) ? 0 : 1 / b->mass);
-    double normal = (1 + ez) * f->approach / inverse_mass;
-    double tangential = (1 + ex) * f->sliding / (mobility_of(a) + mobility_of(b));
-    vector impulse = combine(-normal, f->n, -tangential, f->t);
-    strike(a, 1, f, impulse);
-    strike(b, -1, f, combine(-1, impulse, 0, impulse));
-}
+void rst_part_with(double ez, double ex, const struct rst_frame *f, restitute_body *a, restitute_body *b);
 
 #endif

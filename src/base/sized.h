@@ -1,0 +1,56 @@
+/* Structs that grow at their end: a caller's is shorter than ours where it was compiled with older headers.
+ *
+ * RST_DEFAULTS defines the _init_sized function of a struct. An entry point checks what it is given (RST_CHECK), reads
+ * an input through a copy of full length (RST_TAKE) and writes no more of an output than the caller has (RST_GIVE).
+ * Hot calls read in place what every caller has: the members of the first release.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RST_SIZED_H
+#define RST_SIZED_H
+
+#include <restitute/restitute.h>
+
+#include "base/first_release.h"
+
+struct rst_layout {
+    const char *name;
+    size_t first, size; /* bytes in the first release that has the struct, and now */
+};
+
+#define RST_SIZE_UP_TO(type, member) (offsetof(type, member) + sizeof(((type *)0)->member))
+
+#define RST_LAYOUT(NAME)                                                                                               \
+    {                                                                                                                  \
+        "restitute_" #NAME, RST_SIZE_UP_TO(restitute_##NAME, RST_LAST_##NAME), sizeof(restitute_##NAME)                \
+    }
+
+/* Defines restitute_NAME_init_sized with the defaults that are named; all else is 0. */
+#define RST_DEFAULTS(NAME, ...)                                                                                        \
+    void restitute_##NAME##_init_sized(restitute_##NAME *value, size_t size)                                           \
+    {                                                                                                                  \
+        static const restitute_##NAME defaults = {__VA_ARGS__};                                                        \
+        rst_init(value, size, &defaults, sizeof defaults);                                                             \
+    }
+
+/* A status: `value`, a struct restitute_NAME of the caller, was prepared with headers that are not later than ours. */
+#define RST_CHECK(NAME, value, error) rst_check_layout(&(const struct rst_layout)RST_LAYOUT(NAME), value, error)
+
+/* Ours becomes theirs, which is checked, with defaults for what they have not. */
+#define RST_TAKE(NAME, ours, theirs) (restitute_##NAME##_init(ours), rst_copy(ours, sizeof *(ours), theirs))
+
+/* Theirs, which is checked, becomes ours as far as they have it. */
+#define RST_GIVE(ours, theirs) rst_copy(theirs, sizeof *(theirs), ours)
+
+void rst_init(void *value, size_t size, const void *defaults, size_t size_of_defaults);
+
+int rst_check_layout(const struct rst_layout *layout, const void *value, restitute_error *error);
+
+/* All but struct_size, as long as the shorter of both; `size` is our own size of either. */
+void rst_copy(void *to, size_t size, const void *from);
+
+/* The i-th of an array of the caller's: the first names the distance. */
+static inline void *rst_at(const void *array, size_t i)
+{
+    return (char *)array + i * *(const size_t *)array;
+}
+
+#endif
