@@ -31,16 +31,21 @@ static int solve(const struct rst_problem *problem, struct rst_workspace *worksp
     return rst_cvode_solve(problem, (struct cvode_memory *)workspace->own, keep_ledger, outcome, error);
 }
 
-static int record(const struct rst_problem *problem, struct rst_workspace *workspace,
-                  const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
+static int record(const struct rst_problem *problem, struct rst_workspace *workspace, const struct rst_outcome *outcome,
+                  struct rst_history *history, restitute_error *error)
 {
     return rst_cvode_record(problem, (struct cvode_memory *)workspace->own, outcome, history, error);
 }
 
+/* What is counted are elements, and terms of each, at every evaluation of the rates and of the rootfunctions: 2 to 25 ns
+ * each with elements, 10 in the mean of impacts to 1e-5 (measured, x86-64). */
+#define UPDATES_PER_SECOND 1e8
+
 #define BASE(word)                                                                                                     \
     {                                                                                                                  \
         .struct_size = sizeof(struct restitute_method), .number = RST_METHOD_NUMBER, .name = (word), .time_limit = 1,  \
-        .updates_per_second = 1e9, .reserve = reserve, .records_between_steps = 1, .solve = solve, .record = record    \
+        .updates_per_second = UPDATES_PER_SECOND, .reserve = reserve, .records_between_steps = 1, .solve = solve,      \
+        .record = record                                                                                               \
     }
 
 static const enum integrator_family bdf = INTEGRATOR_BDF, adams = INTEGRATOR_ADAMS;

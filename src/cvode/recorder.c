@@ -58,7 +58,8 @@ const restitute_method *restitute_cvode_recorder_method(const restitute_cvode_re
 static int check_recorder(const restitute_cvode_recorder *recorder, const void *output, const char *name,
                           restitute_error *error)
 {
-    if (!recorder || !output) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? name : "recorder");
+    if (!recorder || !output)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? name : "recorder");
     if (recorder->record.work.steps == 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the recorder has not seen an impact yet");
     return RESTITUTE_OK;
@@ -89,7 +90,8 @@ int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder, re
     if (status) return status;
     RST_TAKE(cvode_events, &own, events);
     if (own.capacity > 0 && !own.event)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu", own.capacity);
+        return rst_report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
+                          own.capacity);
     hand_out(&recorder->record, &own);
     RST_GIVE(&own, events);
     return rst_done(error);
