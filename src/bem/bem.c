@@ -166,7 +166,7 @@ static int find_box(struct impact *impact, restitute_error *error)
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                       "the method bem finds no box and step for this solid: its impact and its relaxation are too far "
                       "apart; take another method");
 }

@@ -632,23 +632,26 @@ static int is_late(struct run *run)
 static int check_work(struct run *run)
 {
     const struct run_setup *s = run->setup;
-    if (run->event_count > s->most_events * (s->n_nodes + 4))
-        snprintf(run->text, sizeof run->text,
+    const size_t size = sizeof run->text;
+    int status = RESTITUTE_OK;
+    if (run->event_count > s->most_events * (s->n_nodes + 4)) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size,
                  "an event storm: %lld events of %lld elements, which change between stick and slip without end",
                  (long long)run->event_count, (long long)s->n_nodes);
-    else if (rst_integrator_work(run->integrator).steps > s->most_steps)
-        snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
-    else if (spent(run) > s->budget) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "max_updates = %lld: spent in a run with elements = %lld; raise it",
+    } else if (rst_integrator_work(run->integrator).steps > s->most_steps) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
+    } else if (spent(run) > s->budget) {
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "max_updates = %lld: spent in a run with elements = %lld; raise it",
                  (long long)s->max_updates, (long long)s->n_nodes);
     } else if (is_late(run)) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "time_limit = %g s: spent in a run with elements = %lld; raise it",
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "time_limit = %g s: spent in a run with elements = %lld; raise it",
                  s->timed->time_limit, (long long)s->n_nodes);
-    } else
-        return RESTITUTE_OK;
-    return RESTITUTE_ERROR_TOO_MUCH_WORK;
+    }
+    return status;
 }
 
 int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)

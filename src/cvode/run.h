@@ -69,7 +69,6 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
-    int spent;      /* a limit is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
     int64_t checks; /* of work */
     double seconds; /* that it took, of timed runs */
     char text[200];

@@ -197,6 +197,12 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
 }
 
+/* What ends a finer run leaves the coarser ones as they are. */
+static int is_obstacle(int status)
+{
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
+}
+
 /* Three runs, the last with n of the `wanted` elements, each with twice as many as the one before. */
 struct ladder {
     struct run run[3];
@@ -220,7 +226,7 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
         setup->budget = (setup->max_updates - memory->updates) / 8;
         if (setup->timed) setup->until = setup->timed->deadline - rst_time_left(setup->timed) * 7 / 8;
         status = solve_elements(setup, ladder->n, memory, NULL, &ladder->run[2], error);
-        if (!ladder->run[2].spent || ladder->n == 1) return status;
+        if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || ladder->n == 1) return status;
     }
 }
 
@@ -257,7 +263,7 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     if (status) return status;
     while (runs < 3 && !status && can_climb(setup, memory, ladder)) {
         status = climb(setup, memory, ladder, error);
-        if (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+        if (status && !is_obstacle(status)) return status;
         runs += !status;
     }
     for (; runs < 3; runs++) { /* run[2], and run[1] if there are two, have been done */
@@ -297,7 +303,7 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
         restitute_error failure;
         status = climb(setup, memory, &ladder, &failure);
         outcome->updates = memory->updates;
-        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, failure.message, error);
+        if (is_obstacle(status)) return too_coarse(problem, outcome, failure.message, error);
         if (status && error) *error = failure;
     }
     return status;

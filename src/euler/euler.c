@@ -155,7 +155,7 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     const int late = advance_within(problem, &scene, &l, *updates, run);
     *updates += run->state.n_updates * (1 + problem->solid.n_terms);
     if (run->state.phase == RST_STALLED)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                           "rebound too slow: steps of %.3g %s are lost in the rounding of the indentation; "
                           "the damping is too strong for this method",
                           run->step * problem->time_unit, problem->unit_name);
@@ -263,6 +263,10 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         before_ex = ex;
         last = now;
     }
+    if (found && status == RESTITUTE_ERROR_CONVERGENCE)
+        return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); finer steps are lost in rounding",
+                          problem->tolerance, outcome->error_ez, outcome->error_ex);
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,

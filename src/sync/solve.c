@@ -29,13 +29,13 @@ static double full_slip(const struct rst_problem *problem, double velocity)
     return problem->psi - 2 * problem->chi * (1 - velocity);
 }
 
-static int too_hard(const struct rst_problem *problem, restitute_error *error)
+static int did_not_converge(const struct rst_problem *problem, restitute_error *error)
 {
     if (problem->elements > 0)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                           "elements = %lld: sync did not converge for this solid; use the method euler or another number",
                           (long long)problem->elements);
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                       "sync did not converge for this solid; use the method euler");
 }
 
@@ -192,7 +192,7 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
         if (!walks && (problem->elements > 0 || rst_meets(problem, outcome))) return RESTITUTE_OK;
         if (!walks && rst_larger_error(outcome) < rst_larger_error(&best)) best = *outcome;
     }
-    if (known < 2) return too_hard(problem, error);
+    if (known < 2) return did_not_converge(problem, error);
     if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
         rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip at all */
         outcome->error_ex = INFINITY;
@@ -202,13 +202,14 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     return return_best(motion, problem, &best, fine, outcome, error);
 }
 
-/* Where fine runs are lost in rounding coarser ones may not be, and their estimate says what they are worth. */
+/* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says what they are worth. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {
     const int first = first_halvings(problem);
     const int status = refine_from(motion, problem, first, fine, outcome, error);
-    if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || first == 1) return status;
+    const int fails = status == RESTITUTE_ERROR_CONVERGENCE || status == RESTITUTE_ERROR_TOO_MUCH_WORK;
+    if (!fails || first == 1) return status;
     return refine_from(motion, problem, 1, fine, outcome, error);
 }
 

@@ -91,7 +91,7 @@ static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
         int status = rst_column_begin(&b->solver[0], rst_axis_speed(at), error);
         if (!status) status = rst_column_normal(&b->solver[0], &middle, error);
         b->impacts++;
-        if (status < 0 && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+        if (status < 0 && !rst_column_is_too_hard(status)) return status;
         *(status >= 0 && middle.sunk ? &low : &high) = at;
     }
     const double at = 0.5 * (low + high);

@@ -72,7 +72,7 @@ void rst_column_solver_destroy(struct rst_column_solver *s)
 /* A status < 0 with the place of the column that it is about. */
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
-    if (why->status == RESTITUTE_ERROR_TOO_MUCH_WORK)
+    if (rst_column_is_too_hard(why->status))
         return rst_report(error, why->status,
                           "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding: the damping "
                           "is too strong for a table; lower the upper end of speed",

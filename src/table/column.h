@@ -42,6 +42,12 @@ struct rst_column_normal {
     int sunk;
 };
 
+/* The solver may fail where a sphere hardly rebounds. */
+static inline int rst_column_is_too_hard(int status)
+{
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
+}
+
 /* These return a status < 0 with its message, else OK. */
 
 /* Begin the column at a speed, in m/s. */

@@ -82,7 +82,7 @@ int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, res
     int status = RESTITUTE_OK;
     for (int64_t i = n - 1; i >= 0; i--) {
         b->impacts += task[i].column.impacts;
-        if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail))
+        if (task[i].status < 0 && !(task[i].may_fail && rst_column_is_too_hard(task[i].status)))
             status = rst_report(error, task[i].status, "%s", task[i].why.message);
     }
     for (int64_t i = 0; status && i < n; i++)

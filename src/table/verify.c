@@ -113,7 +113,7 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     restitute_table_value pair;
     int status = rst_column_begin(s, c->speed, &c->why);
     if (!status) status = rst_column_normal(s, &normal, &c->why);
-    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
+    if (rst_column_is_too_hard(status) && b->column[c->cell].normal.ez <= 0) {
         bound(b, c); /* just above the lowest speed with a rebound */
         return RESTITUTE_OK;
     }
