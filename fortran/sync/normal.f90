@@ -16,7 +16,7 @@ module rst_normal_motion
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
   !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that
-  !> will not be faster than normal%left; that the panels given are too few; nothing.
+  !> will not be faster than normal%residual_speed; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
   real(dp), parameter :: largest_unresolved_rebound = 1.0e-2_dp !! one that is slower is unknown otherwise
@@ -38,7 +38,7 @@ module rst_normal_motion
 
 contains
 
-  !> From first touch to the end of contact. Given are the solid, normal%radius and normal%closeness.
+  !> From first touch to the end of contact. Given are the solid, normal%scale and normal%closeness.
   subroutine follow_normal(control, normal, found)
     type(normal_control_type), intent(in) :: control
     type(normal_type), intent(inout) :: normal
@@ -74,7 +74,7 @@ contains
         panel(n)%from = merge(whole - place, place, back)*unit
         panel(n)%to = merge(whole - place - width, place + width, back)*unit
         call solve_panel(back, n, fails)
-        if (.not. fails) fails = missed(normal%radius, panel(n), back) > control%roughness
+        if (.not. fails) fails = missed(normal%scale, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
           if (width > 0) cycle
@@ -86,7 +86,7 @@ contains
         place = place + width
         if (.not. back) then
           found = stops
-          normal%left = control%stop_speed
+          normal%residual_speed = control%stop_speed
           if (has_stopped(normal, control%stop_speed)) return
         end if
         if (width < widest .and. modulo(place, 2*width) == 0) width = 2*width
@@ -141,8 +141,8 @@ contains
       integer(ip), intent(out) :: found
       found = does_not_converge
       if (normal%n_panels == 0) return
-      normal%left = fastest_later(normal)
-      if (.not. normal%left < largest_unresolved_rebound) return
+      normal%residual_speed = fastest_later(normal)
+      if (.not. normal%residual_speed < largest_unresolved_rebound) return
       found = stops
       normal%n_panels = normal%n_compression
     end subroutine give_up
@@ -197,12 +197,12 @@ contains
 
   !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
   !> restitution follows from slopes of what the compression left.
-  pure function missed(r, panel, back) result(most)
-    real(dp), intent(in) :: r
+  pure function missed(scale, panel, back) result(most)
+    real(dp), intent(in) :: scale
     type(panel_type), intent(in) :: panel
     logical, intent(in) :: back
     real(dp) :: most
-    most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/r, &
+    most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/scale, &
                last_coefficient(panel%time)/panel%time(stages))
     if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
   end function missed

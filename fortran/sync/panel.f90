@@ -13,10 +13,10 @@ module rst_panel
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> The normal motion of a solid, views of the caller's arrays. radius: the scale r of A in theta; closeness: when iterations end;
-  !> left: the speed that a sphere that has stopped will not exceed.
+  !> The normal motion of a solid, views of the caller's arrays. scale: r of A in theta; closeness: when iterations end;
+  !> residual_speed: the speed that a sphere that has stopped will not exceed.
   type :: normal_type
-    real(dp) :: eta, radius, closeness, left
+    real(dp) :: eta, scale, closeness, residual_speed
     integer(ip) :: n_arms, n_compression, n_panels
     real(dp), pointer, contiguous :: g(:), rate(:)
     type(panel_type), pointer, contiguous :: panel(:)
