@@ -10,7 +10,7 @@ module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
   use rst_panel, only: normal_type
-  use rst_store, only: store_type, of_touch, of_arm
+  use rst_store, only: store_type, of_touch, of_arm, sticks
   implicit none (type, external)
   private
   public :: element_type, margin_type, element_at, find_front, memory_force_at
@@ -36,10 +36,11 @@ contains
 
   !> The front among the elements up to the outermost one. margin%accuracy and margin%at_centre are given, and margin%angle, where
   !> to begin the search. Where even the outermost element has y > 0, the front is there, and H is continued as if all stuck.
-  subroutine find_front(normal, store, time, side, outermost_angle, outermost, margin)
+  subroutine find_front(normal, store, time, sense, outermost_angle, outermost, margin)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    real(dp), intent(in) :: time, side, outermost_angle
+    real(dp), intent(in) :: time, outermost_angle
+    integer(kind(sticks)), intent(in) :: sense
     type(element_type), intent(in) :: outermost
     type(margin_type), intent(inout) :: margin
     type(element_type) :: element
@@ -62,7 +63,7 @@ contains
     high = outermost_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
     do n = 1, most_iterations
-      call element_at(normal, store, time, side, theta, element)
+      call element_at(normal, store, time, sense, theta, element)
       y = margin%at_centre - element%deficit
       if (y > 0) low = theta
       if (y <= 0) high = theta
@@ -118,7 +119,7 @@ contains
     integer(ip) :: last, middle
     record = 1
     last = store%n_records
-    do while (record < last)
+    do while (record < last) ! as range_at, of which compilers would copy the argument
       middle = (record + last + 1)/2
       if (theta < store%record(middle)%from) last = middle - 1
       if (theta >= store%record(middle)%from) record = middle
@@ -130,10 +131,11 @@ contains
 
   !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
   !> dy/dtheta = -v_d ds/dtheta sum_k g_k E_k.
-  subroutine element_at(normal, store, time, side, theta, element)
+  subroutine element_at(normal, store, time, sense, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    real(dp), intent(in) :: time, side, theta
+    real(dp), intent(in) :: time, theta
+    integer(kind(sticks)), intent(in) :: sense
     type(element_type), intent(out) :: element
     real(dp) :: weight(0:stages), touch(of_touch), both(of_arm), arm(2), ago, fade, answer
     integer(ip) :: k, record
@@ -148,13 +150,13 @@ contains
       fade = 1
       if (normal%rate(k) > 0) fade = exp(-normal%rate(k)*ago)
       both = corrective_at(weight, store%corrective, k, record)
-      arm = merge(both(:2), both(3:), side > 0)
+      arm = merge(both(:2), both(3:), sense > 0)
       element%deficit = element%deficit + fade*arm(1)
       element%loading = element%loading + fade*arm(2)
       answer = answer + normal%g(k)*fade
     end do
     element%distance = touch(1)
-    element%slope = -(touch(3) - side*touch(4))*answer
+    element%slope = -(touch(3) - sense*touch(4))*answer
     element%stretch = 0
     if (element%distance > 0) element%stretch = touch(3)/(2*element%distance)
   end subroutine element_at

@@ -1,7 +1,7 @@
 !> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
 module rst_piece
   use rst_precision, only: dp, ip
-  use rst_motion_factors, only: mass_factor
+  use rst_motion_factors, only: shear_factor
   use rst_collocation, only: stages, point, integral, weights_at, integrated, applied, factors_type, &
                              factorize, solution_of
   use rst_arms, only: respond_all, answer_of, advance
@@ -9,7 +9,7 @@ module rst_piece
   use rst_store, only: contact_type, store_type
   implicit none (type, external)
   private
-  public :: interval_type, set_interval, stick, advance_memory, push_factor, value_on
+  public :: interval_type, set_interval, stick, advance_memory
 
   !> A piece: its panel, the part of it, whether in the root of what is left; the normal motion at its start and at its points;
   !> span: time per x of the piece; answer: of the stress of an element in stick to U'.
@@ -22,13 +22,6 @@ module rst_piece
   end type interval_type
 
 contains
-
-  !> U'' = -(15/4) chi S
-  pure function push_factor(contact) result(push)
-    type(contact_type), intent(in) :: contact
-    real(dp) :: push
-    push = 2*mass_factor*contact%chi
-  end function push_factor
 
   !> The interval of the piece from x = interval%from to x = interval%to of a panel, which are given. In a rooted piece x is
   !> to - (to - from) (1 - y)^2 with y from 0 to 1.
@@ -126,7 +119,7 @@ contains
     real(dp) :: response(stages, stages), matrix(stages, stages), known_force(stages), push
     type(factors_type) :: factors
     integer(ip) :: j, k
-    push = push_factor(contact)
+    push = shear_factor*contact%chi ! U'' = -push S
     known_force = memory_force
     response = 0
     do k = 1, normal%n_arms
@@ -158,11 +151,4 @@ contains
     if (interval%returning) return
     call advance(normal%g, interval%span, store%kernel, interval%radius(1:)*shear_velocity(1:), store%loading_x)
   end subroutine stick
-
-  !> The polynomial through y at the place on the piece, which is between 0 and 1.
-  pure function value_on(place, y) result(value)
-    real(dp), intent(in) :: place, y(0:stages)
-    real(dp) :: value
-    value = sum(weights_at(place)*y)
-  end function value_on
 end module rst_piece

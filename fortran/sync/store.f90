@@ -4,7 +4,12 @@ module rst_store
   use rst_collocation, only: stages
   implicit none (type, external)
   private
-  public :: contact_type, record_type, piece_type, store_type, of_touch, of_arm
+  public :: contact_type, record_type, piece_type, store_type, of_touch, of_arm, backward, sticks, forward
+
+  !> Sense d of the slip at the edge.
+  enum, bind(c)
+    enumerator :: backward = -1, sticks = 0, forward = 1
+  end enum
 
   !> Kinds of values of an element and of each of its arms, beside each other since one needs all of them at an angle.
   integer(ip), parameter :: of_touch = 4, of_arm = 4

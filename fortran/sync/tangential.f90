@@ -3,10 +3,10 @@ module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
-  use rst_panel, only: normal_type
-  use rst_store, only: contact_type, piece_type, store_type
+  use rst_panel, only: normal_type, range_at
+  use rst_store, only: contact_type, piece_type, store_type, backward, sticks, forward
   use rst_piece, only: interval_type, set_interval, advance_memory
-  use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_reverses
+  use rst_slip, only: solution_type, take_piece, solved, sticks_again, no_event, slip_begins, stick_ends, slip_reverses
   implicit none (type, external)
   private
   public :: follow_contact, find_velocity, solved, sticks_again, lacks_pieces
@@ -27,45 +27,62 @@ contains
     integer(ip), intent(out) :: found
     type(interval_type) :: interval
     type(solution_type) :: s
-    integer(ip) :: panel, event, idle
-    real(dp) :: x, side
+    integer(kind(sticks)) :: sense
+    integer(kind(no_event)) :: event
+    integer(ip) :: panel, idle
+    real(dp) :: x
     call start(normal, contact, store, panel, x, velocity)
     found = lacks_pieces
     if (panel == 0) return
-    side = 0
+    sense = sticks
+    event = no_event
     idle = 0
-    event = nothing
     do while (panel <= normal%n_panels)
       found = lacks_pieces
       if (store%n_pieces >= size(store%piece) .or. store%n_records >= size(store%record)) return
-      if (.not. abs(side) > 0 .and. panel > normal%n_compression .and. contact%no_slip == 0) &
-        side = sign(1.0_dp, velocity) ! the edge of a shrinking contact slips
+      if (sense == sticks .and. panel > normal%n_compression .and. contact%no_slip == 0) &
+        sense = sense_of(velocity) ! the edge of a shrinking contact slips
       s%shear_velocity(0) = velocity
-      call take_piece(normal, contact, store, panel, x, side, interval, s, event, found)
+      call take_piece(normal, contact, store, panel, x, sense, interval, s, event, found)
       if (found /= solved) return
       velocity = s%shear_velocity(stages)
-      if (interval%to > x) then
-        call keep(normal, side, interval, s, store)
-        idle = 0
-      else
-        idle = idle + 1
-        found = sticks_again
-        if (idle > most_idle) return
-      end if
+      idle = idle + 1
+      if (interval%to > x) idle = 0
+      if (idle == 0) call keep(normal, sense, interval, s, store)
+      found = sticks_again
+      if (idle > most_idle) return
       x = interval%to
-      if (event == slip_begins) side = sign(1.0_dp, velocity)
-      if (event == slip_begins .and. (store%n_records == 0 .or. sum(store%memory_z(stages, :) - side*store%memory_x(0, :)) &
-                                      < weightless*contact%stress)) event = stick_ends ! nothing has stuck, or but in rounding
+      select case (event)
+      case (slip_begins)
+        sense = sense_of(velocity)
+        if (.not. has_stuck(contact, sense, store)) event = stick_ends
+      case (slip_reverses)
+        sense = -sense
+      end select
       if (event == stick_ends) exit
-      if (event == slip_reverses) side = -side
       if (x >= 1) then
         panel = panel + 1
         x = 0
       end if
     end do
     found = solved
-    if (event == stick_ends) call slide(normal, contact, store, panel, x, side, velocity, found)
+    if (event == stick_ends) call slide(normal, contact, store, panel, x, sense, velocity, found)
   end subroutine follow_contact
+
+  pure function sense_of(velocity) result(sense)
+    real(dp), intent(in) :: velocity
+    integer(kind(sticks)) :: sense
+    sense = merge(backward, forward, velocity < 0)
+  end function sense_of
+
+  !> Whether elements stick at the end of a piece in stick, and not in rounding alone: the one at the centre has a margin.
+  pure function has_stuck(contact, sense, store) result(yes)
+    type(contact_type), intent(in) :: contact
+    integer(kind(sticks)), intent(in) :: sense
+    type(store_type), intent(in) :: store
+    logical :: yes
+    yes = store%n_records > 0 .and. sum(store%memory_z(stages, :) - sense*store%memory_x(0, :)) >= weightless*contact%stress
+  end function has_stuck
 
   !> First touch, or the end of gross slip, at which D' = U': until then an element has the same stress in x as in z. panel is 0 if
   !> there is no room for the records of it.
@@ -114,10 +131,7 @@ contains
     real(dp), intent(out) :: x
     real(dp) :: above(0:stages)
     integer(ip) :: i
-    panel = 1
-    do while (normal%panel(panel)%velocity(stages) > velocity .and. panel < normal%n_panels)
-      panel = panel + 1
-    end do
+    panel = range_at(-velocity, -normal%panel(:normal%n_panels)%velocity(0))
     above = normal%panel(panel)%velocity - velocity
     i = 1
     x = 1
@@ -152,9 +166,9 @@ contains
   end subroutine record_slip
 
   !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end starts the next one.
-  subroutine keep(normal, side, interval, s, store)
+  subroutine keep(normal, sense, interval, s, store)
     type(normal_type), intent(in) :: normal
-    real(dp), intent(in) :: side
+    integer(kind(sticks)), intent(in) :: sense
     type(interval_type), intent(in) :: interval
     type(solution_type), intent(in) :: s
     type(store_type), intent(inout) :: store
@@ -163,7 +177,7 @@ contains
     store%n_pieces = store%n_pieces + 1
     store%piece(store%n_pieces) = piece_type(interval%panel, merge(1_ip, 0_ip, interval%rooted), interval%from, interval%to, &
                                              s%shear_velocity, s%shear_force, s%stick_radius)
-    if (.not. abs(side) > 0 .and. .not. interval%returning) then
+    if (sense == sticks .and. .not. interval%returning) then
       n = store%n_records + 1
       store%n_records = n
       store%record(n)%from = interval%angle(0)
@@ -188,12 +202,13 @@ contains
 
   !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its stick
   !> margin y stays 0, which asks for the velocity v, and it slips with v - v_d.
-  subroutine slide(normal, contact, store, panel, x, side, velocity, found)
+  subroutine slide(normal, contact, store, panel, x, sense, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: x, side
+    real(dp), intent(in) :: x
+    integer(kind(sticks)), intent(in) :: sense
     real(dp), intent(inout) :: velocity
     integer(ip), intent(out) :: found
     type(interval_type) :: interval
@@ -206,30 +221,31 @@ contains
     weight = weights_at(x)
     m => store%loading_x ! which gross slip does not need
     do k = 1, normal%n_arms
-      m(0, k) = sum(weight*normal%memory(:, k, panel)) - side*store%memory_x(0, k)
+      m(0, k) = sum(weight*normal%memory(:, k, panel)) - sense*store%memory_x(0, k)
     end do
     do p = panel, normal%n_panels
       found = lacks_pieces
       if (store%n_pieces >= size(store%piece)) return
       if (from < 1) then
         s%shear_velocity(0) = velocity
-        call slide_piece(normal, contact, store, p, from, side, m, interval, s, lasts)
+        call slide_piece(normal, contact, store, p, from, sense, m, interval, s, lasts)
         found = sticks_again
         if (.not. lasts) return
         velocity = s%shear_velocity(stages)
-        call keep(normal, side, interval, s, store)
+        call keep(normal, sense, interval, s, store)
       end if
       from = 0
     end do
     found = solved
   end subroutine slide
 
-  subroutine slide_piece(normal, contact, store, panel, from, side, m, interval, s, lasts)
+  subroutine slide_piece(normal, contact, store, panel, from, sense, m, interval, s, lasts)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: from, side
+    real(dp), intent(in) :: from
+    integer(kind(sticks)), intent(in) :: sense
     real(dp), pointer, contiguous, intent(in) :: m(:, :)
     type(interval_type), intent(out) :: interval
     type(solution_type), intent(inout) :: s
@@ -245,8 +261,8 @@ contains
     lasts = .false.
     call set_interval(normal, store, interval, fails)
     if (fails) return
-    s%shear_velocity(1:) = s%shear_velocity(0) + 2*contact%chi*side*(interval%velocity(1:) - interval%velocity(0))
-    s%shear_force = side*interval%force
+    s%shear_velocity(1:) = s%shear_velocity(0) + 2*contact%chi*sense*(interval%velocity(1:) - interval%velocity(0))
+    s%shear_force = sense*interval%force
     s%stick_radius = 0
     known = 0
     do k = 1, normal%n_arms
@@ -255,7 +271,7 @@ contains
     call factorize(interval%answer, factors, fails)
     if (fails) return
     velocity = solution_of(factors, -known)
-    slip = velocity - (interval%velocity(1:) - side*s%shear_velocity(1:))
+    slip = velocity - (interval%velocity(1:) - sense*s%shear_velocity(1:))
     call advance(normal%g, interval%span, store%kernel, velocity, m)
     lasts = .true.
     do i = 1, stages

@@ -2,7 +2,7 @@
 !> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
 !> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
 module sync_probe
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between, &
                              factors_type, factorize, solution_of
@@ -166,10 +166,11 @@ contains
 
   !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has
   !> the memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
-  subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, side, out) bind(c)
+  subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, sense, out) bind(c)
     integer(c_int64_t), value :: n
+    integer(c_int), value :: sense
     real(c_double), intent(in) :: g(n), rate(n), m(n, 2)
-    real(c_double), value :: eta, shear, loaded, time, slip, side
+    real(c_double), value :: eta, shear, loaded, time, slip
     real(c_double), intent(out) :: out(4)
     type(margin_type) :: margin
     type(element_type) :: outermost
@@ -193,11 +194,11 @@ contains
         end do
       end associate
     end do
-    call element_at(normal, store, time, side, sqrt(loaded), outermost)
+    call element_at(normal, store, time, sense, sqrt(loaded), outermost)
     margin%angle = 0
-    margin%at_centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
+    margin%at_centre = eta*slip + sum(m(:, 1) - sense*m(:, 2))
     margin%accuracy = 1.0e-4_dp
-    call find_front(normal, store, time, side, sqrt(loaded), outermost, margin)
+    call find_front(normal, store, time, sense, sqrt(loaded), outermost, margin)
     out = [margin%stick_radius, margin%force, margin%at_centre, margin%at_edge]
   end subroutine probe_front
 
