@@ -20,9 +20,9 @@ static struct sync_panel panel[room];
 static struct sync_record record[room];
 static struct sync_piece piece[room];
 static double memory[rst_points * arms * room], loading[rst_points * arms * room],
-    held[rst_values * rst_points * arms * room];
+    corrective[rst_values * rst_points * arms * room];
 static double kernel[rst_stages * rst_points * arms * room], entry[2 * rst_stages * arms],
-    kernel_of_piece[rst_stages * rst_points * arms], now_z[rst_points * arms], now_x[rst_points * arms], now_l[rst_points * arms];
+    kernel_of_piece[rst_stages * rst_points * arms], memory_z[rst_points * arms], memory_x[rst_points * arms], loading_x[rst_points * arms];
 
 static double at(double x, const double y[rst_points])
 {
@@ -39,7 +39,7 @@ static void print_curves(const struct sync_store *store)
             double y = (double)i / samples, left = on->rooted ? (1 - y) * (1 - y) : 1 - y;
             double x = on->to - (on->to - on->from) * left;
             const struct sync_panel *of = &panel[on->panel - 1];
-            printf("%.6g %.6g %.6g\n", at(x, of->time), at(x, of->radius), fmax(0, at(y, on->stick)));
+            printf("%.6g %.6g %.6g\n", at(x, of->time), at(x, of->radius), fmax(0, at(y, on->stick_radius)));
         }
     }
 }
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
     const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8,
                                          .closeness = 1e-12, .stress = 1};
     struct sync_normal normal = {.n_arms = arms,
-                                 .radius = sqrt(0.4 * 0.84), /* about r of the largest indentation */
+                                 .scale = sqrt(0.4 * 0.84), /* about r of the largest indentation */
                                  .closeness = 1e-12,
                                  .g = g,
                                  .rate = rate,
@@ -85,11 +85,11 @@ int main(int argc, char **argv)
     struct sync_store store = {.capacity = room,
                                .record = record,
                                .piece = piece,
-                               .held = held,
-                               .room = kernel_of_piece,
-                               .now_z = now_z,
-                               .now_x = now_x,
-                               .now_l = now_l};
+                               .corrective = corrective,
+                               .kernel_room = kernel_of_piece,
+                               .memory_z = memory_z,
+                               .memory_x = memory_x,
+                               .loading_x = loading_x};
     rst_follow_normal(&control, &normal, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);

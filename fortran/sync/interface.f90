@@ -13,7 +13,7 @@ module rst_sync_interface
 
   !> Twin of `struct sync_normal` in C: see normal_type.
   type, bind(c) :: normal_arrays_type
-    real(c_double) :: eta, radius, closeness, left
+    real(c_double) :: eta, scale, closeness, residual_speed
     integer(c_int64_t) :: n_arms, n_compression, n_panels
     type(c_ptr) :: g, rate, panel, memory, loading, kernel, entry
   end type normal_arrays_type
@@ -21,7 +21,7 @@ module rst_sync_interface
   !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; the arrays are those of store_type.
   type, bind(c) :: store_arrays_type
     integer(c_int64_t) :: capacity, n_records, n_pieces
-    type(c_ptr) :: record, piece, held, room, now_z, now_x, now_l
+    type(c_ptr) :: record, piece, corrective, kernel_room, memory_z, memory_x, loading_x
   end type store_arrays_type
 
 contains
@@ -34,7 +34,7 @@ contains
     type(normal_type) :: n
     n = view_normal(normal, control%capacity)
     call follow_normal(control, n, found)
-    normal%left = n%left
+    normal%residual_speed = n%residual_speed
     normal%n_compression = n%n_compression
     normal%n_panels = n%n_panels
   end subroutine rst_follow_normal
@@ -76,9 +76,9 @@ contains
     type(normal_type) :: n
     real(c_double), pointer, contiguous :: flat(:, :, :), kernels(:, :, :, :)
     n%eta = normal%eta
-    n%radius = normal%radius
+    n%scale = normal%scale
     n%closeness = normal%closeness
-    n%left = normal%left
+    n%residual_speed = normal%residual_speed
     n%n_arms = normal%n_arms
     n%n_compression = normal%n_compression
     n%n_panels = normal%n_panels
@@ -103,17 +103,17 @@ contains
     s%n_pieces = 0
     call c_f_pointer(store%record, s%record, [store%capacity])
     call c_f_pointer(store%piece, s%piece, [store%capacity])
-    call c_f_pointer(store%held, flat, [of_arm, 1 + stages, n_arms, store%capacity])
-    s%held(1:, 0:, 1:, 1:) => flat
-    call c_f_pointer(store%room, kernels, [stages, 1 + stages, n_arms])
-    s%room(1:, 0:, 1:) => kernels
-    s%kernel => s%room
-    call c_f_pointer(store%now_z, line, [1 + stages, n_arms])
-    s%now_z(0:, 1:) => line
-    call c_f_pointer(store%now_x, line, [1 + stages, n_arms])
-    s%now_x(0:, 1:) => line
-    call c_f_pointer(store%now_l, line, [1 + stages, n_arms])
-    s%now_l(0:, 1:) => line
+    call c_f_pointer(store%corrective, flat, [of_arm, 1 + stages, n_arms, store%capacity])
+    s%corrective(1:, 0:, 1:, 1:) => flat
+    call c_f_pointer(store%kernel_room, kernels, [stages, 1 + stages, n_arms])
+    s%kernel_room(1:, 0:, 1:) => kernels
+    s%kernel => s%kernel_room
+    call c_f_pointer(store%memory_z, line, [1 + stages, n_arms])
+    s%memory_z(0:, 1:) => line
+    call c_f_pointer(store%memory_x, line, [1 + stages, n_arms])
+    s%memory_x(0:, 1:) => line
+    call c_f_pointer(store%loading_x, line, [1 + stages, n_arms])
+    s%loading_x(0:, 1:) => line
   end function view_store
 
   !> The weights of the points of a panel for a value at x.

@@ -87,7 +87,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     memcpy(held + motion->most_arms, asked + motion->most_arms, bytes);
     motion->n_arms = n;
     motion->eta = s->eta;
-    motion->radius = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
+    motion->scale = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
     for (int i = 0; i <= rst_most_halvings; i++)
         motion->run[i].found = RST_NOT_SOLVED;
     return 0;
@@ -119,7 +119,7 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     run->capacity = capacity;
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
-                                       .radius = motion->radius,
+                                       .scale = motion->scale,
                                        .closeness = fmax(10 * rst_rounding, rst_closeness * roughness),
                                        .g = motion->arms,
                                        .rate = motion->arms + motion->most_arms,
@@ -199,11 +199,11 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
-    s->held = next += pieces;
-    s->room = next += rst_values * points;
-    s->now_z = next += rst_stages * now;
-    s->now_x = next += now;
-    s->now_l = next + now;
+    s->corrective = next += pieces;
+    s->kernel_room = next += rst_values * points;
+    s->memory_z = next += rst_stages * now;
+    s->memory_x = next += now;
+    s->loading_x = next + now;
     return 0;
 }
 

@@ -26,7 +26,7 @@ struct rst_run {
 struct rst_motion {
     struct rst_own_memory own; /* released with the workspace */
     double *arms;              /* g and rate of the solid held, and of the one asked for */
-    double eta, radius, stop_speed;
+    double eta, scale, stop_speed;
     int64_t n_arms, most_arms;
     struct rst_run run[rst_most_halvings + 1];
     struct sync_store store;

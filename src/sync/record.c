@@ -56,9 +56,9 @@ static void follow_pieces(const struct trace *trace, int64_t panel, double x, in
     double weight[rst_points], y = (x - piece->from) / (piece->to - piece->from);
     if (piece->rooted) y = 1 - sqrt(fmax(0, 1 - y));
     rst_sync_weights_at(fmin(1, fmax(0, y)), weight);
-    sample->shear_velocity = rst_value_of(weight, piece->velocity);
-    sample->shear_force = 15.0 / 8.0 * rst_value_of(weight, piece->force);
-    sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick)));
+    sample->shear_velocity = rst_value_of(weight, piece->shear_velocity);
+    sample->shear_force = 15.0 / 8.0 * rst_value_of(weight, piece->shear_force);
+    sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick_radius)));
 }
 
 /* Between levels U' is a line. The walk does not say where the front is: the stick radius is 0 where all slips. */

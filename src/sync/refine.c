@@ -3,14 +3,14 @@
 #include "sync/verdict.h"
 #include "sync/walk.h"
 
-static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *ground,
+static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
                      int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)
 {
-    const double n = (double)(parts * (ground->normal.n_compression + 1));
+    const double n = (double)(parts * (run->normal.n_compression + 1));
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
     if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
     outcome->updates += (int64_t)work;
-    if (rst_walk(motion, ground, problem, RST_STICKS_SOMETIME, parts, walk))
+    if (rst_walk(motion, run, problem, RST_STICKS_SOMETIME, parts, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     return RESTITUTE_OK;
 }
@@ -32,7 +32,7 @@ static int is_as_good(const struct rst_problem *problem, const struct rst_run *r
 
 /* A walk has the ends of all panels among its levels. So it is over the coarsest run that is as good as the finest one, or else
  * over the finest that is not too fine for four walks. Returned are its halvings. */
-static int ground_of_walk(const struct rst_motion *motion, const struct rst_problem *problem, int finest)
+static int run_to_walk(const struct rst_motion *motion, const struct rst_problem *problem, int finest)
 {
     int halvings = finest;
     for (; halvings > 0; halvings--) {
@@ -71,22 +71,22 @@ static int can_double(const struct rst_problem *problem, int64_t n, double left,
 int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
                       struct rst_outcome *outcome, restitute_error *error)
 {
-    outcome->halvings = ground_of_walk(motion, problem, halvings);
-    const struct rst_run *ground = &motion->run[outcome->halvings];
-    const int64_t panels = ground->normal.n_compression;
+    outcome->halvings = run_to_walk(motion, problem, halvings);
+    const struct rst_run *run = &motion->run[outcome->halvings];
+    const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
     const double rest = outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
-                        (outcome->sunk ? 4 * problem->chi * ground->normal.left / problem->psi : 0); /* see compare */
+                        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->psi : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
     int64_t parts = 1 + (int64_t)first / panels;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * panels);
-    int status = walk_once(motion, problem, ground, parts, outcome, &coarse, error);
+    int status = walk_once(motion, problem, run, parts, outcome, &coarse, error);
     while (!status) {
         const double left = rst_time_left(problem);
         parts *= 2;
-        status = walk_once(motion, problem, ground, parts, outcome, &now, error);
+        status = walk_once(motion, problem, run, parts, outcome, &now, error);
         if (status) break;
         const double plain = now.velocity - coarse.velocity, last = extrapolated;
         double change = fabs(plain);

@@ -100,7 +100,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     const struct sync_panel *end = rst_last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
-    const double left = stops ? 2 * n->left : 0; /* its velocity changes by no more */
+    const double left = stops ? 2 * n->residual_speed : 0; /* its velocity changes by no more */
     const double least = rst_rounding + (problem->elements > 0 ? 0 : rst_least_estimate * problem->tolerance);
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;

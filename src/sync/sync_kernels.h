@@ -8,7 +8,7 @@
 /* Points of a panel beside its start. */
 enum { rst_stages = 6, rst_points = rst_stages + 1 };
 
-/* Values of an element at the edge, and of an arm of it: of_edge and of_arm. */
+/* Values of an element at the edge, and of an arm of it: of_touch and of_arm. */
 enum { rst_values = 4 };
 
 /* Twin of panel_type. */
@@ -27,7 +27,7 @@ struct sync_normal_control {
 
 /* Twin of normal_arrays_type. */
 struct sync_normal {
-    double eta, radius, closeness, left;
+    double eta, scale, closeness, residual_speed;
     int64_t n_arms, n_compression, n_panels;
     double *g, *rate;
     struct sync_panel *panel;
@@ -43,14 +43,14 @@ struct sync_contact {
 /* Twin of record_type. */
 struct sync_record {
     double from, to, end;
-    double edge[rst_points][rst_values];
+    double touch[rst_points][rst_values];
 };
 
 /* Twin of piece_type. */
 struct sync_piece {
     int64_t panel, rooted;
     double from, to;
-    double velocity[rst_points], force[rst_points], stick[rst_points];
+    double shear_velocity[rst_points], shear_force[rst_points], stick_radius[rst_points];
 };
 
 /* Twin of store_arrays_type. */
@@ -58,7 +58,7 @@ struct sync_store {
     int64_t capacity, n_records, n_pieces;
     struct sync_record *record;
     struct sync_piece *piece;
-    double *held, *room, *now_z, *now_x, *now_l;
+    double *corrective, *kernel_room, *memory_z, *memory_x, *loading_x;
 };
 
 /* What rst_follow_normal and rst_follow_contact found. */

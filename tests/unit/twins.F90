@@ -87,8 +87,8 @@ contains
                 c_loc(sync_normal_control%capacity), c_loc(sync_normal_control%n_coarse), &
                 c_loc(sync_normal_control%n_coarse_compression), c_loc(sync_normal_control%coarse)])
     case (6)
-      call put(c_sizeof(sync_normal), [c_loc(sync_normal%eta), c_loc(sync_normal%radius), &
-                c_loc(sync_normal%closeness), c_loc(sync_normal%left), c_loc(sync_normal%n_arms), &
+      call put(c_sizeof(sync_normal), [c_loc(sync_normal%eta), c_loc(sync_normal%scale), &
+                c_loc(sync_normal%closeness), c_loc(sync_normal%residual_speed), c_loc(sync_normal%n_arms), &
                 c_loc(sync_normal%n_compression), c_loc(sync_normal%n_panels), c_loc(sync_normal%g), &
                 c_loc(sync_normal%rate), c_loc(sync_normal%panel), c_loc(sync_normal%memory), &
                 c_loc(sync_normal%loading), c_loc(sync_normal%kernel), c_loc(sync_normal%entry)])
@@ -98,16 +98,16 @@ contains
                 c_loc(sync_contact%stress), c_loc(sync_contact%no_slip)])
     case (8)
       call put(c_sizeof(sync_record), [c_loc(sync_record%from), c_loc(sync_record%to), c_loc(sync_record%end), &
-                c_loc(sync_record%edge)])
+                c_loc(sync_record%touch)])
     case (9)
       call put(c_sizeof(sync_piece), [c_loc(sync_piece%panel), c_loc(sync_piece%rooted), c_loc(sync_piece%from), &
-                c_loc(sync_piece%to), c_loc(sync_piece%velocity), c_loc(sync_piece%force), &
-                c_loc(sync_piece%stick)])
+                c_loc(sync_piece%to), c_loc(sync_piece%shear_velocity), c_loc(sync_piece%shear_force), &
+                c_loc(sync_piece%stick_radius)])
     case (10)
       call put(c_sizeof(sync_store), [c_loc(sync_store%capacity), c_loc(sync_store%n_records), &
                 c_loc(sync_store%n_pieces), c_loc(sync_store%record), c_loc(sync_store%piece), &
-                c_loc(sync_store%held), c_loc(sync_store%room), c_loc(sync_store%now_z), c_loc(sync_store%now_x), &
-                c_loc(sync_store%now_l)])
+                c_loc(sync_store%corrective), c_loc(sync_store%kernel_room), c_loc(sync_store%memory_z), &
+                c_loc(sync_store%memory_x), c_loc(sync_store%loading_x)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
                 c_loc(walk%end), c_loc(walk%no_slip), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
