@@ -80,14 +80,14 @@ contains
     height = plane_profile(x, radius)
   end function rst_plane_profile
 
-  pure subroutine rst_merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound) &
+  pure subroutine rst_merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound) &
     bind(c, name="rst_merge_terms")
-    real(c_double), intent(in), value :: chi, window, depth, allowed
+    real(c_double), intent(in), value :: share, window, depth, allowed
     real(c_double), intent(inout) :: g_inf, eta
     integer(c_int64_t), intent(inout) :: n_terms
     real(c_double), intent(inout) :: g(n_terms), tau(n_terms)
     real(c_double), intent(out) :: slow_rate, fast_bound
-    call merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
+    call merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
   end subroutine rst_merge_terms
 
   pure subroutine rst_series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau) &

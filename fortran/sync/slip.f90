@@ -1,5 +1,6 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: shear_factor
   use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, value_on, applied, &
@@ -234,7 +235,7 @@ contains
     integer(ip) :: i
     event = no_event
     place = 1
-    if (contact%no_slip /= 0) return
+    if (contact%mode == mode_no_slip) return
     do i = 1, stages
       if (sense == sticks) then
         if (s%lead(i) >= -contact%roughness) cycle

@@ -16,12 +16,12 @@ module rst_store
 
   !> The tangential problem. Twin of `struct sync_contact` in C.
   type, bind(c) :: contact_type
-    real(dp) :: chi, psi
+    real(dp) :: chi, psi     !! psi: U' at first touch, 1 without slip
     real(dp) :: roughness   !! what the polynomial of a piece may miss of U'
     real(dp) :: noise       !! stick margin over `stress`, angles and velocities that the polynomials of the normal motion may miss
     real(dp) :: closeness   !! iterations end when U' changes by less
     real(dp) :: stress      !! a usual stress: largest force over largest radius
-    integer(ip) :: no_slip  !! /= 0: friction without limit
+    integer(ip) :: mode     !! how friction acts
   end type contact_type
 
   !> A range of the compression in which all elements stick, or all slip: what they were given when the edge reached them, here

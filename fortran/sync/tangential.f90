@@ -1,5 +1,6 @@
 !> The tangential motion of an impact, piece after piece (docs/sync.md): stick, partial slip behind a front, gross slip.
 module rst_tangential_motion
+  use rst_friction_mode, only: mode_gross_slip, mode_no_slip
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
@@ -40,7 +41,7 @@ contains
     do while (panel <= normal%n_panels)
       found = lacks_pieces
       if (store%n_pieces >= size(store%piece) .or. store%n_records >= size(store%record)) return
-      if (sense == sticks .and. panel > normal%n_compression .and. contact%no_slip == 0) &
+      if (sense == sticks .and. panel > normal%n_compression .and. contact%mode /= mode_no_slip) &
         sense = sense_of(velocity) ! the edge of a shrinking contact slips
       s%shear_velocity(0) = velocity
       call take_piece(normal, contact, store, panel, x, sense, interval, s, event, found)
@@ -105,7 +106,7 @@ contains
     panel = 1
     x = 0
     velocity = contact%psi
-    if (.not. contact%psi > 1 .or. contact%no_slip /= 0) return
+    if (contact%mode /= mode_gross_slip) return
     velocity = (2*contact%chi - contact%psi)/(2*contact%chi - 1)
     call find_velocity(normal, velocity, panel, x)
     do k = 1, min(panel, normal%n_compression)

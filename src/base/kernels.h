@@ -5,7 +5,8 @@
 
 #include <stdint.h>
 
-/* How the tangential side begins; modes of fortran/euler/euler.f90. */
+/* How friction acts: not at all; psi > 1, all slips at first; psi <= 1, the edge slips; all sticks. As in
+ * fortran/common/friction_mode.f90. */
 enum rst_mode { RST_FRICTIONLESS = 0, RST_GROSS_SLIP = 1, RST_PARTIAL_SLIP = 2, RST_NO_SLIP = 3 };
 
 /* Twin of ledger_type. */
@@ -33,7 +34,7 @@ double rst_theta_from_delta1(double delta1);
 double rst_critical_psi(double chi, double ez);
 double rst_plane_profile(double x, double radius);
 
-void rst_merge_terms(double chi, double window, double depth, double allowed, double *g_inf, double *eta,
+void rst_merge_terms(double share, double window, double depth, double allowed, double *g_inf, double *eta,
                      int64_t *n_terms, double *g, double *tau, double *slow_rate, double *fast_bound);
 void rst_series_chain(const struct rst_chain *a, const double *m_a, const double *tau_a, const struct rst_chain *b,
                       const double *m_b, const double *tau_b, double *times, int64_t *from_a, int64_t *from_b,

@@ -21,10 +21,14 @@ struct rst_solid {
 struct rst_problem {
     const restitute_method *method; /* that solves it: one function may serve several methods */
     double chi;
-    double psi;         /* as the kernel takes it: 1 without slip, where it is only a scale */
-    enum rst_mode mode; /* of the tangential side at first touch */
+    enum rst_mode mode; /* how friction acts, decided once: here, and where the solver leaves out slip */
+    double psi;         /* (22), however friction acts: 0 without slip, infinite without friction */
+    double shear_speed; /* U' at first touch: psi, or 1 without slip or friction, where U may have any unit */
+    double shear_scale; /* of tangential quantities, the caller's over those here: 1, or psi if slip was left out */
+    double slip_bound;  /* what slip that was left out may change of e_x */
     struct rst_solid solid;
-    double tolerance;
+    double tolerance;      /* for the method to meet */
+    double asked;          /* the caller's, for messages: larger where slip is left out */
     int64_t elements;      /* 0: chosen by the method */
     double time_step;      /* in T; 0: chosen by the method */
     double time_unit;      /* T in the caller's unit, for messages */
@@ -77,7 +81,6 @@ struct rst_outcome {
     int sunk;
     int late;         /* sync: the limit of time ended refinement */
     int halvings;     /* sync: those of the run that gave the pair */
-    int without_slip; /* sync: slip was left out */
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
@@ -91,8 +94,12 @@ struct rst_history {
     struct rst_sample *samples;
 };
 
-/* Mode of the tangential side by psi; 0: no slip, infinity: no friction. */
+/* How friction acts, by psi; 0: no slip, infinity: no friction. */
 void rst_set_sliding(double psi, struct rst_problem *problem);
+
+/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not
+ * proven (docs/accuracy.md). */
+static const double rst_change_by_slip = 2;
 
 /* Largest chi that is accepted. */
 extern const double rst_largest_chi;

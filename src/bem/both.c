@@ -106,13 +106,13 @@ enum bem_end rst_bem_solve_both(struct bem_stepper *s, double shift)
     const struct bem_solid *solid = s->solid;
     const int64_t m = f->m;
     const int no_slip = s->setup->problem->mode == RST_NO_SLIP;
-    const double residual = closeness * fmin(1, s->setup->problem->psi) / solid->c;
+    const double residual = closeness * fmin(1, s->setup->problem->shear_speed) / solid->c;
     if (!s->near->plane && !(s->near->plane = rst_bem_plane_create(m))) return BEM_NO_MEMORY;
     rst_bem_recall(m, m, solid->n_terms, solid->decay, f->b_x, solid->held, f->drift_x, f->f_x, f->h);
     rst_bem_recall(m, m, solid->n_terms, solid->decay, f->b_y, solid->held, f->drift_y, f->f_y, f->h_y);
     rst_bem_shear_target(m, m, shift, solid->c, f->anchor, f->h, f->full_x);
     rst_bem_shear_target(m, m, 0, solid->c, f->anchor_y, f->h_y, f->full_y);
-    rst_bem_shear_bounds(m, m, no_slip, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(m, m, s->setup->problem->mode, f->p_new, f->low, f->high);
     rst_bem_start_shear(m, m, f->p, f->tau, f->tau_before, f->high, f->tau_new);
     start(s);
     for (int64_t i = 0; i < m * m; i++)

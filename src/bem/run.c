@@ -165,10 +165,9 @@ static void note_largest(struct bem_run *run, const struct bem_motion *q)
 static int unstable(const struct bem_stepper *s)
 {
     const struct bem_motion *q = &s->motion;
-    const double psi = s->setup->problem->psi;
     /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations leave */
     const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
-    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * psi);
+    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }
 
 static int rests(const struct bem_stepper *s)
@@ -232,7 +231,7 @@ void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struc
     run->end = BEM_TOO_LONG;
     s.cell = 4 * setup->spacing;
     s.motion.velocity = 1;
-    s.motion.shear_velocity = setup->problem->psi;
+    s.motion.shear_velocity = setup->problem->shear_speed;
     s.before = s.motion;
     rst_bem_normal_target(setup->m, setup->m, setup->spacing, 0, -1, s.f.h, s.f.gap); /* r^2/2 */
     follow(&s, observer);

@@ -93,11 +93,10 @@ int restitute_cvode_solve(restitute_solver *solver, const restitute_impact *impa
     status = restitute_solve(solver, impact, result, ledger, history, error);
     memory->wants_log = 0;
     if (status < 0 || !events) return status;
-    hand_out(&memory->log, &(struct units){1, 1, 1, 1, 1}, events);
+    hand_out(&memory->log, &(struct units){1, 1, 1, 1, memory->shear_scale}, events);
     return status;
 }
 
-/* U' is in units of the velocity that the friction coefficient gives it; psi of it is the sliding speed. */
 static int scene_units(const restitute_scene *scene, struct units *units, restitute_error *error)
 {
     restitute_numbers numbers;
@@ -106,9 +105,7 @@ static int scene_units(const restitute_scene *scene, struct units *units, restit
     if (status < 0) return status;
     const double sliding = fabs(scene->tangential_speed + scene->radius1 * scene->spin1 +
                                 (isfinite(scene->radius2) ? scene->radius2 * scene->spin2 : 0));
-    const double psi =
-        numbers.psi > 1e-12 && isfinite(numbers.psi) ? numbers.psi : 1; /* as the core has it: 1 is a scale */
-    *units = (struct units){numbers.time, numbers.length_z, numbers.length_x, scene->normal_speed, sliding / psi};
+    *units = (struct units){numbers.time, numbers.length_z, numbers.length_x, scene->normal_speed, sliding};
     return RESTITUTE_OK;
 }
 
@@ -127,6 +124,7 @@ int restitute_cvode_solve_scene(restitute_solver *solver, const restitute_scene 
     status = restitute_solve_scene(solver, scene, result, ledger, history, error);
     memory->wants_log = 0;
     if (status < 0 || !events) return status;
+    units.tangential /= memory->shear_speed;
     hand_out(&memory->log, &units, events);
     return status;
 }

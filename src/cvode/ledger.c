@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
 #include "base/report.h"
 #include "cvode/solve.h"
 
@@ -44,14 +45,14 @@ static void post_left(const struct run *run, struct bookkeeper *keeper, int64_t 
         const double part = fmax(0, fmin(1, share)), w = width(e, run->scene.n_nodes, i, run->setup->radius);
         keeper->ledger.left_z += 3.75 * w * (keeper->before_z[i] + part * (keeper->held_z[i] - keeper->before_z[i]));
         keeper->ledger.left_x +=
-            7.5 * run->setup->chi * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
+            7.5 * run->setup->problem->chi * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
     }
 }
 
 static void post(struct run *run, double from, double to)
 {
     struct bookkeeper *keeper = run->observer;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const struct elements *e = &run->elements;
     const struct recovery *r = &run->recovery;
     double rate[3];
@@ -63,8 +64,8 @@ static void post(struct run *run, double from, double to)
                            e->b, r->rate, r->u, r->v, e->amplitude, run->shears, keeper->inside, to, run->y, rate,
                            keeper->held_z, keeper->held_x);
     keeper->ledger.viscous_z += 3.75 * half * (keeper->rate[0] + rate[0]);
-    keeper->ledger.viscous_x += 7.5 * run->setup->chi * half * (keeper->rate[1] + rate[1]);
-    keeper->ledger.friction_x += 7.5 * run->setup->chi * half * (keeper->rate[2] + rate[2]);
+    keeper->ledger.viscous_x += 7.5 * run->setup->problem->chi * half * (keeper->rate[1] + rate[1]);
+    keeper->ledger.friction_x += 7.5 * run->setup->problem->chi * half * (keeper->rate[2] + rate[2]);
     const int64_t inside = count_inside(run);
     if (run->scene.restitution) post_left(run, keeper, inside);
     memcpy(keeper->rate, rate, sizeof rate);
@@ -72,34 +73,27 @@ static void post(struct run *run, double from, double to)
     keeper->inside = inside;
 }
 
-/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
- * `velocity`. */
-static double gross_slip_work(double chi, double psi, double velocity)
-{
-    return 4 * chi * ((psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
-}
-
 /* What friction takes before the contact sticks; without sticking, to the end. */
-static void add_gross_slip(const struct run_setup *setup, double end, struct rst_ledger *ledger)
+static void add_gross_slip(const struct rst_problem *problem, double end, struct rst_ledger *ledger)
 {
-    if (setup->mode == RST_FRICTIONLESS)
+    if (problem->mode == RST_FRICTIONLESS)
         ledger->viscous_x = ledger->left_x = 0;
-    else if (setup->mode == RST_GROSS_SLIP)
-        ledger->friction_x += gross_slip_work(setup->chi, setup->psi, end);
+    else if (problem->mode == RST_GROSS_SLIP)
+        ledger->friction_x += rst_gross_slip_work(problem, end);
 }
 
 /* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all
  * relax. */
-static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
+static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     struct rst_ledger *ledger = &outcome->ledger;
-    const double chi = setup->chi, psi = setup->psi * setup->shear_scale;
+    const double before = problem->shear_speed, after = outcome->shear_velocity;
     *ledger = (struct rst_ledger){.viscous_z = 1};
-    if (setup->mode == RST_FRICTIONLESS) return;
-    if (setup->mode == RST_GROSS_SLIP)
+    if (problem->mode == RST_FRICTIONLESS) return;
+    if (problem->mode == RST_GROSS_SLIP)
         ledger->friction_x =
-            gross_slip_work(chi, psi, outcome->shear_velocity == 0 ? (2 * chi - psi) / (2 * chi - 1) : 0);
-    ledger->viscous_x = psi * psi - outcome->shear_velocity * outcome->shear_velocity - ledger->friction_x;
+            rst_gross_slip_work(problem, rst_never_sticks(problem, 0) ? 0 : rst_end_of_gross_slip(problem));
+    ledger->viscous_x = before * before - after * after - ledger->friction_x;
 }
 
 int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
@@ -109,7 +103,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     struct bookkeeper keeper = {.ledger = {0}};
     struct run run = {.observe = post, .observer = &keeper};
     if (outcome->sunk) {
-        sink(setup, outcome);
+        sink(setup->problem, outcome);
         return RESTITUTE_OK;
     }
     all.n_nodes = outcome->elements > most_ledger_elements ? most_ledger_elements : outcome->elements;
@@ -124,11 +118,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     keeper.before_z = keeper.held_x + all.n_nodes;
     keeper.before_x = keeper.before_z + all.n_nodes;
     const int status = rst_run_follow(&run, &all, &memory->trace, NULL);
-    add_gross_slip(&all, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
-    const double scale = setup->shear_scale * setup->shear_scale; /* of energies */
-    keeper.ledger.friction_x *= scale;
-    keeper.ledger.viscous_x *= scale;
-    keeper.ledger.left_x *= scale;
+    add_gross_slip(setup->problem, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
     if (status == RESTITUTE_OK) outcome->ledger = keeper.ledger;
     rst_run_release(&run);
     free(keeper.held_z);

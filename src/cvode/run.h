@@ -11,10 +11,7 @@
 
 /* The scene and how closely it is followed. */
 struct run_setup {
-    double chi, psi;
-    struct rst_solid solid;
-    enum rst_mode mode;
-    double shear_scale; /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
+    const struct rst_problem *problem;
     int64_t n_nodes;    /* elements; 0: the normal side alone */
     double closeness;   /* relative error of a step */
     double depth;       /* scale of the depth */
@@ -22,10 +19,8 @@ struct run_setup {
     double rebound;     /* D' at the end, where known: decides on slip to the end */
     double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
     enum integrator_family family;
-    int64_t max_updates;             /* of the whole call, for messages */
-    int64_t budget;                  /* of them, what this run may spend */
-    const struct rst_problem *timed; /* has the clock of the call; NULL: no limit of time */
-    double until;                    /* of that clock: when this run has to end */
+    int64_t budget;                  /* of updates: what this run may spend */
+    double until;                    /* of the problem's clock: when this run has to end */
     int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 

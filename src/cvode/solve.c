@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "cvode/solve.h"
+#include "base/gross_slip.h"
 #include "base/report.h"
 
 /* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add
@@ -22,11 +23,7 @@ static const double closest = 1e-13;
  * of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
-/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
- * small part of the tolerance. */
-static const double change_by_slip = 2, negligible_part = 0.05;
-
-/* The rest of the tolerance is for merged terms. */
+/* The rest of the tolerance is for what the solver leaves out. */
 static const double acceptance = 0.9;
 
 static const int64_t most_elements = 16384;
@@ -76,31 +73,16 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
 struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
 {
     const double depth = likely_depth(&problem->solid);
-    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-                       change_by_slip * problem->psi < negligible_part * problem->tolerance;
-    return (struct run_setup){.chi = problem->chi,
-                              .psi = strong ? 1 : problem->psi,
-                              .shear_scale = strong ? problem->psi : 1,
-                              .solid = problem->solid,
-                              .mode = strong ? RST_NO_SLIP : problem->mode,
+    return (struct run_setup){.problem = problem,
                               .closeness = fmax(closest, closeness_part * problem->tolerance),
                               .depth = depth,
                               .rebound = NAN,
                               .rest_speed = 0.01 * problem->tolerance,
                               .family = family ? *family : family_of(problem, depth),
-                              .max_updates = problem->max_updates,
                               .budget = problem->max_updates,
-                              .timed = problem->clock ? problem : NULL,
                               .until = problem->deadline,
                               .most_events = most_events,
                               .most_steps = most_steps};
-}
-
-static int slips_to_the_end(const struct run_setup *setup, double rebound)
-{
-    if (setup->mode == RST_FRICTIONLESS) return 1;
-    if (setup->mode != RST_GROSS_SLIP) return 0;
-    return 2 * setup->chi <= 1 || setup->psi >= 2 * setup->chi * (1 + rebound) - rebound;
 }
 
 static void add_work(struct cvode_memory *memory, const struct run *run)
@@ -122,7 +104,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
     for (int i = 0; i < 2; i++) {
         struct run run = {0};
         setup->closeness = i == 0 ? fmin(looser * close, 1e-3) : close;
-        setup->budget = setup->max_updates - memory->updates;
+        setup->budget = setup->problem->max_updates - memory->updates;
         const int status = rst_run_follow(&run, setup, &memory->trace, NULL);
         rst_run_release(&run);
         add_work(memory, &run);
@@ -151,9 +133,9 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     struct run_setup with_elements = *setup;
     with_elements.n_nodes = n;
     *run = (struct run){0};
-    const double begin = setup->timed ? setup->timed->clock() : 0;
+    const double begin = setup->problem->clock ? setup->problem->clock() : 0;
     const int status = rst_run_follow(run, &with_elements, &memory->trace, log);
-    if (setup->timed) run->seconds = setup->timed->clock() - begin;
+    if (setup->problem->clock) run->seconds = setup->problem->clock() - begin;
     rst_run_release(run);
     add_work(memory, run);
     return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
@@ -178,10 +160,9 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
 {
     const struct run *fine = &run[2];
     const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
-    const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) * pow((double)n, -2.5);
-    outcome->shear_velocity = setup->shear_scale * best;
-    outcome->error_ex = share_of_change_ex * changed / setup->psi + usual + outcome->error_ez;
-    if (setup->shear_scale < 1) outcome->error_ex += change_by_slip * setup->shear_scale;
+    const double usual = usual_error * pow(fmax(1, setup->problem->chi), 1.5) * pow((double)n, -2.5);
+    outcome->shear_velocity = best;
+    outcome->error_ex = share_of_change_ex * changed / setup->problem->shear_speed + usual + outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
@@ -223,8 +204,8 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
     int status;
     for (ladder->halvings = 2;; ladder->halvings++) {
         ladder->n = halved(ladder->wanted, ladder->halvings);
-        setup->budget = (setup->max_updates - memory->updates) / 8;
-        if (setup->timed) setup->until = setup->timed->deadline - rst_time_left(setup->timed) * 7 / 8;
+        setup->budget = (setup->problem->max_updates - memory->updates) / 8;
+        if (setup->problem->clock) setup->until = setup->problem->deadline - rst_time_left(setup->problem) * 7 / 8;
         status = solve_elements(setup, ladder->n, memory, NULL, &ladder->run[2], error);
         if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || ladder->n == 1) return status;
     }
@@ -234,8 +215,8 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
  * of them. Once more as much is left for coarser ones. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
-    if (setup->timed && rst_time_left(setup->timed) < 5 * ladder->run[2].seconds) return 0;
-    return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
+    if (rst_time_left(setup->problem) < 5 * ladder->run[2].seconds) return 0;
+    return memory->updates + 5 * ladder->run[2].updates <= setup->problem->max_updates;
 }
 
 /* One more run with twice the elements. It leaves enough for those with half and a quarter of what there is now. */
@@ -243,8 +224,8 @@ static int climb(struct run_setup *setup, struct cvode_memory *memory, struct la
 {
     struct run next;
     const int64_t n = ladder->halvings > 0 ? halved(ladder->wanted, ladder->halvings - 1) : 2 * ladder->n;
-    setup->budget = setup->max_updates - memory->updates - ladder->run[2].updates;
-    if (setup->timed) setup->until = setup->timed->deadline - ladder->run[2].seconds;
+    setup->budget = setup->problem->max_updates - memory->updates - ladder->run[2].updates;
+    if (setup->problem->clock) setup->until = setup->problem->deadline - ladder->run[2].seconds;
     const int status = solve_elements(setup, n, memory, NULL, &next, error);
     if (status) return status;
     ladder->run[0] = ladder->run[1];
@@ -268,7 +249,7 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     }
     for (; runs < 3; runs++) { /* run[2], and run[1] if there are two, have been done */
         const int place = 2 - runs;
-        setup->budget = setup->max_updates - memory->updates;
+        setup->budget = setup->problem->max_updates - memory->updates;
         setup->until = INFINITY; /* each takes a quarter of the one before */
         status = solve_elements(setup, halved(ladder->wanted, ladder->halvings + runs), memory, NULL,
                                 &ladder->run[place], error);
@@ -296,7 +277,7 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
         if (ladder.halvings == 0 && (problem->elements > 0 || 2 * ladder.n > most_elements))
             return too_coarse(problem, outcome, obstacle, error);
         if (!can_climb(setup, memory, &ladder)) {
-            const int late = setup->timed && rst_time_left(setup->timed) < 5 * ladder.run[2].seconds;
+            const int late = rst_time_left(setup->problem) < 5 * ladder.run[2].seconds;
             snprintf(obstacle, sizeof obstacle, "%s: no more allowed", rst_spent(problem, late).text);
             return too_coarse(problem, outcome, obstacle, error);
         }
@@ -315,12 +296,12 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 {
     *outcome = *normal;
     if (problem->mode != RST_FRICTIONLESS) {
-        outcome->shear_velocity = problem->psi - 2 * problem->chi * (1 - normal->velocity);
-        outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->psi;
+        outcome->shear_velocity = rst_slipping_velocity(problem, normal->velocity);
+        outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->shear_speed;
     }
     if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
 /* The sphere stays (theory.md, 6). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
@@ -328,20 +309,18 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)
 {
-    const int slides = problem->mode == RST_FRICTIONLESS ||
-                       (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
+    const int slides = rst_never_sticks(problem, 0);
     if (!slides && 2 * problem->chi <= 1)
         return rst_report(
             error, RESTITUTE_ERROR_DOMAIN,
             "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",
             problem->chi, problem->psi);
-    outcome->shear_velocity =
-        slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+    outcome->shear_velocity = slides ? rst_slipping_velocity(problem, 0) : 0;
     /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all
      * sticks, psi < 1, U' falls with D' in proportion */
     outcome->error_ez = setup->rest_speed;
     outcome->error_ex =
-        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->psi);
+        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->shear_speed);
     return rst_done(error);
 }
 
@@ -356,11 +335,8 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.budget = INT64_MAX;
     all.until = INFINITY;
     memory->log.count = 0;
-    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory,
-                                      &memory->log, &run, error);
-    for (size_t i = 0; i < memory->log.count; i++)
-        memory->log.event[i].tangential_velocity *= setup->shear_scale;
-    return status;
+    return solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, &memory->log, &run,
+                          error);
 }
 
 int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory,
@@ -377,6 +353,8 @@ int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memo
             stiffness, too_stiff);
     memory->work = (restitute_cvode_work){.stiff = setup.family == INTEGRATOR_BDF};
     memory->updates = 0;
+    memory->shear_speed = problem->shear_speed;
+    memory->shear_scale = problem->shear_scale;
     int status = solve_normal(&setup, memory, &normal, error);
     if (status) return status;
     setup.rebound = -normal.velocity;
@@ -384,7 +362,7 @@ int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memo
     outcome->updates = memory->updates;
     if (normal.sunk)
         status = stay(problem, &setup, outcome, error);
-    else if (slips_to_the_end(&setup, setup.rebound))
+    else if (rst_never_sticks(problem, setup.rebound))
         status = without_elements(problem, &normal, outcome, error);
     else
         status = refine(problem, &setup, memory, outcome, error);

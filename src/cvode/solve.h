@@ -11,6 +11,7 @@ struct cvode_memory {
     struct trace trace;         /* of the last impact */
     struct event_log log;
     int wants_log;
+    double shear_speed, shear_scale; /* of the last problem: units of the log */
     restitute_cvode_work work;
     int64_t updates;
 };

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
 #include "base/status.h"
 #include "euler/kernels.h"
 
@@ -53,12 +54,10 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
 }
 
-/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi -
- * 1. */
+/* Whether tangential elements will be stepped: psi_c is largest for a full rebound. */
 static int moves_tangentially(const struct rst_problem *problem)
 {
-    return problem->mode != RST_FRICTIONLESS &&
-           !(problem->mode == RST_GROSS_SLIP && problem->psi > fmax(1, 4 * problem->chi - 1));
+    return !rst_never_sticks(problem, 1);
 }
 
 static int64_t capacity_of(int64_t elements)
@@ -108,7 +107,7 @@ static int prepare(const struct rst_problem *problem, struct rst_workspace *work
     if (rst_workspace_elements(workspace, capacity * (7 + 2 * (size_t)s->n_terms))) return 1;
     *l = lay_out(problem, workspace, (int64_t)capacity);
     *scene = (struct euler_scene){.chi = problem->chi,
-                                  .psi = problem->psi,
+                                  .shear_speed = problem->shear_speed,
                                   .g_inf = s->g_inf,
                                   .eta = s->eta,
                                   .step = run->step,
@@ -178,7 +177,7 @@ static double ez_of(const struct euler_state *state)
 
 static double ex_of(const struct rst_problem *problem, const struct euler_state *state)
 {
-    return -state->shear_velocity / problem->psi;
+    return -state->shear_velocity / problem->shear_speed;
 }
 
 static void change(const struct rst_problem *problem, const struct run *a, const struct run *b, double *ez, double *ex)
@@ -194,7 +193,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
     const int sunk = s->phase == RST_SUNK;
     if (sunk) { /* the velocities that the run stopped with are still to go, |dU'| <= 2 chi |dD'| */
         error_ez += rest_speed(problem);
-        error_ex += 2 * problem->chi * rest_speed(problem) / problem->psi;
+        error_ex += 2 * problem->chi * rest_speed(problem) / problem->shear_speed;
     }
     *outcome = (struct rst_outcome){.velocity = sunk ? 0 : s->velocity,
                                     .shear_velocity = s->shear_velocity,
@@ -318,7 +317,7 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
@@ -375,7 +374,7 @@ static struct rst_sample sample(const struct rst_problem *problem, const struct 
                                .normal_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_force,
                                .shear_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_shear,
                                .velocity = state->velocity,
-                               .shear_velocity = state->shear_velocity / problem->psi};
+                               .shear_velocity = state->shear_velocity / problem->shear_speed};
 }
 
 static int euler_record(const struct rst_problem *problem, struct rst_workspace *workspace,

@@ -77,7 +77,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     double *held = motion->arms, *asked = motion->arms + 2 * motion->most_arms;
     const int64_t n = spread_arms(s, asked, asked + motion->most_arms);
     const size_t bytes = (size_t)n * sizeof(double);
-    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi));
+    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->shear_speed / (2 * problem->chi));
     const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
     const int same = keep && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
@@ -230,16 +230,16 @@ static double usual_stress(const struct sync_normal *normal)
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
-    const double scale = fmin(1, problem->psi), roughness = rst_piece_roughness(problem, halvings);
+    const double scale = fmin(1, problem->shear_speed), roughness = rst_piece_roughness(problem, halvings);
     const double closeness = fmax(10 * rst_rounding, rst_piece_closeness * roughness);
     const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
-                                         .psi = problem->psi,
+                                         .psi = problem->shear_speed,
                                          .roughness = fmax(rst_least_roughness, roughness * scale / swings),
                                          .noise = rst_noise * rst_roughness(halvings),
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
-                                         .no_slip = problem->mode == RST_NO_SLIP};
+                                         .mode = problem->mode};
     for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
         if (capacity > most) motion->store.capacity = most;

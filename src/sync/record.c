@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/gross_slip.h"
 #include "base/status.h"
 #include "sync/walk.h"
 #include "sync/walk_kernels.h"
@@ -36,10 +37,9 @@ static double place_of(const struct sync_panel *panel, double time)
 /* Slip before it sticks, or to the end. */
 static void slide(const struct rst_problem *problem, struct rst_sample *sample)
 {
-    const int slides = problem->mode == RST_GROSS_SLIP;
     sample->stick_radius = 0;
-    sample->shear_force = slides ? sample->normal_force : 0;
-    sample->shear_velocity = problem->psi - (slides ? 2 * problem->chi * (1 - sample->velocity) : 0);
+    sample->shear_force = problem->mode == RST_FRICTIONLESS ? 0 : sample->normal_force;
+    sample->shear_velocity = rst_slipping_velocity(problem, sample->velocity);
 }
 
 static void follow_pieces(const struct trace *trace, int64_t panel, double x, int64_t *at, struct rst_sample *sample)
@@ -116,10 +116,9 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     }
     const struct rst_run *run = &motion->run[outcome->halvings];
     struct trace trace = {.problem = problem, .normal = &run->normal};
-    const int slides = problem->mode == RST_FRICTIONLESS ||
-                       (problem->mode != RST_NO_SLIP && problem->psi >= rst_critical_psi(problem->chi, -outcome->velocity));
+    const int slides = rst_never_sticks(problem, -outcome->velocity);
     if (!slides && outcome->walked > 0) {
-        if (rst_walk(motion, run, problem, RST_STICKS_SOMETIME, outcome->walked, &walk))
+        if (rst_walk(motion, run, problem, 1, outcome->walked, &walk))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {
@@ -131,7 +130,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     for (size_t k = 0; k < history->capacity; k++) {
         const double share = (double)k / (double)(history->capacity - 1);
         sample_at(&trace, share * end, &p, &at, &history->samples[k]);
-        history->samples[k].shear_velocity /= problem->psi;
+        history->samples[k].shear_velocity /= problem->shear_speed;
     }
     history->count = history->capacity;
     return RESTITUTE_OK;

@@ -10,7 +10,7 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
     if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
     outcome->updates += (int64_t)work;
-    if (rst_walk(motion, run, problem, RST_STICKS_SOMETIME, parts, walk))
+    if (rst_walk(motion, run, problem, 1, parts, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     return RESTITUTE_OK;
 }
@@ -60,7 +60,7 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 static int can_double(const struct rst_problem *problem, int64_t n, double left, struct rst_outcome *outcome)
 {
     if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
-    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->psi) return 0;
+    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->shear_speed) return 0;
     outcome->late = rst_lacks_time(problem, 4, left);
     return !outcome->late;
 }
@@ -76,7 +76,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
     const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
     const double rest = outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
-                        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->psi : 0); /* see compare */
+                        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
@@ -97,7 +97,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
-            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
+            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
         if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;

@@ -37,7 +37,7 @@ struct sync_normal {
 /* Twin of contact_type. */
 struct sync_contact {
     double chi, psi, roughness, noise, closeness, stress;
-    int64_t no_slip;
+    int64_t mode;
 };
 
 /* Twin of record_type. */

@@ -7,7 +7,7 @@
 
 /* Twin of walk_type. */
 struct walk {
-    int64_t n, n_terms, capacity, start, end, no_slip, prescribed;
+    int64_t n, n_terms, capacity, start, end, mode, prescribed;
     double chi, psi, g_inf, eta;
 };
 

@@ -3,6 +3,7 @@
 !> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr
+  use rst_friction_mode, only: mode_gross_slip, mode_partial_slip
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between, &
                              factors_type, factorize, solution_of
@@ -144,7 +145,7 @@ contains
     integer(c_int64_t) :: found
     call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, &
                         closeness=1.0e-12_dp, stress=1.0_dp, &
-                                             no_slip=0_ip), store, velocity, found)
+                                             mode=merge(mode_gross_slip, mode_partial_slip, psi > 1)), store, velocity, found)
     n_pieces = store%n_pieces
   end function probe_contact
 

@@ -146,6 +146,7 @@ static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup),
 {
     const struct rst_problem problem = {.chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = modulus},
                                         .tolerance = 1e-4,
@@ -219,6 +220,7 @@ static void a_call_hands_on_the_words_of_cvode(void **state)
 {
     const struct rst_problem problem = {.chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = NAN},
                                         .tolerance = 1e-4,

@@ -64,7 +64,7 @@ contains
       call put(c_sizeof(ledger), [c_loc(ledger%viscous_z), c_loc(ledger%left_z), c_loc(ledger%friction_x), &
                 c_loc(ledger%viscous_x), c_loc(ledger%left_x)])
     case (2)
-      call put(c_sizeof(euler_scene), [c_loc(euler_scene%chi), c_loc(euler_scene%psi), c_loc(euler_scene%g_inf), &
+      call put(c_sizeof(euler_scene), [c_loc(euler_scene%chi), c_loc(euler_scene%shear_speed), c_loc(euler_scene%g_inf), &
                 c_loc(euler_scene%eta), c_loc(euler_scene%step), c_loc(euler_scene%spacing), &
                 c_loc(euler_scene%rest_speed), c_loc(euler_scene%n_terms), c_loc(euler_scene%capacity), &
                 c_loc(euler_scene%can_sink), c_loc(euler_scene%keep_ledger), c_loc(euler_scene%mode)])
@@ -95,7 +95,7 @@ contains
     case (7)
       call put(c_sizeof(sync_contact), [c_loc(sync_contact%chi), c_loc(sync_contact%psi), &
                 c_loc(sync_contact%roughness), c_loc(sync_contact%noise), c_loc(sync_contact%closeness), &
-                c_loc(sync_contact%stress), c_loc(sync_contact%no_slip)])
+                c_loc(sync_contact%stress), c_loc(sync_contact%mode)])
     case (8)
       call put(c_sizeof(sync_record), [c_loc(sync_record%from), c_loc(sync_record%to), c_loc(sync_record%end), &
                 c_loc(sync_record%touch)])
@@ -110,7 +110,7 @@ contains
                 c_loc(sync_store%memory_x), c_loc(sync_store%loading_x)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
-                c_loc(walk%end), c_loc(walk%no_slip), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
+                c_loc(walk%end), c_loc(walk%mode), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
                 c_loc(walk%g_inf), c_loc(walk%eta)])
     case (12)
       call put(c_sizeof(walk_level), [c_loc(walk_level%step), c_loc(walk_level%radius), c_loc(walk_level%depth), &
@@ -126,7 +126,7 @@ contains
                 c_loc(cvode_scene%reference), c_loc(cvode_scene%step_start), c_loc(cvode_scene%n_terms), &
                 c_loc(cvode_scene%n_modes), c_loc(cvode_scene%n_states), c_loc(cvode_scene%n_knots), &
                 c_loc(cvode_scene%n_nodes), c_loc(cvode_scene%n_entered), c_loc(cvode_scene%restitution), &
-                c_loc(cvode_scene%no_slip)])
+                c_loc(cvode_scene%mode)])
     case (16)
       call put(c_sizeof(cvode_contact), [c_loc(cvode_contact%square), c_loc(cvode_contact%radius), &
                 c_loc(cvode_contact%force)])
