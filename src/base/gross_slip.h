@@ -14,8 +14,8 @@ static inline int rst_never_sticks(const struct rst_problem *problem, double reb
 /* U' where nothing has stuck (27); without friction it does not change. */
 static inline double rst_slipping_velocity(const struct rst_problem *problem, double velocity)
 {
-    if (problem->mode == RST_FRICTIONLESS) return problem->shear_speed;
-    return problem->psi - 2 * problem->chi * (1 - velocity);
+    const double slows = problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * (1 - velocity);
+    return problem->shear_speed - slows;
 }
 
 /* D' at which gross slip ends, with psi < psi_c: D' = U'. */
