@@ -9,6 +9,7 @@
 !> 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has, the tangential oscillation is so fast
 !> that u'' outgrows its normal counterpart: there the fast part counts chi/4 times.
 module rst_merging
+  use rst_motion_factors, only: shear_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -36,7 +37,7 @@ contains
     last = n_terms
     do while (first <= last)
       slow = weight*2*depth*depth*sqrt(depth)*g(last)/tau(last)
-      fast = weight*max(1.0_dp, share/4)*5.625_dp*sqrt(depth)*g(first)*tau(first)*tau(first)
+      fast = weight*max(1.0_dp, share/4)*(1.5_dp*shear_factor)*sqrt(depth)*g(first)*tau(first)*tau(first)
       if (slow_rate*window + fast_bound + min(slow*window, fast) > allowed) exit
       if (slow*window <= fast) then
         g_inf = g_inf + g(last)

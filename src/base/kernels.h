@@ -21,6 +21,10 @@ struct rst_chain {
     int64_t n;
 };
 
+/* Force in units of m v/T over int_0^A f dX: 15/8. */
+double rst_mass_factor(void);
+/* Contact time of an elastic impact over its largest indentation, in units of docs/theory.md, section 2. */
+double rst_elastic_contact_time(void);
 double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
 void rst_step_coefficients(double h, int64_t n_terms, const double *g, const double *tau, double *decay, double *gain);
 double rst_largest_stable_step(double coupling, double g_inf, double eta, int64_t n_terms, const double *g,
@@ -42,6 +46,7 @@ void rst_series_chain(const struct rst_chain *a, const double *m_a, const double
 void rst_scout_compression(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau,
                            int64_t can_sink, double rest_speed, double *stress, double *depth, double *time,
                            double *force, int64_t *sinks);
+double rst_recoverable_energy(double depth, double g_inf, int64_t n_terms, const double *g, const double *stress);
 double rst_likely_depth(double g_inf, double eta, int64_t n_terms, const double *g, const double *tau);
 
 #endif

@@ -74,7 +74,7 @@ struct rst_outcome {
     double error_ez, error_ex;
     double contact_time;  /* infinite if sunk */
     double followed_time; /* to the end of the run */
-    double max_indentation, max_contact_radius, max_normal_force;
+    double max_indentation, max_contact_radius, max_normal_force; /* forces: int_0^A f dX */
     double spacing, step;
     int64_t elements, steps, updates;
     struct rst_ledger ledger;
@@ -84,7 +84,7 @@ struct rst_outcome {
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
-/* Receives samples of the history in the units of the problem; see restitute_history. */
+/* Receives samples of the history; see restitute_history. Forces are int_0^A f dX and int_0^A q dX, U' is over shear_speed. */
 struct rst_sample {
     double time, indentation, contact_radius, stick_radius, normal_force, shear_force, velocity, shear_velocity;
 };

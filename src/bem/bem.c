@@ -185,7 +185,7 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                              .followed_time = q->time,
                              .max_indentation = run->max_depth,
                              .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
-                             .max_normal_force = 15.0 / 64 * run->max_force,
+                             .max_normal_force = run->max_force / 8,
                              .spacing = setup->spacing,
                              .step = setup->step,
                              .elements = (int64_t)elements,
@@ -375,8 +375,8 @@ static void add_sample(struct sampler *sampler, double shear_speed, const struct
                             .indentation = q->depth,
                             .contact_radius = radius_of(q->contact),
                             .stick_radius = radius_of(q->stick),
-                            .normal_force = 15.0 / 64 * q->force,
-                            .shear_force = 15.0 / 64 * q->shear_force,
+                            .normal_force = q->force / 8,
+                            .shear_force = q->shear_force / 8,
                             .velocity = q->velocity,
                             .shear_velocity = q->shear_velocity / shear_speed};
 }

@@ -35,17 +35,28 @@ static int64_t count_inside(const struct run *run)
     return n;
 }
 
+/* Energies in units of the impact energy over those of elements; of x at the speed U'. */
+static double of_work_z(void)
+{
+    return 2 * rst_mass_factor();
+}
+
+static double of_work_x(const struct run *run)
+{
+    return 4 * rst_mass_factor() * run->setup->problem->chi;
+}
+
 /* Elements that left in this step: what they held when the edge passed them. */
 static void post_left(const struct run *run, struct bookkeeper *keeper, int64_t inside)
 {
     const struct elements *e = &run->elements;
+    const double z = of_work_z(), x = of_work_x(run);
     const double fallen = keeper->square - run->contact.square;
     for (int64_t i = inside; i < keeper->inside; i++) {
         const double share = fallen > 0 ? (keeper->square - e->x[i] * e->x[i]) / fallen : 1;
         const double part = fmax(0, fmin(1, share)), w = width(e, run->scene.n_nodes, i, run->setup->radius);
-        keeper->ledger.left_z += 3.75 * w * (keeper->before_z[i] + part * (keeper->held_z[i] - keeper->before_z[i]));
-        keeper->ledger.left_x +=
-            7.5 * run->setup->problem->chi * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
+        keeper->ledger.left_z += z * w * (keeper->before_z[i] + part * (keeper->held_z[i] - keeper->before_z[i]));
+        keeper->ledger.left_x += x * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
     }
 }
 
@@ -56,6 +67,7 @@ static void post(struct run *run, double from, double to)
     const struct elements *e = &run->elements;
     const struct recovery *r = &run->recovery;
     double rate[3];
+    const double z = of_work_z(), x = of_work_x(run);
     const double half = 0.5 * (to - from);
     rst_run_evaluate(run);
     memcpy(keeper->before_z, keeper->held_z, (size_t)run->scene.n_nodes * sizeof(double));
@@ -63,9 +75,9 @@ static void post(struct run *run, double from, double to)
     rst_cvode_energy_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->motion, e->shift, e->c,
                            e->b, r->rate, r->u, r->v, e->amplitude, run->shears, keeper->inside, to, run->y, rate,
                            keeper->held_z, keeper->held_x);
-    keeper->ledger.viscous_z += 3.75 * half * (keeper->rate[0] + rate[0]);
-    keeper->ledger.viscous_x += 7.5 * run->setup->problem->chi * half * (keeper->rate[1] + rate[1]);
-    keeper->ledger.friction_x += 7.5 * run->setup->problem->chi * half * (keeper->rate[2] + rate[2]);
+    keeper->ledger.viscous_z += z * half * (keeper->rate[0] + rate[0]);
+    keeper->ledger.viscous_x += x * half * (keeper->rate[1] + rate[1]);
+    keeper->ledger.friction_x += x * half * (keeper->rate[2] + rate[2]);
     const int64_t inside = count_inside(run);
     if (run->scene.restitution) post_left(run, keeper, inside);
     memcpy(keeper->rate, rate, sizeof rate);

@@ -19,8 +19,8 @@ static void keep(struct run *run, double t, const double *y)
                             .indentation = y[0],
                             .contact_radius = run->contact.radius,
                             .stick_radius = rst_run_stick_radius(run),
-                            .normal_force = 15.0 / 8 * run->contact.force,
-                            .shear_force = 15.0 / 8 * force,
+                            .normal_force = run->contact.force,
+                            .shear_force = force,
                             .velocity = rst_run_velocity(run, y),
                             .shear_velocity = rst_run_shear_velocity(run, y) / run->setup->problem->shear_speed};
 }

@@ -413,7 +413,7 @@ static double suffered(struct run *run, double weight)
     const size_t v = position_of_shear(&run->scene) + 1;
     const double slip =
         fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
-    return 3.75 * run->setup->problem->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
+    return 2 * rst_mass_factor() * run->setup->problem->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
 }
 
 /* The functions of the elements, of the margins last computed. */
@@ -573,17 +573,13 @@ static int extend_trace(struct run *run, double from)
     return RESTITUTE_OK;
 }
 
-/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units
- * of the impact energy: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
+/* Kinetic energy and what the springs could give back: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
 static int is_lost(const struct run *run)
 {
     const struct rst_solid *s = &run->setup->problem->solid;
-    const double depth = run->y[0], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
-    if (!s->can_sink || run->scene.restitution || !(run->y[1] < rest)) return 0;
-    double energy = s->g_inf * (8.0 / 15) * depth * depth * sqrt(depth);
-    for (int64_t k = 0; k < s->n_terms; k++)
-        energy += 2 * loading[k] * loading[k] / (s->g[k] * sqrt(depth));
-    return run->y[1] * run->y[1] + 15.0 / 8 * energy < rest * rest;
+    const double speed = run->y[1], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
+    if (!s->can_sink || run->scene.restitution || !(speed < rest)) return 0;
+    return speed * speed + rst_recoverable_energy(run->y[0], s->g_inf, s->n_terms, s->g, loading) < rest * rest;
 }
 
 static void keep_largest(struct run *run)

@@ -41,25 +41,11 @@ static const int64_t elements_of_log = 64;
  * estimated any more. */
 static const double stiff = 30, too_stiff = 300;
 
-/* Estimate of the largest indentation: energy balance with the modulus of that age (docs/sync.md has the exact motion).
- * It gives scales, on which nothing depends but the work. */
-static double likely_depth(const struct rst_solid *s)
-{
-    double depth = 1;
-    for (int i = 0; i < 60; i++) {
-        double modulus = s->g_inf + 1.25 * s->eta / depth;
-        for (int64_t k = 0; k < s->n_terms; k++)
-            modulus += s->g[k] / (1 + 0.8 * depth / s->tau[k]);
-        depth *= 1 / sqrt(modulus * depth * depth * sqrt(depth));
-    }
-    return depth;
-}
-
 /* The fastest relaxation in a compression. */
 static double stiffness_of(const struct rst_problem *problem, double depth)
 {
     const struct rst_solid *s = &problem->solid;
-    double fastest = 3.75 * fmax(1, problem->chi) * s->eta * sqrt(depth);
+    double fastest = 2 * rst_mass_factor() * fmax(1, problem->chi) * s->eta * sqrt(depth);
     for (int64_t k = 0; k < s->n_terms; k++)
         fastest = fmax(fastest, 1 / s->tau[k]);
     return fastest * depth;
@@ -72,7 +58,8 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
 
 struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
 {
-    const double depth = likely_depth(&problem->solid);
+    const struct rst_solid *solid = &problem->solid;
+    const double depth = rst_likely_depth(solid->g_inf, solid->eta, solid->n_terms, solid->g, solid->tau);
     return (struct run_setup){.problem = problem,
                               .closeness = fmax(closest, closeness_part * problem->tolerance),
                               .depth = depth,
@@ -116,7 +103,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
             .contact_time = run.sunk ? INFINITY : run.time,
             .followed_time = run.time,
             .max_indentation = run.sunk ? run.depth : run.max_depth,
-            .max_normal_force = 15.0 / 8 * run.max_force,
+            .max_normal_force = run.max_force,
             .steps = run.work.steps,
             .step = run.time / (double)run.work.steps,
             .sunk = run.sunk};

@@ -94,7 +94,7 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem),
                           array_of_terms(workspace, 4), &scout->depth, &scout->time, &scout->force, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
-    double coupling = 15.0 / 8.0 * sqrt(scout->depth);
+    double coupling = rst_mass_factor() * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);
     scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);
 }
@@ -203,7 +203,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
                                     .followed_time = s->time,
                                     .max_indentation = s->max_depth,
                                     .max_contact_radius = sqrt(s->max_depth),
-                                    .max_normal_force = 15.0 / 8.0 * s->max_force,
+                                    .max_normal_force = s->max_force,
                                     .spacing = sqrt(scout->depth) / (double)run->elements,
                                     .step = run->step,
                                     .elements = run->elements,
@@ -371,8 +371,8 @@ static struct rst_sample sample(const struct rst_problem *problem, const struct 
                                .indentation = state->depth,
                                .contact_radius = contact,
                                .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l, contact) : 0,
-                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_force,
-                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_shear,
+                               .normal_force = ended ? 0 : state->true_edge_force,
+                               .shear_force = ended ? 0 : state->true_edge_shear,
                                .velocity = state->velocity,
                                .shear_velocity = state->shear_velocity / problem->shear_speed};
 }

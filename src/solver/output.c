@@ -68,7 +68,7 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
     result->contact_time = outcome->contact_time * units->time;
     result->max_indentation = outcome->max_indentation * units->length_z;
     result->max_contact_radius = outcome->max_contact_radius * units->length_x;
-    result->max_normal_force = outcome->max_normal_force * units->force;
+    result->max_normal_force = rst_mass_factor() * outcome->max_normal_force * units->force;
     result->merging_bound = merging_bound;
     result->terms_merged = terms_merged;
     result->elements = outcome->elements;
@@ -102,8 +102,8 @@ void rst_write_history(const struct rst_history *samples, const struct rst_units
         if (history->indentation) history->indentation[i] = s->indentation * units->length_z;
         if (history->contact_radius) history->contact_radius[i] = s->contact_radius * units->length_x;
         if (history->stick_radius) history->stick_radius[i] = s->stick_radius * units->length_x;
-        if (history->normal_force) history->normal_force[i] = s->normal_force * units->force;
-        if (history->tangential_force) history->tangential_force[i] = s->shear_force * units->shear_force;
+        if (history->normal_force) history->normal_force[i] = rst_mass_factor() * s->normal_force * units->force;
+        if (history->tangential_force) history->tangential_force[i] = rst_mass_factor() * s->shear_force * units->shear_force;
         if (history->normal_velocity) history->normal_velocity[i] = s->velocity * units->velocity;
         if (history->tangential_velocity) history->tangential_velocity[i] = s->shear_velocity * units->shear_velocity;
     }

@@ -31,10 +31,6 @@ static const double share_of_slip = 0.25;
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
 static const double depth_margin = 1.2;
 
-/* Time to the largest indentation over that indentation, elastic (half of the contact time 2.943 T). Others are checked by
- * the contact time that comes out. */
-static const double elastic_compression = 1.47;
-
 /* How many compression times a contact may last before slow terms are looked at again. */
 static const double contact_in_compressions = 6;
 
@@ -143,7 +139,7 @@ static struct merged merge(struct rst_problem *problem, double window_factor)
     int64_t before = s->n_terms;
     if (before == 0) return merged;
     double depth = depth_margin * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau);
-    double time = elastic_compression * depth;
+    double time = rst_elastic_contact_time() / 2 * depth; /* others are checked by what comes out */
     double share = problem->mode == RST_FRICTIONLESS ? 1 : fmax(1, problem->chi);
     rst_merge_terms(share, window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta,
                     &s->n_terms, s->g, s->tau, &merged.slow_rate, &merged.fast_bound);

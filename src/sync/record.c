@@ -57,7 +57,7 @@ static void follow_pieces(const struct trace *trace, int64_t panel, double x, in
     if (piece->rooted) y = 1 - sqrt(fmax(0, 1 - y));
     rst_sync_weights_at(fmin(1, fmax(0, y)), weight);
     sample->shear_velocity = rst_value_of(weight, piece->shear_velocity);
-    sample->shear_force = 15.0 / 8.0 * rst_value_of(weight, piece->shear_force);
+    sample->shear_force = rst_value_of(weight, piece->shear_force);
     sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick_radius)));
 }
 
@@ -71,7 +71,7 @@ static void follow_walk(const struct trace *trace, int64_t *at, struct rst_sampl
     const double share = h > 0 ? fmin(1, fmax(0, (sample->time - walk->time[*at]) / h)) : 0;
     const struct walk_shear *s = &walk->shear[*at];
     sample->shear_velocity = s[0].velocity + share * (s[1].velocity - s[0].velocity);
-    sample->shear_force = 15.0 / 8.0 * (s[0].force + share * (s[1].force - s[0].force));
+    sample->shear_force = (s[0].force + share * (s[1].force - s[0].force));
     sample->stick_radius = 0;
 }
 
@@ -87,7 +87,7 @@ static void sample_at(const struct trace *trace, double time, int64_t *p, int64_
     *sample = (struct rst_sample){.time = time,
                                   .indentation = rst_value_of(weight, panel->depth),
                                   .contact_radius = fmax(0, rst_value_of(weight, panel->radius)),
-                                  .normal_force = 15.0 / 8.0 * fmax(0, rst_value_of(weight, panel->force)),
+                                  .normal_force = fmax(0, rst_value_of(weight, panel->force)),
                                   .velocity = rst_value_of(weight, panel->velocity)};
     if (trace->store)
         follow_pieces(trace, *p, x, at, sample);

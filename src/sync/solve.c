@@ -213,7 +213,7 @@ static int solve(const struct rst_problem *problem, struct rst_workspace *worksp
     int status = refine(motion, problem, &fine, outcome, error);
     const int spent = status == RESTITUTE_TOLERANCE_NOT_REACHED;
     if (status < 0) return status;
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
+    outcome->max_normal_force = largest_force(&fine.run->normal);
     status = keep_ledger ? rst_motion_ledger(motion, problem, fine.run, outcome, error) : RESTITUTE_OK;
     return status ? status : conclude(problem, spent, outcome, error);
 }

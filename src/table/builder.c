@@ -153,7 +153,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: a table takes [%g, %g]", chi,
                             rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
-    if (b->contact.sliding != RST_SLIDES) b->first[0] = b->first[1] = 1;
+    if (!rst_has_psi(&b->contact)) b->first[0] = b->first[1] = 1;
     if (rst_share(chi) <= 0) b->first[1] = 1;
     memcpy(b->cells, b->first, sizeof b->cells);
     b->threads = rst_table_threads(threads, rst_most_speeds);

@@ -37,10 +37,7 @@ int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, r
     if (!status) status = unit_numbers(&plain, &contact->scene, &contact->numbers, error);
     if (status) return status;
     contact->friction = scene->friction;
-    contact->sliding = scene->friction <= 0      ? RST_NO_FRICTION
-                       : isinf(scene->friction) ? RST_NEVER_SLIPS
-                                                : RST_SLIDES;
-    if (contact->sliding != RST_SLIDES) contact->scene.friction = scene->friction;
+    if (!rst_has_psi(contact)) contact->scene.friction = scene->friction;
     contact->timeless = without_time(scene->material);
     return RESTITUTE_OK;
 }
@@ -99,7 +96,7 @@ static int solve(struct rst_column_solver *s, double psi, restitute_result *resu
     const struct rst_contact *c = s->contact;
     restitute_error why;
     restitute_result_init(result);
-    const double sliding = c->sliding == RST_SLIDES ? psi * s->speed / c->numbers.psi : 0;
+    const double sliding = rst_has_psi(c) ? psi * s->speed / c->numbers.psi : 0;
     const int status = restitute_plan_solve(s->plan, sliding, result, NULL, NULL, &why);
     if (status < 0) return name_place(s->speed, psi, &why, error);
     return status;
