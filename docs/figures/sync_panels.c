@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sync/sync_kernels.h"
+#include "sync/kernels.h"
 
 enum { arms = 2, room = 64, samples = 24 };
 
@@ -22,7 +22,7 @@ static struct sync_piece piece[room];
 static double memory[rst_points * arms * room], loading[rst_points * arms * room],
     corrective[rst_values * rst_points * arms * room];
 static double kernel[rst_stages * rst_points * arms * room], entry[2 * rst_stages * arms],
-    kernel_of_piece[rst_stages * rst_points * arms], memory_z[rst_points * arms], memory_x[rst_points * arms], loading_x[rst_points * arms];
+    room_of_piece[(rst_stages + 3) * rst_points * arms];
 
 static double at(double x, const double y[rst_points])
 {
@@ -86,10 +86,7 @@ int main(int argc, char **argv)
                                .record = record,
                                .piece = piece,
                                .corrective = corrective,
-                               .kernel_room = kernel_of_piece,
-                               .memory_z = memory_z,
-                               .memory_x = memory_x,
-                               .loading_x = loading_x};
+                               .room = room_of_piece};
     rst_follow_normal(&control, &normal, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sync/walk_kernels.h"
 
 /* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
 struct ladder {

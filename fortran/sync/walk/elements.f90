@@ -43,7 +43,8 @@ module rst_sync_walk
 
 contains
 
-  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
+  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger) &
+    bind(c, name="rst_follow_elements")
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
