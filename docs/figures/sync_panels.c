@@ -13,8 +13,8 @@
 
 enum { arms = 2, room = 64, samples = 24 };
 
-/* chi, psi, delta1, gamma: stick, slip from the edge, gross slip */
-static const double chi = 7.0 / 6, psi = 0.6, delta1 = 0.8, gamma_ = 1.5;
+/* gross slip until the contact sticks, stick, slip from the edge, gross slip */
+static const double chi = 7.0 / 6, psi = 1.4, delta1 = 0.8, gamma_ = 1.5;
 
 static struct sync_panel panel[room];
 static struct sync_record record[room];
@@ -33,6 +33,13 @@ static double at(double x, const double y[rst_points])
 
 static void print_curves(const struct sync_store *store)
 {
+    const double start = panel[piece[0].panel - 1].from +
+                         piece[0].from * (panel[piece[0].panel - 1].to - panel[piece[0].panel - 1].from);
+    for (int64_t p = 0; p < piece[0].panel; p++) /* gross slip */
+        for (int i = 0; i <= samples; i++) {
+            double x = fmin(1, (start - panel[p].from) / (panel[p].to - panel[p].from)) * i / samples;
+            printf("%.6g %.6g 0\n", at(x, panel[p].time), at(x, panel[p].radius));
+        }
     for (int64_t p = 0; p < store->n_pieces; p++) {
         const struct sync_piece *on = &piece[p];
         for (int i = 0; i <= samples; i++) {

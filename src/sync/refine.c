@@ -1,4 +1,4 @@
-/* Elements where slip sticks again (docs/sync.md, section 9): walks with more and more of them.
+/* Elements where slip sticks again (docs/sync.md, section 8): walks with more and more of them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sync/verdict.h"
 #include "sync/walk.h"
