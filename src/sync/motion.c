@@ -190,20 +190,16 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t records = c * sizeof(struct sync_record) / sizeof(double);
     const size_t pieces = c * sizeof(struct sync_piece) / sizeof(double);
-    const size_t now = rst_points * n;
     struct sync_store *s = &motion->store;
     if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + rst_values * points + rst_stages * now + 3 * now + 1))
+                  records + pieces + rst_values * points + (rst_stages + 3) * rst_points * n + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
     s->corrective = next += pieces;
-    s->kernel_room = next += rst_values * points;
-    s->memory_z = next += rst_stages * now;
-    s->memory_x = next += now;
-    s->loading_x = next + now;
+    s->room = next + rst_values * points;
     return 0;
 }
 

@@ -8,7 +8,7 @@
 
 #include "base/problem.h"
 #include "base/workspace.h"
-#include "sync/sync_kernels.h"
+#include "sync/kernels.h"
 
 /* Resolutions: each has panels half as wide as the one before. */
 enum { rst_most_halvings = 8 };

@@ -7,7 +7,6 @@
 #include "base/gross_slip.h"
 #include "base/status.h"
 #include "sync/walk.h"
-#include "sync/walk_kernels.h"
 
 /* The tangential side: pieces, or where elements were stepped their levels, or gross slip alone. */
 struct trace {

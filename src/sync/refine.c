@@ -1,4 +1,4 @@
-/* Elements where slip sticks again (docs/sync.md, section 9): walks with more and more of them.
+/* Elements where slip sticks again (docs/sync.md, section 8): walks with more and more of them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sync/verdict.h"
 #include "sync/walk.h"
@@ -15,33 +15,14 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     return RESTITUTE_OK;
 }
 
-static double rebound_of(const struct rst_run *run)
-{
-    return rst_last_panel(run)->velocity[rst_stages];
-}
-
-/* The same rebound as of the finest run, and one run finer than the one whose polynomials miss what pieces of U' may. */
-static int is_as_good(const struct rst_problem *problem, const struct rst_run *run, int halvings,
-                      const struct rst_run *finest)
-{
-    const double change = fabs(rebound_of(run) - rebound_of(finest));
-    const double swings = sqrt(fmax(1, problem->chi)); /* as in rst_motion_contact */
-    return run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
-           rst_roughness(halvings - 1) * swings <= rst_piece_part * problem->tolerance;
-}
-
-/* A walk has the ends of all panels among its levels. So it is over the coarsest run that is as good as the finest one, or else
- * over the finest that is not too fine for four walks. Returned are its halvings. */
-static int run_to_walk(const struct rst_motion *motion, const struct rst_problem *problem, int finest)
+/* A walk has the ends of all panels among its levels: it is over the finest run that is not too fine for four walks. Returned
+ * are its halvings. */
+static int run_to_walk(const struct rst_motion *motion, int finest)
 {
     int halvings = finest;
-    for (; halvings > 0; halvings--) {
-        const struct rst_run *coarser = &motion->run[halvings - 1];
-        const int too_fine = 8 * motion->run[halvings].normal.n_compression > rst_most_elements;
-        const int may = too_fine || problem->elements <= 0;
-        if (!may || coarser->found != motion->run[finest].found) break;
-        if (!too_fine && !is_as_good(problem, coarser, halvings - 1, &motion->run[finest])) break;
-    }
+    while (halvings > 0 && 8 * motion->run[halvings].normal.n_compression > rst_most_elements &&
+           motion->run[halvings - 1].found == motion->run[finest].found)
+        halvings--;
     return halvings;
 }
 
@@ -71,7 +52,7 @@ static int can_double(const struct rst_problem *problem, int64_t n, double left,
 int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
                       struct rst_outcome *outcome, restitute_error *error)
 {
-    outcome->halvings = run_to_walk(motion, problem, halvings);
+    outcome->halvings = run_to_walk(motion, halvings);
     const struct rst_run *run = &motion->run[outcome->halvings];
     const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "base/gross_slip.h"
-#include "sync/walk_kernels.h"
 
 /* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
 struct ladder {

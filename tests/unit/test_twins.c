@@ -8,8 +8,7 @@
 #include "cvode/kernels.h"
 #endif
 #include "euler/kernels.h"
-#include "sync/sync_kernels.h"
-#include "sync/walk_kernels.h"
+#include "sync/kernels.h"
 
 /* unit/twins.F90. */
 void fortran_offsets(int64_t i, int64_t *n, int64_t *offset);
@@ -63,8 +62,8 @@ static const struct {
     [9] = {"sync_piece", {AT(sync_piece, panel), AT(sync_piece, rooted), AT(sync_piece, from), AT(sync_piece, to),
         AT(sync_piece, shear_velocity), AT(sync_piece, shear_force), AT(sync_piece, stick_radius), END(sync_piece)}},
     [10] = {"sync_store", {AT(sync_store, capacity), AT(sync_store, n_records), AT(sync_store, n_pieces),
-        AT(sync_store, record), AT(sync_store, piece), AT(sync_store, corrective), AT(sync_store, kernel_room),
-        AT(sync_store, memory_z), AT(sync_store, memory_x), AT(sync_store, loading_x), END(sync_store)}},
+        AT(sync_store, record), AT(sync_store, piece), AT(sync_store, corrective), AT(sync_store, room),
+        END(sync_store)}},
     [11] = {"walk", {AT(walk, n), AT(walk, n_terms), AT(walk, capacity), AT(walk, start), AT(walk, end),
         AT(walk, mode), AT(walk, prescribed), AT(walk, chi), AT(walk, psi), AT(walk, g_inf), AT(walk, eta),
         END(walk)}},

@@ -106,8 +106,7 @@ contains
     case (10)
       call put(c_sizeof(sync_store), [c_loc(sync_store%capacity), c_loc(sync_store%n_records), &
                 c_loc(sync_store%n_pieces), c_loc(sync_store%record), c_loc(sync_store%piece), &
-                c_loc(sync_store%corrective), c_loc(sync_store%kernel_room), c_loc(sync_store%memory_z), &
-                c_loc(sync_store%memory_x), c_loc(sync_store%loading_x)])
+                c_loc(sync_store%corrective), c_loc(sync_store%room)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
                 c_loc(walk%end), c_loc(walk%mode), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &

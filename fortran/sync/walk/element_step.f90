@@ -1,4 +1,4 @@
-!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section 9).
+!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section 8).
 !>
 !> An element holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip velocity
 !> kappa = U' - v. The spring G_inf is the arm 0, whose relaxation time is infinite. The force is

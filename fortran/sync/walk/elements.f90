@@ -1,4 +1,4 @@
-!> The tangential motion of an impact by elements (docs/sync.md, section 9): for slip that sticks again, and for
+!> The tangential motion of an impact by elements (docs/sync.md, section 8): for slip that sticks again, and for
 !> the energy ledger. Module rst_sync_element_step has the step of the elements; here are contact and sphere.
 !>
 !> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at which the edge of the
@@ -44,7 +44,8 @@ module rst_sync_walk
 
 contains
 
-  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
+  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger) &
+    bind(c, name="rst_follow_elements")
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     type(walk_level_type), intent(in) :: level(0:2*walk%n)

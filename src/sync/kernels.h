@@ -1,9 +1,10 @@
-/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90.
+/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90
+ * and fortran/sync/walk/elements.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_KERNELS_H
 #define RST_SYNC_KERNELS_H
 
-#include <stdint.h>
+#include "base/kernels.h"
 
 /* Points of a panel beside its start. */
 enum { rst_stages = 6, rst_points = rst_stages + 1 };
@@ -58,7 +59,7 @@ struct sync_store {
     int64_t capacity, n_records, n_pieces;
     struct sync_record *record;
     struct sync_piece *piece;
-    double *corrective, *kernel_room, *memory_z, *memory_x, *loading_x;
+    double *corrective, *room; /* room: (rst_stages + 3) rst_points n_arms */
 };
 
 /* What rst_follow_normal and rst_follow_contact found. */
@@ -70,6 +71,35 @@ void rst_follow_contact(const struct sync_normal *normal, const struct sync_cont
                         double *velocity, int64_t *found);
 void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);
 void rst_sync_weights_at(double x, double *weight);
+
+/* Twin of walk_type. */
+struct walk {
+    int64_t n, n_terms, capacity, start, end, mode, prescribed;
+    double chi, psi, g_inf, eta;
+};
+
+/* Twin of walk_level_type. */
+struct walk_level {
+    double step, radius, depth, velocity, force;
+};
+
+/* Twin of walk_shear_type. */
+struct walk_shear {
+    double velocity, force;
+};
+
+/* Twin of walk_term_type. */
+struct walk_term {
+    double g, decay, from_start, from_end, normal;
+};
+
+enum { walk_columns = 6, walk_lanes = 8 };
+
+/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity walk_columns,
+ * stress 2 capacity (n_terms + 1). */
+void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
+                         const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,
+                         double *stress, struct rst_ledger *ledger);
 
 /* What the polynomial through the points of a panel is where these are the weights. */
 static inline double rst_value_of(const double *weight, const double *y)
