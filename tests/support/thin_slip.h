@@ -39,8 +39,8 @@ static inline struct thin_slip solve_thin_slip(restitute_options options, const 
     return s;
 }
 
-/* The method without slip against sync, which follows it at a fiftieth of the tolerance. Forces: 65 samples and the error of the method miss the
- * peak by a part of it, `rough`; a forgotten unit is off by 1/psi. */
+/* The method without slip against sync, which follows it at a fiftieth of the tolerance. Forces: 65 samples and the
+ * error of the method miss the peak by a part of it, `rough`; a forgotten unit is off by 1/psi. */
 static inline void compare_thin_slip(restitute_options options, const restitute_impact *impact,
                                      const restitute_scene *scene, double rough)
 {
