@@ -92,12 +92,12 @@ void ContactModel::note(Ratio which, double ratio)
  * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
-    double limit; /* a fiftieth of the contact time, which is 2.94 time scales */
+    double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
     if (restitute_contact_time_step_limit(law, 1 / contact.inverse_mass, contact.radius, speed, &limit, nullptr) < 0)
         return; /* no speed of approach: bodies were put into each other */
-    const double modulus = restitute_material_modulus(material, limit * 50 / 2.94);
+    const double modulus = restitute_material_modulus(material, limit * 50 / 2.9433);
     note(SPEED, speed / std::sqrt(modulus / std::max(density, file_density)));
     note(STEP, rates.step / limit);
 }

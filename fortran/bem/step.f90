@@ -3,6 +3,7 @@
 !> in G_r.
 !> With f = K p, the displacement is u = C f - h, where C and h (the memory of the solid) are known when the step begins.
 module rst_bem_step
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -113,15 +114,15 @@ contains
   end subroutine enter
 
   !> |tau| <= p, or any in contact without slip.
-  pure subroutine shear_bounds(ld, m, no_slip, p, low, high) bind(c, name="rst_bem_shear_bounds")
-    integer(ip), intent(in), value :: ld, m, no_slip
+  pure subroutine shear_bounds(ld, m, mode, p, low, high) bind(c, name="rst_bem_shear_bounds")
+    integer(ip), intent(in), value :: ld, m, mode
     real(dp), intent(in) :: p(ld, m)
     real(dp), intent(inout), dimension(ld, m) :: low, high
     integer(ip) :: i, j
     do j = 1, m
       do i = 1, m
         high(i, j) = p(i, j)
-        if (no_slip /= 0 .and. p(i, j) > 0) high(i, j) = huge(1.0_dp)
+        if (mode == mode_no_slip .and. p(i, j) > 0) high(i, j) = huge(1.0_dp)
         low(i, j) = -high(i, j)
       end do
     end do

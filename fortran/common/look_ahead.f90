@@ -7,7 +7,7 @@ module rst_look_ahead
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: likely_depth, scout_compression
+  public :: likely_depth, scout_compression, recoverable_energy
 
   real(dp), parameter :: growth = 0.01_dp  !! steps grow with the time elapsed: decades cost alike
 

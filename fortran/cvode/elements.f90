@@ -24,6 +24,7 @@ module rst_cvode_elements
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
                              shear_velocity_at, shear_memory_at
   use rst_motion_factors, only: shear_factor
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -163,11 +164,11 @@ contains
   end function count_inside
 
   !> f - q of an element.
-  pure function shortfall(no_slip, motion, d, f) result(m)
-    integer(ip), intent(in) :: no_slip, motion
+  pure function shortfall(mode, motion, d, f) result(m)
+    integer(ip), intent(in) :: mode, motion
     real(dp), intent(in) :: d, f
     real(dp) :: m
-    if (no_slip /= 0) then
+    if (mode == mode_no_slip) then
       m = d
     else if (motion == sticks) then
       m = max(0.0_dp, min(d, 2*f))
@@ -179,14 +180,14 @@ contains
   !> Mean of f - q between two elements. Where the inner one sticks and the outer one slips the front between them is where the
   !> force without slip, linear in X, meets the limit; it moves on while the outer one slips, whose margin is still that of
   !> the force that it would have had.
-  pure function mean_shortfall(no_slip, motion, motion_out, d, d_out, f, f_out, m) result(mean)
-    integer(ip), intent(in) :: no_slip, motion, motion_out
+  pure function mean_shortfall(mode, motion, motion_out, d, d_out, f, f_out, m) result(mean)
+    integer(ip), intent(in) :: mode, motion, motion_out
     real(dp), intent(in) :: d, d_out, f, f_out, m  !! m: shortfall of the inner one
     real(dp) :: mean, left, left_out, part, limit
     left = 2*f - d
     left_out = 2*f_out - d_out
-    if (no_slip /= 0 .or. motion /= sticks) then
-      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+    if (mode == mode_no_slip .or. motion /= sticks) then
+      mean = 0.5_dp*(m + shortfall(mode, motion_out, d_out, f_out))
     else if (motion_out /= slips_backward .and. d > 0 .and. d_out < 0 .and. left > 0) then
       mean = 0.5_dp*d*d/(d - d_out)
     else if (motion_out /= slips_forward .and. d > 0 .and. left > 0 .and. left_out < 0) then
@@ -194,7 +195,7 @@ contains
       limit = d + part*(d_out - d)
       mean = 0.5_dp*((d + limit)*part + (limit + 2*f_out)*(1 - part))
     else
-      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+      mean = 0.5_dp*(m + shortfall(mode, motion_out, d_out, f_out))
     end if
   end function mean_shortfall
 
@@ -206,16 +207,16 @@ contains
     real(dp), intent(in) :: x(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
     real(dp) :: missing, width, m, edge
     width = contact%radius - x(n)
-    m = shortfall(scene%no_slip, motion(n), d(n), f(n))
+    m = shortfall(scene%mode, motion(n), d(n), f(n))
     if (scene%restitution == 0) then
       edge = scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))  ! of a dashpot, cut to f
-      if (scene%no_slip == 0) edge = max(0.0_dp, min(edge, 2*scene%eta*y(state_velocity)))
+      if (scene%mode /= mode_no_slip) edge = max(0.0_dp, min(edge, 2*scene%eta*y(state_velocity)))
       missing = 0.5_dp*width*(m + edge)
     else
       edge = d(n)  ! f = 0, so this is minus the q of an element that does not slip there
       if (n < scene%n_entered) edge = edge + width/(x(n + 1) - x(n))*(d(n + 1) - d(n))
-      missing = 0.5_dp*width*(m + merge(edge, 0.0_dp, scene%no_slip /= 0))
-      if (scene%no_slip == 0 .and. motion(n) == sticks) missing = width*thin_slip(d(n), f(n), edge)
+      missing = 0.5_dp*width*(m + merge(edge, 0.0_dp, scene%mode == mode_no_slip))
+      if (scene%mode /= mode_no_slip .and. motion(n) == sticks) missing = width*thin_slip(d(n), f(n), edge)
     end if
   end function edge_cell
 
@@ -331,13 +332,13 @@ contains
       else
         weight = 0.5_dp*(contact%radius - before)
       end if
-      m = shortfall(scene%no_slip, motion(i), d(i), f(i))
-      if (i < n) missing = missing + (x(i + 1) - x(i))*mean_shortfall(scene%no_slip, motion(i), motion(i + 1), d(i), d(i + 1), &
+      m = shortfall(scene%mode, motion(i), d(i), f(i))
+      if (i < n) missing = missing + (x(i + 1) - x(i))*mean_shortfall(scene%mode, motion(i), motion(i + 1), d(i), d(i + 1), &
                                                                      f(i), f(i + 1), m)
-      if (m >= 2*f(i) .and. scene%no_slip == 0) then
+      if (m >= 2*f(i) .and. scene%mode /= mode_no_slip) then
         backward = backward + weight
         held = .false.
-      else if (m > 0 .or. scene%no_slip /= 0) then
+      else if (m > 0 .or. scene%mode == mode_no_slip) then
         stick = stick + weight
         if (held) missing = missing + (x(i) - before)*layer(i)
         held = .true.
@@ -367,7 +368,7 @@ contains
     do i = 1, scene%n_nodes
       value(i) = 1
     end do
-    if (scene%no_slip /= 0) return
+    if (scene%mode == mode_no_slip) return
     velocity = y(shear_velocity_at(scene))
     do i = 1, min(n_contact, scene%n_entered)
       if (motion(i) == sticks) then
@@ -430,7 +431,7 @@ contains
       amplitude(i, j) = 0
     end do
     motion(i) = sticks
-    if (scene%no_slip == 0) then
+    if (scene%mode /= mode_no_slip) then
       if (y(shear_velocity_at(scene)) > y(state_velocity)) motion(i) = slips_forward
       if (y(shear_velocity_at(scene)) < -y(state_velocity)) motion(i) = slips_backward
     end if

@@ -19,7 +19,8 @@ module rst_cvode_types
     integer(ip) :: n_terms, n_modes, n_states, n_knots
     integer(ip) :: n_nodes   !! capacity of the arrays of elements
     integer(ip) :: n_entered !! elements 1..n_entered have their memory
-    integer(ip) :: restitution, no_slip
+    integer(ip) :: restitution
+    integer(ip) :: mode      !! how friction acts
   end type scene_type
 
   !> A^2 (below 0: how far past the end of contact), A, int_0^A f dX. Twin of `struct cvode_contact`.

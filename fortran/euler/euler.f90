@@ -13,21 +13,20 @@ module rst_euler
   use rst_foundation, only: place_elements, normal_forces, sticking_forces, friction_forces, total_force
   use rst_euler_ledger, only: post_viscous, post_friction, post_unloading, post_left_behind
   use rst_ledger, only: ledger_type
+  use rst_friction_mode, only: mode_frictionless, mode_gross_slip, mode_partial_slip, mode_no_slip
   use rst_motion_factors, only: mass_factor
   implicit none (type, external)
   private
   public :: scene_type, state_type, start_impact, advance_impact
   public :: phase_compression, phase_restitution, phase_done, phase_sunk, phase_overflow, phase_stalled
-  public :: mode_frictionless, mode_gross_slip, mode_partial_slip, mode_no_slip
 
   integer(ip), parameter :: phase_compression = 0, phase_restitution = 1, phase_done = 2, phase_sunk = 3, &
                             phase_overflow = 4, phase_stalled = 5
-  integer(ip), parameter :: mode_frictionless = 0, mode_gross_slip = 1, mode_partial_slip = 2, mode_no_slip = 3
   integer(ip), parameter :: stalled_for_good = 10000  !! at the turning point a few steps may stall
 
   !> What is impacted, and how finely it is resolved. Twin of `struct euler_scene` in C.
   type, bind(c) :: scene_type
-    real(dp) :: chi, psi
+    real(dp) :: chi, shear_speed  !! U' at first touch
     real(dp) :: g_inf, eta
     real(dp) :: step, spacing
     real(dp) :: rest_speed  !! a sphere with less than this left, kinetic and elastic, has sunk in for good
@@ -52,7 +51,7 @@ module rst_euler
 
 contains
 
-  !> First touch: D = 0, D' = 1, U' = psi. Without slip the problem is linear in U and psi only sets its scale.
+  !> First touch: D = 0, D' = 1, U' = shear_speed: psi, or 1 without slip or friction.
   pure subroutine start_impact(scene, state, x2)
     type(scene_type), intent(in) :: scene
     type(state_type), intent(out) :: state
@@ -63,7 +62,7 @@ contains
     state%depth = 0
     state%velocity = 1
     state%shift = 0
-    state%shear_velocity = scene%psi
+    state%shear_velocity = scene%shear_speed
     state%force = 0
     state%shear_force = 0
     state%true_edge_force = 0

@@ -7,7 +7,7 @@ module rst_collocation
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
+  public :: stages, point, integral, differential, weights_at, value_on, last_coefficient, integrated, start_of, root_between
   public :: shifted_inverse
   public :: applied, composed, factors_type, factorize, solution_of, has_converged, keeps_matrix
 
@@ -75,6 +75,13 @@ contains
                           a(2)*a(3)*(first*last), a(6)*(first*middle), a(5)*(first*middle)]
     weight = weight*(2 - (((weight(0) + weight(1)) + (weight(2) + weight(3))) + ((weight(4) + weight(5)) + weight(6))))
   end function weights_at
+
+  !> The polynomial through y at x.
+  pure function value_on(x, y) result(value)
+    real(dp), intent(in) :: x, y(0:stages)
+    real(dp) :: value
+    value = sum(weights_at(x)*y)
+  end function value_on
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
   pure function last_coefficient(y) result(c)

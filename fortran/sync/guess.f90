@@ -24,9 +24,9 @@ contains
       panel%force(1:) = max(panel%force(0), tiny(1.0_dp))
     else
       theta = panel%from + point(1:)*(panel%to - panel%from)
-      panel%radius(1:) = normal%radius*sin(theta)
+      panel%radius(1:) = normal%scale*sin(theta)
       panel%velocity(1:) = cos(theta)
-      panel%force(1:) = sin(theta)**3/(2*mass_factor*normal%radius**2) + normal%eta*panel%radius(1:)*panel%velocity(1:)
+      panel%force(1:) = sin(theta)**3/(2*mass_factor*normal%scale**2) + normal%eta*panel%radius(1:)*panel%velocity(1:)
     end if
   end subroutine guess_compression
 

@@ -62,12 +62,15 @@ static const double psi_rounding = 1e-12;
 
 void rst_set_sliding(double given, struct rst_problem *problem)
 {
-    const double psi = fabs(given - 1) <= psi_rounding ? 1 : given;
-    problem->psi = psi > psi_rounding && !isinf(psi) ? psi : 1;
-    problem->mode = isinf(psi)           ? RST_FRICTIONLESS
-                    : psi > 1            ? RST_GROSS_SLIP
-                    : psi > psi_rounding ? RST_PARTIAL_SLIP
-                                         : RST_NO_SLIP;
+    const double psi = fabs(given - 1) <= psi_rounding ? 1 : given <= psi_rounding ? 0 : given;
+    problem->psi = psi;
+    problem->mode = isinf(psi) ? RST_FRICTIONLESS
+                    : psi > 1  ? RST_GROSS_SLIP
+                    : psi > 0  ? RST_PARTIAL_SLIP
+                               : RST_NO_SLIP;
+    problem->shear_speed = problem->mode == RST_FRICTIONLESS || problem->mode == RST_NO_SLIP ? 1 : psi;
+    problem->shear_scale = 1;
+    problem->slip_bound = 0;
 }
 
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error)

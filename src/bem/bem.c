@@ -166,7 +166,7 @@ static int find_box(struct impact *impact, restitute_error *error)
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                       "the method bem finds no box and step for this solid: its impact and its relaxation are too far "
                       "apart; take another method");
 }
@@ -185,7 +185,7 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                              .followed_time = q->time,
                              .max_indentation = run->max_depth,
                              .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
-                             .max_normal_force = 15.0 / 64 * run->max_force,
+                             .max_normal_force = run->max_force / 8,
                              .spacing = setup->spacing,
                              .step = setup->step,
                              .elements = (int64_t)elements,
@@ -208,7 +208,7 @@ static double ringing_error(const struct bem_run *run)
 static void compare(const struct impact *impact, const struct bem_run *coarse, const struct bem_run *run,
                     double elements, struct rst_outcome *outcome)
 {
-    const double psi = impact->problem->psi, slip = impact->problem->mode == RST_NO_SLIP ? 0 : psi;
+    const double slip = impact->problem->mode == RST_NO_SLIP ? 0 : impact->problem->psi;
     const double grid = pow(elements, -1.5), ratio = coarse->step / outcome->step;
     const double harder = fmin(largest_chi, fmax(1, impact->problem->chi));
     const double tangential =
@@ -220,7 +220,7 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, c
     if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
-    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * tangential * harder + outcome->error_ez;
+    outcome->error_ex = fabs(shear_change) / impact->problem->shear_speed + grid_error_ex * tangential * harder + outcome->error_ez;
     outcome->shear_velocity += shear_change;
 }
 
@@ -234,7 +234,7 @@ static int not_reached(const struct impact *impact, const struct rst_outcome *ou
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
         "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
-        impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
+        impact->problem->asked, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
         (long long)outcome->steps);
 }
 
@@ -367,17 +367,17 @@ static double radius_of(double area)
     return sqrt(area / 3.14159265358979323846);
 }
 
-static void add_sample(struct sampler *sampler, double psi, const struct bem_motion *q)
+static void add_sample(struct sampler *sampler, double shear_speed, const struct bem_motion *q)
 {
     sampler->history->samples[sampler->history->count++] =
         (struct rst_sample){.time = q->time,
                             .indentation = q->depth,
                             .contact_radius = radius_of(q->contact),
                             .stick_radius = radius_of(q->stick),
-                            .normal_force = 15.0 / 64 * q->force,
-                            .shear_force = 15.0 / 64 * q->shear_force,
+                            .normal_force = q->force / 8,
+                            .shear_force = q->shear_force / 8,
                             .velocity = q->velocity,
-                            .shear_velocity = q->shear_velocity / psi};
+                            .shear_velocity = q->shear_velocity / shear_speed};
 }
 
 static void see(struct bem_observer *observer, const struct bem_setup *setup, const struct bem_run *run,
@@ -394,7 +394,7 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
         q.time = s->outcome->contact_time;
         q.contact = q.stick = q.force = q.shear_force = 0;
     }
-    add_sample(s, setup->problem->psi, &q);
+    add_sample(s, setup->problem->shear_speed, &q);
 }
 
 static int bem_record(const struct rst_problem *problem, struct rst_workspace *workspace,
@@ -412,7 +412,8 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
     history->count = 0;
     if (sampler.recorder) rst_bem_recorder_begin(sampler.recorder);
-    add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi});
+    add_sample(&sampler, problem->shear_speed,
+               &(struct bem_motion){.velocity = 1, .shear_velocity = problem->shear_speed});
     rst_bem_run(&setup, impact.memory, &sampler.observer, &run);
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }

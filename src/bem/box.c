@@ -1,6 +1,4 @@
-/* Box and duration. The first guess: an elastic sphere meets the solid with the modulus that it has at the time of the
- * impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at
- * the time 1.47). Runs on a coarse grid correct it until they fit into their box.
+/* Box and duration. Runs on a coarse grid correct the first guess, that of all methods, until they fit into their box.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/box.h"
 
@@ -15,15 +13,11 @@ static const double generous = 1.15, least_part = 0.6;
 /* The guess of the time is far less wrong than this. */
 static const double far_off = 1e6;
 
-enum { most_tries = 60, most_iterations = 60 };
+enum { most_tries = 60 };
 
 static double guess_depth(const struct rst_solid *solid)
 {
-    const double first = rst_bem_solid_modulus(solid, 0);
-    double depth = pow(first, -0.4);
-    for (int i = 0; i < most_iterations; i++) /* up to 100 times as deep: a solid that flows would have no end */
-        depth = pow(fmax(rst_bem_solid_modulus(solid, depth), 1e-5 * first), -0.4);
-    return depth;
+    return rst_likely_depth(solid->g_inf, solid->eta, solid->n_terms, solid->g, solid->tau);
 }
 
 static void settle_time(const struct bem_run *run, struct bem_box *box)
@@ -35,7 +29,7 @@ static void settle_time(const struct bem_run *run, struct bem_box *box)
 
 void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest)
 {
-    const double time = 2.94 * guess_depth(solid);
+    const double time = rst_elastic_contact_time() * guess_depth(solid);
     *shortest = time / far_off;
     *longest = time * far_off;
 }
@@ -45,7 +39,7 @@ int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid,
                      struct bem_box *box)
 {
     const double depth = guess_depth(&problem->solid);
-    double side = generous * sqrt(depth), step = 2.94 * depth / (double)coarse_steps;
+    double side = generous * sqrt(depth), step = rst_elastic_contact_time() * depth / (double)coarse_steps;
     for (int i = 0; i < most_tries; i++) {
         struct bem_run run;
         const struct bem_setup setup = {.problem = problem,

@@ -9,7 +9,18 @@
 
 #include "bem/stepper.h"
 
-static const double normal_mass_factor = 15.0 / 64, shear_mass_factor = 15.0 / 32, pull = 1.5;
+static const double pull = 1.5;
+
+/* int p dA is 8 int f dX. */
+static double normal_mass_factor(void)
+{
+    return rst_mass_factor() / 8;
+}
+
+static double shear_mass_factor(const struct bem_setup *setup)
+{
+    return rst_mass_factor() / 4 * setup->problem->chi;
+}
 
 /* Contact is sought this many cells beyond where it will be, if it goes on as it went. */
 static const double reach = 3;
@@ -123,8 +134,8 @@ static enum bem_end advance(struct bem_stepper *s)
     const int euler = setup->variant.explicit_euler;
     const struct bem_motion b = s->motion;
     struct bem_motion q = b;
-    const double h = setup->step, x_factor = shear_mass_factor * setup->problem->chi;
-    const double a = -normal_mass_factor * b.force, c = -x_factor * b.shear_force;
+    const double h = setup->step, x_factor = shear_mass_factor(setup), z_factor = normal_mass_factor();
+    const double a = -z_factor * b.force, c = -x_factor * b.shear_force;
     enum bem_end end;
     q.depth += h * (b.velocity + (euler ? 0 : h / 2 * a));
     q.shift += h * (b.shear_velocity + (euler ? 0 : h / 2 * c));
@@ -135,7 +146,7 @@ static enum bem_end advance(struct bem_stepper *s)
     if (end != BEM_REBOUND) return end;
     q.force = s->motion.force, q.contact = s->motion.contact;
     q.shear_force = s->motion.shear_force, q.stick = s->motion.stick;
-    q.velocity -= normal_mass_factor * h * (euler ? q.force : 0.5 * (b.force + q.force));
+    q.velocity -= z_factor * h * (euler ? q.force : 0.5 * (b.force + q.force));
     q.shear_velocity -= x_factor * h * (euler ? q.shear_force : 0.5 * (b.shear_force + q.shear_force));
     q.time += h;
     add_work(s, &b, &q);
@@ -165,17 +176,16 @@ static void note_largest(struct bem_run *run, const struct bem_motion *q)
 static int unstable(const struct bem_stepper *s)
 {
     const struct bem_motion *q = &s->motion;
-    const double psi = s->setup->problem->psi;
     /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations leave */
     const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
-    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * psi);
+    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }
 
 static int rests(const struct bem_stepper *s)
 {
     const double slow = s->setup->rest_speed;
     return s->setup->problem->solid.can_sink && fabs(s->motion.velocity) < slow &&
-           normal_mass_factor * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
+           normal_mass_factor() * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
 /* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact
@@ -188,7 +198,7 @@ static int leaves(const struct bem_stepper *s)
 /* From sums to parts of the energies that came in; u_x = 1.5 U. */
 static void scale_work(const struct bem_setup *setup, struct bem_work *work)
 {
-    const double z = 2 * normal_mass_factor, x = 2 * shear_mass_factor * setup->problem->chi;
+    const double z = 2 * normal_mass_factor(), x = 2 * shear_mass_factor(setup);
     work->normal *= z;
     work->left_normal *= z;
     work->shear *= x;
@@ -231,7 +241,7 @@ void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struc
     run->end = BEM_TOO_LONG;
     s.cell = 4 * setup->spacing;
     s.motion.velocity = 1;
-    s.motion.shear_velocity = setup->problem->psi;
+    s.motion.shear_velocity = setup->problem->shear_speed;
     s.before = s.motion;
     rst_bem_normal_target(setup->m, setup->m, setup->spacing, 0, -1, s.f.h, s.f.gap); /* r^2/2 */
     follow(&s, observer);

@@ -60,11 +60,3 @@ void rst_bem_solid_step(double h, int jumps, struct bem_solid *s)
     }
     s->ringing = jumps ? 0 : slow / s->c;
 }
-
-double rst_bem_solid_modulus(const struct rst_solid *relaxation, double t)
-{
-    double g = relaxation->g_inf;
-    for (int64_t k = 0; k < relaxation->n_terms; k++)
-        g += relaxation->g[k] * exp(-t / relaxation->tau[k]);
-    return g;
-}

@@ -26,7 +26,4 @@ void rst_bem_solid_prune(double shortest, double longest, struct bem_solid *cree
 /* For steps of h in which f changes linearly, or (jumps) at their beginning, as in the paper. */
 void rst_bem_solid_step(double h, int jumps, struct bem_solid *creep);
 
-/* Relaxation modulus of the solid at time t, its dashpot left out. */
-double rst_bem_solid_modulus(const struct rst_solid *relaxation, double t);
-
 #endif

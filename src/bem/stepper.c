@@ -95,11 +95,11 @@ static int solve_by_stick_sets(struct bem_stepper *s, double residual)
 {
     struct bem_fields *f = &s->f;
     const int64_t m = s->near->m;
-    rst_bem_shear_bounds(f->m, m, 1, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(f->m, m, RST_NO_SLIP, f->p_new, f->low, f->high);
     do {
         if (solve_target(s, BEM_SHEAR, residual, f->tau_new)) return 1;
     } while (s->setup->problem->mode != RST_NO_SLIP && shrink_stick_set(s) > 0);
-    rst_bem_shear_bounds(f->m, m, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(f->m, m, s->setup->problem->mode, f->p_new, f->low, f->high);
     return 0;
 }
 
@@ -108,10 +108,10 @@ enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift)
     struct bem_fields *f = &s->f;
     const struct bem_solid *solid = s->solid;
     const int64_t ld = f->m, m = s->all->m, near = s->near->m;
-    const double residual = closeness * fmin(1, s->setup->problem->psi) / solid->c;
+    const double residual = closeness * fmin(1, s->setup->problem->shear_speed) / solid->c;
     double sum, stick, work;
     rst_bem_recall(ld, m, solid->n_terms, solid->decay, f->b_x, solid->held, f->drift_x, f->f_x, f->h);
-    rst_bem_shear_bounds(ld, near, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(ld, near, s->setup->problem->mode, f->p_new, f->low, f->high);
     rst_bem_shear_target(ld, near, shift, solid->c, f->anchor, f->h, f->target);
     rst_bem_start_shear(ld, near, f->p, f->tau, f->tau_before, f->high, f->tau_new);
     if (s->setup->variant.stick_sets ? solve_by_stick_sets(s, residual)

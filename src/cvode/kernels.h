@@ -11,7 +11,7 @@ enum cvode_motion { RST_ELEMENT_STICKS = 0, RST_ELEMENT_SLIPS_FORWARD = 1, RST_E
 /* Twin of scene_type. */
 struct cvode_scene {
     double chi, g_inf, eta, reference, step_start;
-    int64_t n_terms, n_modes, n_states, n_knots, n_nodes, n_entered, restitution, no_slip;
+    int64_t n_terms, n_modes, n_states, n_knots, n_nodes, n_entered, restitution, mode;
 };
 
 /* Twin of contact_type. */

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
+
 /* Root functions before those of the elements. */
 enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 
@@ -47,13 +49,10 @@ double rst_run_velocity(const struct run *run, const double *y)
     return y[1];
 }
 
-/* While all slips, U' follows from D' (27); without friction it does not change. */
 double rst_run_shear_velocity(const struct run *run, const double *y)
 {
-    const struct run_setup *s = run->setup;
     if (run->shears) return y[position_of_shear(&run->scene) + 1];
-    if (s->mode == RST_FRICTIONLESS) return s->psi;
-    return s->psi - 2 * s->chi * (1 - y[1]);
+    return rst_slipping_velocity(run->setup->problem, y[1]);
 }
 
 double rst_run_stick_radius(const struct run *run)
@@ -61,7 +60,7 @@ double rst_run_stick_radius(const struct run *run)
     const struct elements *e = &run->elements;
     int64_t i = run->inside;
     if (!run->shears || i == 0) return 0;
-    if (run->scene.no_slip) return run->contact.radius;
+    if (run->scene.mode == RST_NO_SLIP) return run->contact.radius;
     while (i > 0 && !(e->motion[i - 1] == RST_ELEMENT_STICKS && e->d[i - 1] > 0 && e->d[i - 1] < 2 * e->f[i - 1]))
         i--;
     if (i == run->inside) return run->contact.radius;
@@ -70,7 +69,7 @@ double rst_run_stick_radius(const struct run *run)
 
 static void evaluate(struct run *run, double t, const double *y, double *rate)
 {
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const struct elements *e = &run->elements;
     rst_cvode_normal_rates(&run->scene, s->g, s->tau, run->trace->knot, run->trace->memory, &run->near, t, y, rate,
                            &run->contact);
@@ -78,7 +77,7 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
     rst_cvode_margins(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->shift, e->c, e->b,
                       e->layer_weight, run->start_y, run->start_rate, t, y, &run->inside, e->d, e->f, e->layer);
     struct cvode_contact contact = run->contact;
-    if (run->setup->psi < mostly_sticks || run->scene.no_slip)
+    if (run->setup->problem->shear_speed < mostly_sticks || run->scene.mode == RST_NO_SLIP)
         rst_cvode_force_by_rule(&run->scene, s->tau, &run->contact, e->x, e->entry, e->past, e->c, e->layer_weight,
                                 run->inside, e->f, t, y, &contact.force);
     rst_cvode_shear_rates(&run->scene, s->g, s->tau, &contact, e->x, e->entry, e->motion, run->inside, e->d, e->f,
@@ -99,7 +98,7 @@ static int call_rates(void *owner, double t, const double *y, double *rate)
 
 static double error_scale(const struct run *run)
 {
-    return run->setup->closeness * fmin(1, run->setup->psi);
+    return run->setup->closeness * fmin(1, run->setup->problem->shear_speed);
 }
 
 /* What counts as 0 where something is 0 by construction. */
@@ -131,7 +130,7 @@ static void call_roots(void *owner, double t, const double *y, double *value)
 static void call_newton(void *owner, double gamma, const double *y, const double *b, double *x)
 {
     struct run *run = owner;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     rst_cvode_solve_newton(&run->scene, s->g, s->tau, &run->contact, &run->sums, gamma, y, b, x);
 }
 
@@ -142,15 +141,15 @@ static void call_weights(void *owner, const double *y, double *weight)
     const struct run *run = owner;
     const struct run_setup *s = run->setup;
     const double close = s->closeness, stress = 1 / (s->depth * sqrt(s->depth));
-    const size_t n = (size_t)s->solid.n_terms, shear = position_of_shear(&run->scene);
+    const size_t n = (size_t)s->problem->solid.n_terms, shear = position_of_shear(&run->scene);
     weight[0] = 1 / (close * fmax(s->depth, fabs(y[0])));
-    weight[1] = 1 / (close * (s->solid.can_sink ? fmax(sinking_scale, fabs(y[1])) : 1));
+    weight[1] = 1 / (close * (s->problem->solid.can_sink ? fmax(sinking_scale, fabs(y[1])) : 1));
     for (size_t k = 0; k < n; k++) {
         weight[2 + k] = 1 / (close * fmax(stress, fabs(y[2 + k])));
         weight[2 + n + k] = 1 / (close * fmax(stress * sqrt(s->depth), fabs(y[2 + n + k])));
     }
     if (!run->shears) return;
-    const double share = fmin(1, s->psi);
+    const double share = fmin(1, s->problem->shear_speed);
     weight[shear] = 1 / (close * share * fmax(s->depth, fabs(y[shear])));
     weight[shear + 1] = 1 / (close * share);
     for (size_t k = 0; k < n; k++)
@@ -223,22 +222,23 @@ static void place_elements(struct run *run)
         for (int64_t k = 0; k < terms; k++)
             e->past[k * n + i] = i > 0 ? past[k] : 0;
     }
-    rst_cvode_layer_weights(&run->scene, run->setup->solid.tau, e->entry, e->layer_weight);
+    rst_cvode_layer_weights(&run->scene, run->setup->problem->solid.tau, e->entry, e->layer_weight);
 }
 
 static int prepare(struct run *run)
 {
     const struct run_setup *s = run->setup;
-    const int64_t k = s->solid.n_terms, n = s->n_nodes;
-    run->scene = (struct cvode_scene){.chi = s->chi,
-                                      .g_inf = s->solid.g_inf,
-                                      .eta = s->solid.eta,
+    const struct rst_solid *solid = &s->problem->solid;
+    const int64_t k = solid->n_terms, n = s->n_nodes;
+    run->scene = (struct cvode_scene){.chi = s->problem->chi,
+                                      .g_inf = solid->g_inf,
+                                      .eta = solid->eta,
                                       .n_terms = k,
-                                      .n_modes = k + (s->solid.eta > 0),
+                                      .n_modes = k + (solid->eta > 0),
                                       .n_states = 2 + 2 * k,
                                       .n_knots = run->trace->count,
                                       .n_nodes = n,
-                                      .no_slip = s->mode == RST_NO_SLIP};
+                                      .mode = s->problem->mode};
     run->near = 1;
     const size_t size = (size_t)lay_out(run, run->doubles), modes = (size_t)run->scene.n_modes;
     run->doubles = calloc(size + 2 * modes * modes, sizeof(double));
@@ -253,7 +253,7 @@ static int prepare(struct run *run)
     }
     place_elements(run);
     struct recovery *r = &run->recovery;
-    rst_cvode_recovery_modes(k, run->scene.n_modes, s->solid.g_inf, s->solid.eta, s->solid.g, s->solid.tau,
+    rst_cvode_recovery_modes(k, run->scene.n_modes, solid->g_inf, solid->eta, solid->g, solid->tau,
                              run->doubles + size, r->rate, r->u, r->v, r->from_u, r->from_v);
     return RESTITUTE_OK;
 }
@@ -312,7 +312,7 @@ static int integrate_from(struct run *run)
 static void fade_to(struct run *run, double t)
 {
     const struct elements *e = &run->elements;
-    rst_cvode_fade(&run->scene, run->setup->solid.tau, run->recovery.rate, t, e->c, e->b, e->amplitude);
+    rst_cvode_fade(&run->scene, run->setup->problem->solid.tau, run->recovery.rate, t, e->c, e->b, e->amplitude);
     run->scene.reference = t;
 }
 
@@ -332,7 +332,7 @@ static int admit(struct run *run, double t)
             y = run->look;
         }
         run->scene.n_entered++;
-        rst_cvode_enter_element(&run->scene, run->setup->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
+        rst_cvode_enter_element(&run->scene, run->setup->problem->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
                                 e->b, e->amplitude);
     }
     return 0;
@@ -353,7 +353,7 @@ static void take_over_gross_slip(struct run *run)
 {
     const struct elements *e = &run->elements;
     const int64_t n = run->scene.n_nodes, terms = run->scene.n_terms;
-    const double *tau = run->setup->solid.tau;
+    const double *tau = run->setup->problem->solid.tau;
     double *shear = run->y + position_of_shear(&run->scene);
     shear[0] = run->y[0];
     shear[1] = run->slip_end;
@@ -377,7 +377,7 @@ static int begin_shear(struct run *run, int after_gross_slip)
     if (after_gross_slip)
         take_over_gross_slip(run);
     else
-        run->y[position_of_shear(&run->scene) + 1] = run->setup->psi;
+        run->y[position_of_shear(&run->scene) + 1] = run->setup->problem->shear_speed;
     const int status = integrate_from(run);
     if (!status) begin_step(run);
     return status;
@@ -403,7 +403,7 @@ static int note(struct run *run, int kind, double position, int elements)
  * step. */
 static double suffered(struct run *run, double weight)
 {
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const double reached = rst_integrator_reached(run->integrator), late = reached - run->time;
     double stiffness = s->g_inf;
     for (int64_t k = 0; k < s->n_terms; k++)
@@ -413,7 +413,7 @@ static double suffered(struct run *run, double weight)
     const size_t v = position_of_shear(&run->scene) + 1;
     const double slip =
         fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
-    return 3.75 * run->setup->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
+    return 2 * rst_mass_factor() * run->setup->problem->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
 }
 
 /* The functions of the elements, of the margins last computed. */
@@ -454,7 +454,7 @@ static int find_late(struct run *run)
 static int change_motion(struct run *run, int *restart)
 {
     const struct elements *e = &run->elements;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     int slipping = 0, sticking = 0, status = RESTITUTE_OK;
     double slip_at = 0, stick_at = 0, weight = 0;
     for (int64_t i = 0; i < run->inside; i++) {
@@ -573,17 +573,13 @@ static int extend_trace(struct run *run, double from)
     return RESTITUTE_OK;
 }
 
-/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units
- * of the impact energy: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
+/* Kinetic energy and what the springs could give back: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
 static int is_lost(const struct run *run)
 {
-    const struct rst_solid *s = &run->setup->solid;
-    const double depth = run->y[0], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
-    if (!s->can_sink || run->scene.restitution || !(run->y[1] < rest)) return 0;
-    double energy = s->g_inf * (8.0 / 15) * depth * depth * sqrt(depth);
-    for (int64_t k = 0; k < s->n_terms; k++)
-        energy += 2 * loading[k] * loading[k] / (s->g[k] * sqrt(depth));
-    return run->y[1] * run->y[1] + 15.0 / 8 * energy < rest * rest;
+    const struct rst_solid *s = &run->setup->problem->solid;
+    const double speed = run->y[1], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
+    if (!s->can_sink || run->scene.restitution || !(speed < rest)) return 0;
+    return speed * speed + rst_recoverable_energy(run->y[0], s->g_inf, s->n_terms, s->g, loading) < rest * rest;
 }
 
 static void keep_largest(struct run *run)
@@ -596,7 +592,7 @@ static int end_step(struct run *run)
 {
     int status = RESTITUTE_OK, again = 0;
     begin_step(run);
-    if (!run->shears || run->scene.no_slip || !find_late(run)) return status;
+    if (!run->shears || run->scene.mode == RST_NO_SLIP || !find_late(run)) return status;
     status = change_motion(run, &again);
     begin_step(run);
     return status;
@@ -626,29 +622,33 @@ static int is_late(struct run *run)
 {
     const struct run_setup *s = run->setup;
     enum { steps_between_looks = 16 };
-    return s->timed && s->timed->clock && run->checks++ % steps_between_looks == 0 && s->timed->clock() > s->until;
+    double (*clock)(void) = s->problem->clock;
+    return clock && run->checks++ % steps_between_looks == 0 && clock() > s->until;
 }
 
 static int check_work(struct run *run)
 {
     const struct run_setup *s = run->setup;
-    if (run->event_count > s->most_events * (s->n_nodes + 4))
-        snprintf(run->text, sizeof run->text,
+    const size_t size = sizeof run->text;
+    int status = RESTITUTE_OK;
+    if (run->event_count > s->most_events * (s->n_nodes + 4)) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size,
                  "an event storm: %lld events of %lld elements, which change between stick and slip without end",
                  (long long)run->event_count, (long long)s->n_nodes);
-    else if (rst_integrator_work(run->integrator).steps > s->most_steps)
-        snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
-    else if (spent(run) > s->budget) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "max_work = %g: spent in a run with elements = %lld; raise it",
-                 s->max_work, (long long)s->n_nodes);
+    } else if (rst_integrator_work(run->integrator).steps > s->most_steps) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
+    } else if (spent(run) > s->budget) {
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "max_work = %g: spent in a run with elements = %lld; raise it", s->problem->max_work,
+                 (long long)s->n_nodes);
     } else if (is_late(run)) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "time_limit = %g s: spent in a run with elements = %lld; raise it",
-                 s->timed->time_limit, (long long)s->n_nodes);
-    } else
-        return RESTITUTE_OK;
-    return RESTITUTE_ERROR_TOO_MUCH_WORK;
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "time_limit = %g s: spent in a run with elements = %lld; raise it",
+                 s->problem->time_limit, (long long)s->n_nodes);
+    }
+    return status;
 }
 
 int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)
@@ -658,19 +658,19 @@ int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace 
     run->log = log;
     int status = prepare(run);
     if (status) return status;
-    const int friction = setup->n_nodes > 0 && setup->mode != RST_FRICTIONLESS;
+    const struct rst_problem *problem = setup->problem;
+    const int friction = setup->n_nodes > 0 && problem->mode != RST_FRICTIONLESS;
     run->y[1] = 1;
     run->next_entry = 1; /* the middle is in contact from the first touch on */
     run->slip_end = -2;
-    const double psi_c = isfinite(setup->rebound) ? 2 * setup->chi * (1 + setup->rebound) - setup->rebound : 0;
-    const int slides_on = setup->mode == RST_GROSS_SLIP && (2 * setup->chi <= 1 || setup->psi >= psi_c);
-    if (friction && setup->mode == RST_GROSS_SLIP && !slides_on)
-        run->slip_end = (2 * setup->chi - setup->psi) / (2 * setup->chi - 1);
+    const double rebound = isfinite(setup->rebound) ? setup->rebound : 0;
+    if (friction && problem->mode == RST_GROSS_SLIP && !rst_never_sticks(problem, rebound))
+        run->slip_end = rst_end_of_gross_slip(problem);
     if (setup->n_nodes == 0 && rst_trace_add(trace, 0, 0, 1, run->y + 2))
         return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (setup->n_nodes > 0) status = note(run, RESTITUTE_CVODE_EVENT_ENTRY, 0, 1);
     if (status) return status;
-    status = friction && setup->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);
+    status = friction && problem->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);
     while (!status && !run->ended) {
         status = advance(run);
         if (!status) status = check_work(run);

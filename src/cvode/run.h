@@ -11,10 +11,7 @@
 
 /* The scene and how closely it is followed. */
 struct run_setup {
-    double chi, psi;
-    struct rst_solid solid;
-    enum rst_mode mode;
-    double shear_scale; /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
+    const struct rst_problem *problem;
     int64_t n_nodes;    /* elements; 0: the normal side alone */
     double closeness;   /* relative error of a step */
     double depth;       /* scale of the depth */
@@ -22,11 +19,8 @@ struct run_setup {
     double rebound;     /* D' at the end, where known: decides on slip to the end */
     double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
     enum integrator_family family;
-    double max_work;                 /* of the whole call, for messages */
-    int64_t max_updates;             /* likewise, in what is counted here */
-    int64_t budget;                  /* of them, what this run may spend */
-    const struct rst_problem *timed; /* has the clock of the call; NULL: no limit of time */
-    double until;                    /* of that clock: when this run has to end */
+    int64_t budget;                  /* of updates: what this run may spend */
+    double until;                    /* of the problem's clock: when this run has to end */
     int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 
@@ -70,7 +64,6 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
-    int spent;      /* a limit is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
     int64_t checks; /* of work */
     double seconds; /* that it took, of timed runs */
     char text[200];

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
 #include "base/status.h"
 #include "euler/kernels.h"
 
@@ -49,12 +50,10 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
 }
 
-/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi -
- * 1. */
+/* Whether tangential elements will be stepped: psi_c is largest for a full rebound. */
 static int moves_tangentially(const struct rst_problem *problem)
 {
-    return problem->mode != RST_FRICTIONLESS &&
-           !(problem->mode == RST_GROSS_SLIP && problem->psi > fmax(1, 4 * problem->chi - 1));
+    return !rst_never_sticks(problem, 1);
 }
 
 static int64_t capacity_of(int64_t elements)
@@ -91,7 +90,7 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem),
                           array_of_terms(workspace, 4), &scout->depth, &scout->time, &scout->force, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
-    double coupling = 15.0 / 8.0 * sqrt(scout->depth);
+    double coupling = rst_mass_factor() * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);
     scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);
 }
@@ -104,7 +103,7 @@ static int prepare(const struct rst_problem *problem, struct rst_workspace *work
     if (rst_workspace_elements(workspace, capacity * (7 + 2 * (size_t)s->n_terms))) return 1;
     *l = lay_out(problem, workspace, (int64_t)capacity);
     *scene = (struct euler_scene){.chi = problem->chi,
-                                  .psi = problem->psi,
+                                  .shear_speed = problem->shear_speed,
                                   .g_inf = s->g_inf,
                                   .eta = s->eta,
                                   .step = run->step,
@@ -151,7 +150,7 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     const int late = advance_within(problem, &scene, &l, *updates, run);
     *updates += run->state.n_updates * (1 + problem->solid.n_terms);
     if (run->state.phase == RST_STALLED)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                           "rebound too slow: steps of %.3g %s are lost in the rounding of the indentation; "
                           "the damping is too strong for this method",
                           run->step * problem->time_unit, problem->unit_name);
@@ -174,7 +173,7 @@ static double ez_of(const struct euler_state *state)
 
 static double ex_of(const struct rst_problem *problem, const struct euler_state *state)
 {
-    return -state->shear_velocity / problem->psi;
+    return -state->shear_velocity / problem->shear_speed;
 }
 
 static void change(const struct rst_problem *problem, const struct run *a, const struct run *b, double *ez, double *ex)
@@ -190,7 +189,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
     const int sunk = s->phase == RST_SUNK;
     if (sunk) { /* the velocities that the run stopped with are still to go, |dU'| <= 2 chi |dD'| */
         error_ez += rest_speed(problem);
-        error_ex += 2 * problem->chi * rest_speed(problem) / problem->psi;
+        error_ex += 2 * problem->chi * rest_speed(problem) / problem->shear_speed;
     }
     *outcome = (struct rst_outcome){.velocity = sunk ? 0 : s->velocity,
                                     .shear_velocity = s->shear_velocity,
@@ -200,7 +199,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
                                     .followed_time = s->time,
                                     .max_indentation = s->max_depth,
                                     .max_contact_radius = sqrt(s->max_depth),
-                                    .max_normal_force = 15.0 / 8.0 * s->max_force,
+                                    .max_normal_force = s->max_force,
                                     .spacing = sqrt(scout->depth) / (double)run->elements,
                                     .step = run->step,
                                     .elements = run->elements,
@@ -260,6 +259,10 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         before_ex = ex;
         last = now;
     }
+    if (found && status == RESTITUTE_ERROR_CONVERGENCE)
+        return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); finer steps are lost in rounding",
+                          problem->tolerance, outcome->error_ez, outcome->error_ex);
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
@@ -311,7 +314,7 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
@@ -365,10 +368,10 @@ static struct rst_sample sample(const struct rst_problem *problem, const struct 
                                .indentation = state->depth,
                                .contact_radius = contact,
                                .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l, contact) : 0,
-                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_force,
-                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_shear,
+                               .normal_force = ended ? 0 : state->true_edge_force,
+                               .shear_force = ended ? 0 : state->true_edge_shear,
                                .velocity = state->velocity,
-                               .shear_velocity = state->shear_velocity / problem->psi};
+                               .shear_velocity = state->shear_velocity / problem->shear_speed};
 }
 
 static int euler_record(const struct rst_problem *problem, struct rst_workspace *workspace,

@@ -17,7 +17,7 @@ enum rst_phase {
 
 /* Twin of scene_type. */
 struct euler_scene {
-    double chi, psi;
+    double chi, shear_speed;
     double g_inf, eta;
     double step, spacing;
     double rest_speed;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/kernels.h"
 #include "base/report.h"
 
 /* Impacts that are solved in one call: many enough for threads, few enough for options.interrupted. */
@@ -13,13 +14,11 @@ enum { BATCH = 200 };
 /* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
 static const double widest = 18.4; /* ln 1e8 */
 
-/* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
-static const double elastic_time = 2.9432751843;
 
 /* The plan has T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 double rst_fit_elastic_modulus(const struct rst_fit_data *d, size_t point, double contact_time)
 {
-    return 2 * (1 - d->options.poisson_ratio) * pow(elastic_time * d->place[point].time / contact_time, 2.5);
+    return 2 * (1 - d->options.poisson_ratio) * pow(rst_elastic_contact_time() * d->place[point].time / contact_time, 2.5);
 }
 
 /* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. */

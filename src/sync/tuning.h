@@ -1,4 +1,4 @@
-/* The tuned numbers of the method `sync`, fifteen, and its limits. Those of the estimates are calibrated by the target
+/* The tuned numbers of the method `sync`, fourteen, and its limits. Those of the estimates are calibrated by the target
  * sync-campaign (docs/sync.md, section 9). Thresholds of one loop, as where its iterations end, are at the heads of the files in
  * fortran/sync.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -45,12 +45,12 @@ enum { rst_trials_of_front = 3, rst_first_elements = 32 };
 
 /* ---- what is left out */
 
-/* Parts of the tolerance below which a rebound is none, and what slip may change of e_x is left out. */
-static const double rst_rest_part = 0.01, rst_negligible_part = 0.25;
+/* Part of the tolerance below which a rebound is none. */
+static const double rst_rest_part = 0.01;
 
 /* ---- limits and bounds, which nothing was tuned for */
 
-/* Part of the tolerance that an estimate may take: what merged terms leave (src/core/solver.c, merging_share). */
+/* Part of the tolerance that an estimate may take: what the solver leaves out has the rest (src/solver/solver.c). */
 static const double rst_acceptance = 0.9;
 
 /* Velocities are known to that in a run, by rounding, and slower rebounds are lost in it. */
@@ -58,9 +58,6 @@ static const double rst_rounding = 1e-13, rst_slowest = 1e-10;
 
 /* What pieces of U' may miss at least: the rounding of single values of D', which is about 1. Finer ones would follow that. */
 static const double rst_least_roughness = 1e-15;
-
-/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not proven. */
-static const double rst_change_by_slip = 2;
 
 /* Panels of a motion that is not lost in rounding; elements of the last walk. Those of the walk that keeps the ledger: at least
  * so many times chi^(1/2), if chi > 1, but not more than the last. */

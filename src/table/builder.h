@@ -66,7 +66,7 @@ struct rst_column {
 /* A column to be solved. */
 struct rst_task {
     struct rst_column column;
-    int may_fail; /* with TOO_MUCH_WORK: its status tells */
+    int may_fail; /* rst_column_is_too_hard(): its status tells */
     int status;
     restitute_error why;
 };

@@ -76,7 +76,7 @@ static void hopelessly_damped_impact_is_refused(void **state)
     restitute_solver *solver;
     restitute_error error;
     CHECK(restitute_solver_create(NULL, &solver, NULL) == RESTITUTE_OK, "solver");
-    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_TOO_MUCH_WORK, "status");
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_CONVERGENCE, "status");
     CHECK(strstr(error.message, "rebound too slow"), "%s", error.message);
     restitute_solver_destroy(solver);
     impact.delta1 = 1e6; /* strong, but seen */

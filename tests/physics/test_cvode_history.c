@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/cvode.h"
 #include "../support/random.h"
+#include "../support/thin_slip.h"
 
 enum { samples = 201, columns = 8 };
 enum { TIME, DEPTH, CONTACT, STICK, FZ, FX, VZ, VX };
@@ -121,9 +122,19 @@ static void histories_and_ledgers_of_prony_solids(void **state)
     restitute_solver_destroy(solver);
 }
 
+static void slip_that_is_left_out_changes_less_than_the_estimate(void **state)
+{
+    struct logged log;
+    (void)state;
+    check_thin_slip(cvode_to(1e-4), 0.01);
+    solve_logged(cvode_to(1e-4), impact_of(7.0 / 6, 1e-5, 1, 1), &log);
+    CHECK_NEAR(log.event[0].tangential_velocity, 1e-5, 1e-20, "an event in the caller's unit");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(histories_and_ledgers_of_standard_solids),
-                                       cmocka_unit_test(histories_and_ledgers_of_prony_solids)};
+                                       cmocka_unit_test(histories_and_ledgers_of_prony_solids),
+                                       cmocka_unit_test(slip_that_is_left_out_changes_less_than_the_estimate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Limits of the normal problem, and limits of friction, that are known exactly.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../support/solve.h"
+#include "../support/thin_slip.h"
 
 /* Contact time of an elastic sphere in T: 2.9432751843. */
 static const double elastic_contact_time = 2.9432751843;
@@ -157,6 +157,14 @@ static void strong_friction_approaches_no_slip(void **state)
         }
 }
 
+static void slip_that_is_left_out_changes_less_than_the_estimate(void **state)
+{
+    (void)state;
+    check_thin_slip(to_tolerance(1e-3), 0.02);
+    check_thin_slip(sync_to(1e-3), 0.02);
+    check_thin_slip(sync_to(1e-4), 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +177,7 @@ int main(void)
         cmocka_unit_test(normal_problem_does_not_feel_the_tangential_one),
         cmocka_unit_test(elastic_impact_without_slip_has_the_known_ex),
         cmocka_unit_test(strong_friction_approaches_no_slip),
+        cmocka_unit_test(slip_that_is_left_out_changes_less_than_the_estimate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -147,6 +147,7 @@ static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup),
     const struct rst_problem problem = {.method = restitute_method_cvode(),
                                         .chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = modulus},
                                         .tolerance = 1e-4,
@@ -194,14 +195,14 @@ static void runs_without_end_are_ended_and_say_why(void **state)
     const struct {
         double modulus;
         void (*spoil)(struct run_setup *setup);
-        int status, spent;
+        int status;
         const char *words;
     } cases[] = {
-        {1, spoil_nothing, RESTITUTE_OK, 0, ""},
-        {1, allow_no_event, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "event storm"},
-        {1, allow_thirty_steps, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "more than 30 steps"},
-        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, 1, "max_work = 10:"},
-        {NAN, spoil_nothing, RESTITUTE_ERROR_INTEGRATOR, 0, "right-hand side"},
+        {1, spoil_nothing, RESTITUTE_OK, ""},
+        {1, allow_no_event, RESTITUTE_ERROR_CONVERGENCE, "event storm"},
+        {1, allow_thirty_steps, RESTITUTE_ERROR_CONVERGENCE, "more than 30 steps"},
+        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_work = 10:"},
+        {NAN, spoil_nothing, RESTITUTE_ERROR_INTEGRATOR, "right-hand side"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -210,7 +211,7 @@ static void runs_without_end_are_ended_and_say_why(void **state)
         const int status = follow_impact(cases[i].modulus, cases[i].spoil, &run);
         const long written = captured(&c);
         CHECK(written == 0, "case %zu: %ld bytes printed", i, written);
-        CHECK(status == cases[i].status && run.spent == cases[i].spent, "case %zu: %d, %s", i, status, run.text);
+        CHECK(status == cases[i].status, "case %zu: %d, %s", i, status, run.text);
         CHECK(strstr(run.text, cases[i].words) != NULL, "case %zu: \"%s\"", i, run.text);
         CHECK((status == RESTITUTE_OK) == run.ended, "case %zu", i);
     }
@@ -222,6 +223,7 @@ static void a_call_hands_on_the_words_of_cvode(void **state)
     const struct rst_problem problem = {.method = restitute_method_cvode(),
                                         .chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = NAN},
                                         .tolerance = 1e-4,

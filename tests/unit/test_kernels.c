@@ -150,7 +150,7 @@ static void struct_twins_have_the_same_layout(void **state)
         unsigned char canary[64];
     } guarded;
     struct euler_scene scene = {.chi = 1,
-                                .psi = 0.25,
+                                .shear_speed = 0.25,
                                 .g_inf = 1,
                                 .step = 0.01,
                                 .spacing = 0.1,

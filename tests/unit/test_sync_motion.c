@@ -13,6 +13,7 @@ static struct rst_problem problem_of(double g_inf, double eta, int n_terms, doub
 {
     return (struct rst_problem){.chi = 7.0 / 6,
                                 .psi = psi,
+                                .shear_speed = psi,
                                 .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
                                 .solid = {.g_inf = g_inf, .eta = eta, .n_terms = n_terms, .g = modulus, .tau = relaxation},
                                 .tolerance = tolerance};

@@ -49,6 +49,7 @@ static struct walk walk_of(const struct solid *s, int n, double chi, double psi)
                          .end = 2 * n,
                          .n_terms = s->n,
                          .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
+                         .mode = RST_PARTIAL_SLIP,
                          .chi = chi,
                          .psi = psi,
                          .g_inf = s->g_inf,
@@ -164,7 +165,7 @@ static void without_slip_a_heavy_body_strains_each_element_evenly(void **state)
             int n = p == 0 ? 64 : 128;
             const struct motion *m = motion_of(s, n, n / 2, half_pi / 2);
             struct walk walk = walk_of(s, n, chi, psi);
-            walk.no_slip = 1;
+            walk.mode = RST_NO_SLIP;
             struct result r;
             follow(s, m, &walk, &r);
             loss[p] = (psi - r.shear[2 * n].velocity) / (15.0 / 4 * chi * psi);
@@ -323,7 +324,7 @@ static void gross_slip_loses_as_the_normal_problem_does(void **state)
         follow(solids[i], m, &walk, &r);
         CHECK_NEAR(r.ledger.viscous_x, 7.0 / 3 * r.ledger.viscous_z, 1e-12, "%s", solids[i]->name);
         CHECK_NEAR(r.left_over_x * 25, 7.0 / 3 * r.left_over_z, 1e-12, "%s", solids[i]->name);
-        walk.chi = 0;
+        walk.mode = RST_FRICTIONLESS;
         follow(solids[i], m, &walk, &none);
         CHECK_NEAR(none.rebound, -1, 1e-15, "%s", solids[i]->name);
         CHECK_NEAR(none.ledger.viscous_z, r.ledger.viscous_z, 1e-15, "%s", solids[i]->name);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sync/walk_kernels.h"
+#include "sync/kernels.h"
 
 enum { most_terms = 2, most_nodes = 256, most_states = 3 + 2 * most_terms, fine_steps = 16 };
 
