@@ -4,26 +4,22 @@
 
 #include "base/material.h"
 #include "base/problem.h"
+#include "base/sized.h"
 #include "base/status.h"
 
 /* A body with J = 0 would have chi = infinity; no sphere that turns has more than this, and the steps grow with it. */
 const double rst_largest_chi = 1000;
-static const double largest_number = 1e12;
+static const struct rst_range numbers = {0, 1e12}; /* psi, delta1 */
 
-void restitute_impact_init(restitute_impact *impact)
-{
-    if (!impact) return;
-    *impact = (restitute_impact){
-        .struct_size = sizeof *impact, .chi = 7.0 / 6.0, .psi = 0, .delta1 = 0, .gamma = INFINITY, .solid = NULL};
-}
+RST_DEFAULTS(impact, .chi = 7.0 / 6.0, .psi = INFINITY, .gamma = INFINITY)
 
 static int check_impact(const restitute_impact *impact, restitute_error *error)
 {
     /* 1/3 is exact physics (nu = 1/2, blocked rotation), but reaches us rounded */
     int status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, rst_largest_chi, "chi", error);
-    if (!status) status = rst_check_range(impact->psi, 0, largest_number, "psi", error);
-    if (!status && !impact->solid) status = rst_check_range(impact->delta1, 0, largest_number, "delta1", error);
-    if (!status && !impact->solid) status = rst_check_range(impact->gamma, 0, INFINITY, "gamma", error);
+    if (!status) status = rst_check_within(impact->psi, numbers, INFINITY, "psi", error);
+    if (!status && !impact->material) status = rst_check_within(impact->delta1, numbers, NAN, "delta1", error);
+    if (!status && !impact->material) status = rst_check_range(impact->gamma, 0, INFINITY, "gamma", error);
     return status;
 }
 
@@ -77,10 +73,10 @@ void rst_set_sliding(double given, struct rst_problem *problem)
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error)
 {
     const double damping = solid->eta / rst_theta_from_delta1(1);
-    if (damping <= largest_number) return RESTITUTE_OK;
+    if (damping <= numbers.high) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                       "delta1 = %g of the parallel viscosity: must be <= %g; no rebound of such damping is found",
-                      damping, largest_number);
+                      damping, numbers.high);
 }
 
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error)
@@ -91,9 +87,9 @@ int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *
     rst_set_sliding(impact->psi, problem);
     problem->time_unit = 1;
     problem->unit_name = "T";
-    if (impact->solid)
-        given_solid(impact->solid, &problem->solid);
+    if (impact->material)
+        given_solid(impact->material, &problem->solid);
     else
         standard_solid(impact->delta1, impact->gamma, &problem->solid);
-    return impact->solid ? rst_check_damping(&problem->solid, error) : RESTITUTE_OK;
+    return impact->material ? rst_check_damping(&problem->solid, error) : RESTITUTE_OK;
 }

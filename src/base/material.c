@@ -3,6 +3,7 @@
 #include "base/material.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/kernels.h"
@@ -85,7 +86,7 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
     m->eta = parallel_viscosity;
     m->nu = poisson_ratio;
     m->beta = 0;
-    m->is_pair = 0;
+    m->is_effective = 0;
     m->n_terms = n_terms;
     m->tau = m->values;
     m->g = m->values + n_terms;
@@ -158,14 +159,15 @@ size_t restitute_material_terms(const restitute_material *material)
 }
 
 int restitute_material_series(const restitute_material *material, double *equilibrium_modulus,
-                              double *parallel_viscosity, double *relaxation_time, double *modulus)
+                              double *parallel_viscosity, double *relaxation_time, double *modulus,
+                              restitute_error *error)
 {
-    if (!material) return RESTITUTE_ERROR_NULL;
+    if (!material) return rst_report(error, RESTITUTE_ERROR_NULL, "material is NULL");
     if (equilibrium_modulus) *equilibrium_modulus = material->g_inf;
     if (parallel_viscosity) *parallel_viscosity = material->eta;
     for (size_t k = 0; k < material->n_terms; k++) {
         if (relaxation_time) relaxation_time[k] = material->tau[k];
         if (modulus) modulus[k] = material->g[k];
     }
-    return RESTITUTE_OK;
+    return rst_done(error);
 }

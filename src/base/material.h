@@ -9,7 +9,7 @@ struct restitute_material {
     double g_inf, eta; /* Pa, Pa s */
     double nu;
     double beta; /* Dundurs' constant of a pair of unlike materials; 0 for a material by itself */
-    int is_pair; /* the solid of two bodies, made by restitute_material_pair */
+    int is_effective; /* the solid of two bodies, made by restitute_material_effective */
     size_t n_terms;
     double *tau, *g; /* s, Pa; sorted by tau */
     double values[]; /* behind tau and g */

@@ -6,9 +6,17 @@
 #include "base/problem.h"
 #include "base/workspace.h"
 
+/* Of this struct and of all that the core and a method share through it: rst_problem, rst_workspace, rst_outcome,
+ * rst_history, and the procedures of base. One more with every change of these, since a method may come from a library
+ * of another version. */
+enum { RST_METHOD_NUMBER = 1 };
+
 struct restitute_method {
+    size_t struct_size; /* these three stay where they are */
+    int number;         /* RST_METHOD_NUMBER */
     const char *name;
-    double time_limit; /* s, where the options have none */
+    double time_limit;         /* s, where the options have none */
+    double updates_per_second; /* what the method counts in a nominal second, see restitute_options.max_work */
     /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none
      * left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);

@@ -18,6 +18,13 @@ struct rst_solid {
     int can_sink; /* no equilibrium modulus before merging: the sphere may never rebound */
 };
 
+/* Factors from the units of the problem to the caller's. */
+struct rst_units {
+    double time, length_z, length_x, force, velocity;
+    double shear_velocity; /* of -ex, that is of U'/psi */
+    double shear_force;
+};
+
 struct rst_problem {
     const restitute_method *method; /* that solves it: one function may serve several methods */
     double chi;
@@ -27,9 +34,11 @@ struct rst_problem {
     double tolerance;
     int64_t elements;      /* 0: chosen by the method */
     double time_step;      /* in T; 0: chosen by the method */
+    struct rst_units units;
     double time_unit;      /* T in the caller's unit, for messages */
     const char *unit_name; /* of time */
-    int64_t max_updates;
+    double max_work;       /* nominal seconds, as messages name it */
+    int64_t max_updates;   /* the same in the unit in which the method counts */
     double time_limit;     /* s */
     double (*clock)(void); /* rst_clock(), for methods of other libraries too; NULL: no limit of time */
     double deadline;       /* of clock() */
@@ -60,7 +69,7 @@ static inline struct rst_limit rst_spent(const struct rst_problem *problem, int 
     if (by_time)
         snprintf(limit.text, sizeof limit.text, "time_limit = %g s", problem->time_limit);
     else
-        snprintf(limit.text, sizeof limit.text, "max_updates = %lld", (long long)problem->max_updates);
+        snprintf(limit.text, sizeof limit.text, "max_work = %g", problem->max_work);
     return limit;
 }
 

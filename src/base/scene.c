@@ -5,23 +5,11 @@
 
 #include "base/material.h"
 #include "base/problem.h"
+#include "base/sized.h"
 #include "base/status.h"
 
-void restitute_scene_init(restitute_scene *scene)
-{
-    if (!scene) return;
-    *scene = (restitute_scene){.struct_size = sizeof *scene,
-                               .material = NULL,
-                               .deformable = RESTITUTE_ONE_BODY_DEFORMS,
-                               .radius2 = INFINITY,
-                               .mass2 = INFINITY};
-}
-
-void restitute_numbers_init(restitute_numbers *numbers)
-{
-    if (!numbers) return;
-    *numbers = (restitute_numbers){.struct_size = sizeof *numbers};
-}
+RST_DEFAULTS(scene, .deformable = RESTITUTE_ONE_BODY_DEFORMS, .radius2 = INFINITY, .mass2 = INFINITY)
+RST_DEFAULTS(numbers, 0)
 
 static int check_bodies(const restitute_scene *s, restitute_error *error)
 {
@@ -43,23 +31,21 @@ static int check_bodies(const restitute_scene *s, restitute_error *error)
 
 static int check_scene(const restitute_scene *s, restitute_error *error)
 {
-    int status = rst_check_size(s->struct_size, sizeof *s, "restitute_scene", error);
-    if (status) return status;
     if (!s->material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
     if (s->deformable != RESTITUTE_ONE_BODY_DEFORMS && s->deformable != RESTITUTE_BOTH_BODIES_DEFORM)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "deformable = %d: must be 1 (one body deforms) or 2 (both deform)", s->deformable);
-    if (s->deformable == RESTITUTE_BOTH_BODIES_DEFORM && s->material->is_pair)
+    if (s->deformable == RESTITUTE_BOTH_BODIES_DEFORM && s->material->is_effective)
         return rst_report(
             error, RESTITUTE_ERROR_DOMAIN,
-            "deformable = 2: must be 1 with a material from restitute_material_pair, which is the solid of both");
-    status = check_bodies(s, error);
+            "deformable = 2: must be 1 with a material from restitute_material_effective, which is the solid of both");
+    int status = check_bodies(s, error);
     if (!status && s->friction != 0 && !(s->friction >= rst_least_friction))
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %.17g: must be 0 or >= %g (inf: no slip)",
                             s->friction, rst_least_friction);
     if (!status) status = rst_check_within(s->normal_speed, rst_sizes, NAN, "normal_speed (m/s)", error);
     if (!status) status = rst_check_within(s->tangential_speed, rst_speeds, NAN, "tangential_speed (m/s)", error);
-    if (!status) status = rst_check_within(s->density, rst_densities, 0, "density (kg/m^3)", error);
+    if (!status) status = rst_check_within(s->wave_density, rst_densities, 0, "wave_density (kg/m^3)", error);
     if (!status) status = rst_check_within(s->spin1, rst_spins, NAN, "spin1 (rad/s)", error);
     if (!status) status = rst_check_within(s->spin2, rst_spins, NAN, "spin2 (rad/s)", error);
     if (!status)
@@ -136,14 +122,18 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
 
 int restitute_scene_numbers(const restitute_scene *scene, restitute_numbers *numbers, restitute_error *error)
 {
+    restitute_scene s;
     restitute_numbers n;
     if (!scene || !numbers) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "numbers" : "scene");
-    int status = rst_check_size(numbers->struct_size, sizeof *numbers, "restitute_numbers", error);
-    if (!status) status = check_scene(scene, error);
-    restitute_numbers_init(&n);
-    if (!status) status = numbers_of(scene, &n, error);
+    int status = RST_CHECK(scene, scene, error);
+    if (!status) status = RST_CHECK(numbers, numbers, error);
     if (status) return status;
-    *numbers = n;
+    RST_TAKE(scene, &s, scene);
+    restitute_numbers_init(&n);
+    status = check_scene(&s, error);
+    if (!status) status = numbers_of(&s, &n, error);
+    if (status) return status;
+    RST_GIVE(&n, numbers);
     return rst_done(error);
 }
 

@@ -9,15 +9,12 @@
 #include <omp.h>
 #endif
 
+#include "base/sized.h"
 #include "base/status.h"
 #include "solver/solver.h"
 
-/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
-static const int most_threads = 1024;
-
 /* One of the two arrays of cases is there. */
 struct batch {
-    const restitute_options *options;
     size_t n;
     const restitute_impact *impacts;
     const restitute_scene *scenes;
@@ -46,9 +43,10 @@ static void note(struct worker *worker, size_t index, const restitute_error *err
 static void solve_case(const struct batch *batch, size_t i, struct worker *worker)
 {
     restitute_error error;
-    restitute_result *result = batch->results ? &batch->results[i] : NULL;
-    error.status = batch->scenes ? restitute_solve_scene(worker->solver, &batch->scenes[i], result, NULL, NULL, &error)
-                                 : restitute_solve(worker->solver, &batch->impacts[i], result, NULL, NULL, &error);
+    restitute_result *result = batch->results ? rst_at(batch->results, i) : NULL;
+    error.status =
+        batch->scenes ? restitute_solve_scene(worker->solver, rst_at(batch->scenes, i), result, NULL, NULL, &error)
+                      : restitute_solve(worker->solver, rst_at(batch->impacts, i), result, NULL, NULL, &error);
     if (batch->statuses) batch->statuses[i] = error.status;
     if (error.status != RESTITUTE_OK) note(worker, i, &error);
 }
@@ -95,15 +93,14 @@ static int threads_for(size_t n, int wanted)
 #else
     (void)wanted;
 #endif
-    if (threads > most_threads) threads = most_threads;
     if ((size_t)threads > n) threads = n > 0 ? (int)n : 1;
     return threads;
 }
 
-static int create_workers(const struct batch *batch, int threads, struct worker *workers, restitute_error *error)
+static int create_workers(const restitute_options *options, int threads, struct worker *workers, restitute_error *error)
 {
     for (int i = 0; i < threads; i++) {
-        const int status = restitute_solver_create(batch->options, &workers[i].solver, error);
+        const int status = restitute_solver_create(options, &workers[i].solver, error);
         if (status) return status;
         rst_solver_keep_motion(workers[i].solver); /* for impacts on end that are on one solid */
     }
@@ -121,30 +118,25 @@ static int report_first(const struct batch *batch, const struct worker *workers,
                       first.error.message);
 }
 
-/* The size that the first struct of an array names tells how far apart all are: of another version, none can be found.
- * */
-static int check_batch(const struct batch *batch, int threads, restitute_error *error)
+/* The size that the first struct of an array names tells how far apart all are: where it is wrong, none can be found. */
+static int check_batch(const struct batch *batch, restitute_error *error)
 {
-    if (threads < 0 || threads > most_threads)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)", threads,
-                          most_threads);
     if (batch->n == 0) return RESTITUTE_OK;
-    int status = batch->scenes
-                     ? rst_check_size(batch->scenes[0].struct_size, sizeof *batch->scenes, "restitute_scene", error)
-                     : rst_check_size(batch->impacts[0].struct_size, sizeof *batch->impacts, "restitute_impact", error);
-    if (!status && batch->results)
-        status = rst_check_size(batch->results[0].struct_size, sizeof *batch->results, "restitute_result", error);
+    int status = batch->scenes ? RST_CHECK(scene, batch->scenes, error) : RST_CHECK(impact, batch->impacts, error);
+    if (!status && batch->results) status = RST_CHECK(result, batch->results, error);
     return status;
 }
 
-static int solve_batch(const struct batch *batch, int wanted, restitute_error *error)
+static int solve_batch(const struct batch *batch, const restitute_options *options, restitute_error *error)
 {
-    int status = check_batch(batch, wanted, error);
+    restitute_options chosen;
+    int status = rst_take_options(options, &chosen, error);
+    if (!status) status = check_batch(batch, error);
     if (status) return status;
-    const int threads = threads_for(batch->n, wanted);
+    const int threads = threads_for(batch->n, chosen.threads);
     struct worker *workers = calloc((size_t)threads, sizeof *workers);
     if (!workers) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %d threads", threads);
-    status = create_workers(batch, threads, workers, error);
+    status = create_workers(&chosen, threads, workers, error);
     if (!status) {
         solve_all(batch, workers, threads);
         status = report_first(batch, workers, threads, error);
@@ -155,19 +147,18 @@ static int solve_batch(const struct batch *batch, int wanted, restitute_error *e
     return status;
 }
 
-int restitute_solve_many(const restitute_options *options, size_t n, const restitute_impact *impacts,
-                         restitute_result *results, int *statuses, int threads, restitute_error *error)
+int restitute_solve_many(size_t n, const restitute_impact *impacts, const restitute_options *options,
+                         restitute_result *results, int *statuses, restitute_error *error)
 {
-    const struct batch batch = {
-        .options = options, .n = n, .impacts = impacts, .results = results, .statuses = statuses};
+    const struct batch batch = {.n = n, .impacts = impacts, .results = results, .statuses = statuses};
     if (n > 0 && !impacts) return rst_report(error, RESTITUTE_ERROR_NULL, "impacts is NULL");
-    return solve_batch(&batch, threads, error);
+    return solve_batch(&batch, options, error);
 }
 
-int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
-                           restitute_result *results, int *statuses, int threads, restitute_error *error)
+int restitute_solve_scene_many(size_t n, const restitute_scene *scenes, const restitute_options *options,
+                               restitute_result *results, int *statuses, restitute_error *error)
 {
-    const struct batch batch = {.options = options, .n = n, .scenes = scenes, .results = results, .statuses = statuses};
+    const struct batch batch = {.n = n, .scenes = scenes, .results = results, .statuses = statuses};
     if (n > 0 && !scenes) return rst_report(error, RESTITUTE_ERROR_NULL, "scenes is NULL");
-    return solve_batch(&batch, threads, error);
+    return solve_batch(&batch, options, error);
 }

@@ -4,23 +4,12 @@
 
 #include <math.h>
 
-void restitute_result_init(restitute_result *result)
-{
-    if (!result) return;
-    *result = (restitute_result){.struct_size = sizeof *result, .method = ""};
-}
+#include "base/method.h"
+#include "base/sized.h"
 
-void restitute_ledger_init(restitute_ledger *ledger)
-{
-    if (!ledger) return;
-    *ledger = (restitute_ledger){.struct_size = sizeof *ledger};
-}
-
-void restitute_history_init(restitute_history *history)
-{
-    if (!history) return;
-    *history = (restitute_history){.struct_size = sizeof *history};
-}
+RST_DEFAULTS(result, .method = "")
+RST_DEFAULTS(ledger, 0)
+RST_DEFAULTS(history, 0)
 
 /* Dimensionless: U' is psi at first touch, and 1 without slip or friction, where psi is only a scale. */
 static struct rst_units own_units(const struct rst_problem *problem)
@@ -57,10 +46,10 @@ static double clamp(double value, double low, double high)
 }
 
 /* e_z in [0, 1] and |e_x| <= 1 follow from the energy (theory.md, 8); the method's error may be on the wrong side. */
-void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome,
-                      const struct rst_units *units, int64_t terms_merged, double merging_bound,
-                      restitute_result *result)
+void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome, int64_t terms_merged,
+                      double merging_bound, restitute_result *result)
 {
+    const struct rst_units *units = &problem->units;
     result->ez = clamp(-outcome->velocity, 0, 1) + 0.0; /* + 0.0: no negative zero */
     result->ex = clamp(-outcome->shear_velocity / problem->psi, -1, 1) + 0.0;
     result->error_ez = outcome->error_ez + merging_bound;
@@ -75,7 +64,8 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
     result->steps = outcome->steps;
     result->element_spacing = outcome->spacing * units->length_x;
     result->time_step = outcome->step * units->time;
-    result->updates = outcome->updates;
+    result->work = (double)outcome->updates / problem->method->updates_per_second;
+    result->method = problem->method->name;
 }
 
 void rst_write_ledger(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_ledger *ledger)

@@ -5,18 +5,10 @@
 
 #include "base/problem.h"
 
-/* Factors from the units of the problem to the caller's. */
-struct rst_units {
-    double time, length_z, length_x, force, velocity;
-    double shear_velocity; /* of -ex, that is of U'/psi */
-    double shear_force;
-};
-
 struct rst_units rst_units_of(const struct rst_problem *problem, const restitute_scene *scene,
                               const restitute_numbers *numbers);
-void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome,
-                      const struct rst_units *units, int64_t terms_merged, double merging_bound,
-                      restitute_result *result);
+void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome, int64_t terms_merged,
+                      double merging_bound, restitute_result *result);
 void rst_write_ledger(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_ledger *ledger);
 void rst_write_history(const struct rst_history *samples, const struct rst_units *units, restitute_history *history);
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
+#include "base/sized.h"
 #include "base/status.h"
 #include "solver/solver.h"
 
@@ -15,14 +16,17 @@ struct restitute_plan {
 /* Take the options and check the input, which the plan has. */
 static int begin(const restitute_options *options, struct restitute_plan *p, restitute_error *error)
 {
-    int status = restitute_solver_create(options, &p->solver, error);
+    restitute_options own;
+    restitute_options_init(&own);
+    own.method = restitute_method_sync();
+    int status = restitute_solver_create(options ? options : &own, &p->solver, error);
     if (status) return status;
     rst_solver_keep_motion(p->solver);
     return rst_solver_check(p->solver, p->impact.struct_size ? &p->impact : NULL,
                             p->scene.struct_size ? &p->scene : NULL, error);
 }
 
-static int create(const restitute_options *options, const struct restitute_plan *input, restitute_plan **plan,
+static int create(const struct restitute_plan *input, const restitute_options *options, restitute_plan **plan,
                   restitute_error *error)
 {
     struct restitute_plan *p = malloc(sizeof *p);
@@ -37,27 +41,29 @@ static int create(const restitute_options *options, const struct restitute_plan 
     return rst_done(error);
 }
 
-int restitute_plan_create(const restitute_options *options, const restitute_impact *impact, restitute_plan **plan,
+int restitute_plan_create(const restitute_impact *impact, const restitute_options *options, restitute_plan **plan,
                           restitute_error *error)
 {
     if (!impact || !plan) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", impact ? "plan" : "impact");
-    int status = rst_check_size(impact->struct_size, sizeof *impact, "restitute_impact", error);
+    int status = RST_CHECK(impact, impact, error);
     if (status) return status;
-    struct restitute_plan input = {.impact = *impact};
+    struct restitute_plan input = {0};
+    RST_TAKE(impact, &input.impact, impact);
     input.impact.psi = 0;
-    return create(options, &input, plan, error);
+    return create(&input, options, plan, error);
 }
 
-int restitute_plan_create_scene(const restitute_options *options, const restitute_scene *scene, restitute_plan **plan,
+int restitute_plan_create_scene(const restitute_scene *scene, const restitute_options *options, restitute_plan **plan,
                                 restitute_error *error)
 {
     if (!scene || !plan) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "plan" : "scene");
-    int status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    int status = RST_CHECK(scene, scene, error);
     if (status) return status;
-    if (!scene->material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
-    struct restitute_plan input = {.scene = *scene};
+    struct restitute_plan input = {0};
+    RST_TAKE(scene, &input.scene, scene);
+    if (!input.scene.material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
     input.scene.tangential_speed = input.scene.spin1 = input.scene.spin2 = 0;
-    return create(options, &input, plan, error);
+    return create(&input, options, plan, error);
 }
 
 int restitute_plan_solve(restitute_plan *plan, double sliding, restitute_result *result, restitute_ledger *ledger,

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/material.h"
 #include "base/method.h"
+#include "base/sized.h"
 #include "base/status.h"
 #include "euler/euler.h"
 #include "solver/output.h"
@@ -49,25 +50,27 @@ const char *restitute_method_name(const restitute_method *method)
     return method ? method->name : "";
 }
 
-void restitute_options_init(restitute_options *options)
+RST_DEFAULTS(options, .method = &rst_method_euler, .tolerance = 1e-3, .threads = 1, .max_work = 10, .speed_limit = 0.1,
+             .radius_limit = 0.1, .displacement_limit = 0.3, .dundurs_limit = 0.1)
+
+/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
+static const int most_threads = 1024;
+
+/* A method of another component may be of another version, with which we share no struct. */
+static int check_method(const restitute_method *method, restitute_error *error)
 {
-    if (!options) return;
-    *options = (restitute_options){.struct_size = sizeof *options,
-                                   .method = &rst_method_euler,
-                                   .tolerance = 1e-3,
-                                   .max_updates = 10000000000,
-                                   .speed_limit = 0.1,
-                                   .radius_limit = 0.1,
-                                   .displacement_limit = 0.3,
-                                   .dundurs_limit = 0.1};
+    if (!method) return rst_report(error, RESTITUTE_ERROR_NULL, "options.method is NULL");
+    if (method->struct_size == sizeof *method && method->number == RST_METHOD_NUMBER) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                      "options.method has %zu bytes and the number %d: must have %zu and %d; its library belongs to "
+                      "another version than librestitute %s",
+                      method->struct_size, method->number, sizeof *method, RST_METHOD_NUMBER, restitute_version());
 }
 
 static int check_options(const restitute_options *options, restitute_error *error)
 {
-    int status = rst_check_size(options->struct_size, sizeof *options, "restitute_options", error);
-    if (status) return status;
-    if (!options->method) return rst_report(error, RESTITUTE_ERROR_NULL, "options.method is NULL");
-    status = rst_check_range(options->tolerance, 1e-8, 0.1, "tolerance", error);
+    int status = check_method(options->method, error);
+    if (!status) status = rst_check_range(options->tolerance, 1e-8, 0.1, "tolerance", error);
     if (!status && options->elements != 0)
         status = rst_check_range((double)options->elements, 4, 1e6, "elements", error);
     if (!status) status = rst_check_within(options->time_step, rst_lengths, 0, "time_step", error);
@@ -75,9 +78,12 @@ static int check_options(const restitute_options *options, restitute_error *erro
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
                             "time_step = %g: must be 0 with the method %s, which chooses its steps itself",
                             options->time_step, options->method->name);
-    if (!status && options->max_updates <= 0)
-        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_updates = %lld: must be > 0",
-                            (long long)options->max_updates);
+    if (!status && (options->threads < 0 || options->threads > most_threads))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)",
+                            options->threads, most_threads);
+    if (!status && !(options->max_work > 0))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g s: must be > 0 (inf: no limit)",
+                            options->max_work);
     if (!status) status = rst_check_range(options->time_limit, 0, INFINITY, "time_limit (s)", error);
     if (!status) status = rst_check_range(options->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(options->radius_limit, 0, INFINITY, "radius_limit", error);
@@ -86,16 +92,22 @@ static int check_options(const restitute_options *options, restitute_error *erro
     return status;
 }
 
+int rst_take_options(const restitute_options *options, restitute_options *chosen, restitute_error *error)
+{
+    restitute_options_init(chosen);
+    if (!options) return RESTITUTE_OK;
+    const int status = RST_CHECK(options, options, error);
+    if (status) return status;
+    RST_TAKE(options, chosen, options);
+    return check_options(chosen, error);
+}
+
 int restitute_solver_create(const restitute_options *options, restitute_solver **solver, restitute_error *error)
 {
     restitute_options chosen;
     if (!solver) return rst_report(error, RESTITUTE_ERROR_NULL, "solver is NULL");
-    restitute_options_init(&chosen);
-    if (options) {
-        int status = check_options(options, error);
-        if (status) return status;
-        chosen = *options;
-    }
+    const int status = rst_take_options(options, &chosen, error);
+    if (status) return status;
     restitute_solver *s = calloc(1, sizeof *s);
     if (!s) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a solver");
     s->options = chosen;
@@ -113,16 +125,6 @@ void restitute_solver_destroy(restitute_solver *solver)
     rst_workspace_free(&solver->workspace);
     free(solver->samples);
     free(solver);
-}
-
-const struct restitute_method *restitute_private_method(const restitute_solver *solver)
-{
-    return solver->options.method;
-}
-
-struct rst_workspace *restitute_private_workspace(restitute_solver *solver)
-{
-    return &solver->workspace;
 }
 
 /* What merging did to a problem. */
@@ -166,13 +168,14 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
                         restitute_error *error)
 {
     const restitute_options *o = &solver->options;
-    const restitute_material *solid = input->scene ? input->scene->material : input->impact->solid;
+    const restitute_material *solid = input->scene ? input->scene->material : input->impact->material;
     if (rst_workspace_terms(&solver->workspace, solid ? solid->n_terms : 1))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", solid ? solid->n_terms : 1);
     *problem = (struct rst_problem){.method = o->method,
                                     .tolerance = o->tolerance,
                                     .elements = o->elements,
-                                    .max_updates = o->max_updates,
+                                    .max_work = o->max_work,
+                                    .max_updates = (int64_t)fmin(1e18, o->max_work * o->method->updates_per_second),
                                     .time_limit = time_limit(o),
                                     .clock = input->deadline < INFINITY ? rst_clock : NULL,
                                     .deadline = input->deadline};
@@ -180,8 +183,10 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
     problem->solid.tau = solver->workspace.terms + solver->workspace.terms_size / rst_term_arrays;
     int status = input->scene ? rst_problem_from_scene(input->scene, &input->numbers, problem, error)
                               : rst_problem_from_impact(input->impact, problem, error);
-    if (!status) problem->time_step = o->time_step / problem->time_unit;
-    return status;
+    if (status) return status;
+    problem->units = rst_units_of(problem, input->scene, &input->numbers);
+    problem->time_step = o->time_step / problem->time_unit;
+    return RESTITUTE_OK;
 }
 
 int rst_solver_check(restitute_solver *solver, const restitute_impact *impact, const restitute_scene *scene,
@@ -234,9 +239,9 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
 {
     if (!solver) return rst_report(error, RESTITUTE_ERROR_NULL, "solver is NULL");
     int status = RESTITUTE_OK;
-    if (result) status = rst_check_size(result->struct_size, sizeof *result, "restitute_result", error);
-    if (!status && ledger) status = rst_check_size(ledger->struct_size, sizeof *ledger, "restitute_ledger", error);
-    if (!status && history) status = rst_check_size(history->struct_size, sizeof *history, "restitute_history", error);
+    if (result) status = RST_CHECK(result, result, error);
+    if (!status && ledger) status = RST_CHECK(ledger, ledger, error);
+    if (!status && history) status = RST_CHECK(history, history, error);
     if (!status && history && (history->capacity < 2 || history->capacity > 1000000000))
         status =
             rst_report(error, RESTITUTE_ERROR_DOMAIN, "history.capacity = %zu: must be in [2, 1e9]", history->capacity);
@@ -262,6 +267,8 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     struct rst_history samples;
     struct merged merged = {0};
     restitute_result found;
+    restitute_ledger energies;
+    restitute_history series;
     restitute_result_init(&found);
     rst_done(error);
     const double limit = time_limit(&solver->options);
@@ -272,14 +279,20 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         int recorded = record(solver, &problem, &outcome, history->capacity, &samples, error);
         if (recorded < 0) return recorded;
     }
-    struct rst_units units = rst_units_of(&problem, input->scene, &input->numbers);
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
-    rst_write_result(&problem, &outcome, &units, merged.terms, slow + merged.fast_bound, &found);
-    found.method = solver->options.method->name;
+    rst_write_result(&problem, &outcome, merged.terms, slow + merged.fast_bound, &found);
     rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
-    if (result) *result = found;
-    if (ledger) rst_write_ledger(&problem, &outcome, ledger);
-    if (history) rst_write_history(&samples, &units, history);
+    if (result) RST_GIVE(&found, result);
+    if (ledger) {
+        restitute_ledger_init(&energies);
+        rst_write_ledger(&problem, &outcome, &energies);
+        RST_GIVE(&energies, ledger);
+    }
+    if (history) {
+        RST_TAKE(history, &series, history);
+        rst_write_history(&samples, &problem.units, &series);
+        RST_GIVE(&series, history);
+    }
     if (!outcome.sunk || !problem.solid.can_sink) /* with a spring at rest the sphere comes back, however slowly */
         status = judge_tolerance(&problem, &found, status, error);
     else if (status == RESTITUTE_OK)
@@ -294,9 +307,11 @@ int restitute_solve(restitute_solver *solver, const restitute_impact *impact, re
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
     if (!impact) return rst_report(error, RESTITUTE_ERROR_NULL, "impact is NULL");
-    status = rst_check_size(impact->struct_size, sizeof *impact, "restitute_impact", error);
+    status = RST_CHECK(impact, impact, error);
     if (status) return status;
-    return solve(solver, &(struct input){.impact = impact}, result, ledger, history, error);
+    restitute_impact own;
+    RST_TAKE(impact, &own, impact);
+    return solve(solver, &(struct input){.impact = &own}, result, ledger, history, error);
 }
 
 int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene, restitute_result *result,
@@ -305,10 +320,12 @@ int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
     if (!scene) return rst_report(error, RESTITUTE_ERROR_NULL, "scene is NULL");
-    status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    status = RST_CHECK(scene, scene, error);
     if (status) return status;
-    if (!scene->material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
-    return solve(solver, &(struct input){.scene = scene}, result, ledger, history, error);
+    restitute_scene own;
+    RST_TAKE(scene, &own, scene);
+    if (!own.material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
+    return solve(solver, &(struct input){.scene = &own}, result, ledger, history, error);
 }
 
 /* The one-call forms. */

@@ -15,9 +15,7 @@ int rst_solver_check(restitute_solver *solver, const restitute_impact *impact, c
  * holds a solver for many impacts on one solid, a plan or a thread of a batch. No result changes by a bit. */
 void rst_solver_keep_motion(restitute_solver *solver);
 
-/* The method and the workspace of a solver, for components of the same version that bring a method. Exported from the
- * shared library, but no part of its interface. */
-RESTITUTE_API const struct restitute_method *restitute_private_method(const restitute_solver *solver);
-RESTITUTE_API struct rst_workspace *restitute_private_workspace(restitute_solver *solver);
+/* Check the caller's options (NULL: the defaults) and take them. */
+int rst_take_options(const restitute_options *options, restitute_options *chosen, restitute_error *error);
 
 #endif

@@ -37,7 +37,7 @@ static double denser_sphere(const restitute_scene *scene)
 static double speed_ratio(const restitute_scene *scene, double time)
 {
     const double none = 1e-100; /* Pa; what fades has no end before it underflows */
-    double density = scene->density > 0 ? scene->density : denser_sphere(scene);
+    double density = scene->wave_density > 0 ? scene->wave_density : denser_sphere(scene);
     double modulus = restitute_material_modulus(scene->material, time);
     return modulus > none ? scene->normal_speed / sqrt(modulus / density) : INFINITY;
 }

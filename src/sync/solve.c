@@ -53,7 +53,7 @@ static int attempt_contact(struct rst_motion *motion, const struct rst_problem *
     return RESTITUTE_OK;
 }
 
-/* The pair at one resolution, if max_updates allow it. */
+/* The pair at one resolution, if max_work allows it. */
 static int attempt(struct rst_motion *motion, const struct rst_problem *problem, int halvings, struct attempt *a,
                    struct rst_outcome *outcome, restitute_error *error)
 {
@@ -297,8 +297,11 @@ static int sync_record(const struct rst_problem *problem, struct rst_workspace *
     return status;
 }
 
-const struct restitute_method rst_method_sync = {.name = "sync",
+const struct restitute_method rst_method_sync = {.struct_size = sizeof rst_method_sync,
+                                                 .number = RST_METHOD_NUMBER,
+                                                 .name = "sync",
                                                  .time_limit = 1,
+                                                 .updates_per_second = 1e9,
                                                  .reserve = reserve,
                                                  .records_between_steps = 1,
                                                  .solve = sync_solve,

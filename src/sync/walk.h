@@ -23,7 +23,7 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
              enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk);
 
 /* U' by more and more elements, on the panels of the run with `halvings` or of a coarser one. The status may be
- * TOLERANCE_NOT_REACHED if max_updates are spent and there is a result. */
+ * TOLERANCE_NOT_REACHED if max_work is spent and there is a result. */
 int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
                       struct rst_outcome *outcome, restitute_error *error);
 

@@ -100,17 +100,17 @@ static int check_sound(const struct rst_chain *a, const double *m_a, const struc
                       rst_moduli.low);
 }
 
-int restitute_material_pair(const restitute_material *material1, const restitute_material *material2,
-                            restitute_material **pair, restitute_error *error)
+int restitute_material_effective(const restitute_material *material1, const restitute_material *material2,
+                                 restitute_material **effective, restitute_error *error)
 {
-    if (!material1 || !material2 || !pair)
+    if (!material1 || !material2 || !effective)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
                           !material1   ? "material1"
                           : !material2 ? "material2"
-                                       : "pair");
-    if (material1->is_pair || material2->is_pair)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is a pair of materials already",
-                          material1->is_pair ? "material1" : "material2");
+                                       : "effective");
+    if (material1->is_effective || material2->is_effective)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is the effective solid of two bodies already",
+                          material1->is_effective ? "material1" : "material2");
     struct scratch s;
     struct rst_chain chain;
     double nu, beta;
@@ -133,10 +133,10 @@ int restitute_material_pair(const restitute_material *material1, const restitute
                                           &made, &why);
     free(s.m_a);
     free(s.from_a);
-    if (status) return rst_report(error, status, "pair of material1 and material2: %s", why.message);
+    if (status) return rst_report(error, status, "effective solid of material1 and material2: %s", why.message);
     made->beta = beta;
-    made->is_pair = 1;
-    *pair = made;
+    made->is_effective = 1;
+    *effective = made;
     return rst_done(error);
 }
 
