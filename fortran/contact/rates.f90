@@ -30,7 +30,7 @@ contains
   pure subroutine set_rates(law, step, rates) bind(c, name="rst_law_rates")
     type(law_type), intent(in) :: law
     real(c_double), intent(in), value :: step
-    type(rates_type), intent(out) :: rates
+    type(rates_type), intent(inout) :: rates
     real(dp) :: stiffness
     integer(ip) :: k
     rates%step = step

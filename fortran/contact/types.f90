@@ -36,9 +36,11 @@ module rst_contact_types
     real(c_double) :: bit(most_nodes)        !! 2^(j - 1)
   end type law_type
 
-  !> What depends on the time step alone: a displacement du, even over the step, makes w <- decay w + gain du.
+  !> restitute_contact_rates of include/restitute/contact.h: what depends on the time step alone. A displacement du, even over the step, makes w <- decay w + gain du.
   type, bind(c) :: rates_type
+    integer(c_size_t) :: struct_size
     real(c_double) :: step
+    integer(c_int64_t) :: law    !! hash
     real(c_double) :: compliance !! displacement, even over the step, by a unit force: 1/(G_inf + eta/step + sum g gain)
     real(c_double) :: viscosity  !! force of a change of velocity until the end of the step: eta + sum g bend
     real(c_double) :: decay(most_terms), gain(most_terms), bend(most_terms)

@@ -9,27 +9,24 @@ enum { most_rounds = 6 };
 /* Cells of psi to begin with, at 1e-5: cubics miss 3e-6 then unless e_x has a fold. */
 static const double first_stick = 12, first_slip = 44;
 
-void restitute_table_options_init(restitute_table_options *options)
+void restitute_table_options_init_sized(restitute_table_options *options, size_t size)
 {
-    if (!options) return;
     restitute_options core;
     restitute_options_init(&core);
-    *options = (restitute_table_options){.struct_size = sizeof *options,
-                                         .speed = {1e-4, 100},
-                                         .tolerance = 1e-5,
-                                         .threads = 1,
-                                         .max_impacts = 12000,
-                                         .time_limit = 20,
-                                         .speed_limit = core.speed_limit,
-                                         .radius_limit = core.radius_limit,
-                                         .displacement_limit = core.displacement_limit};
+    const restitute_table_options defaults = {.speed = {1e-4, 100},
+                                              .tolerance = 1e-5,
+                                              .threads = 1,
+                                              .max_impacts = 12000,
+                                              .time_limit = 20,
+                                              .speed_limit = core.speed_limit,
+                                              .radius_limit = core.radius_limit,
+                                              .displacement_limit = core.displacement_limit};
+    rst_init(options, size, &defaults, sizeof defaults);
 }
 
-int rst_check_options(const restitute_table_options *o, restitute_error *error)
+static int check_options(const restitute_table_options *o, restitute_error *error)
 {
     const double most_speed = 1e12, most_ratio = 1e15;
-    int status = rst_check_size(o->struct_size, sizeof *o, "restitute_table_options", error);
-    if (status) return status;
     if (!(o->speed[0] >= rst_sizes.low && o->speed[1] <= most_speed && o->speed[0] <= o->speed[1]))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise within %g to %g",
                           o->speed[0], o->speed[1], rst_sizes.low, most_speed);
@@ -43,10 +40,19 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
     if (!(o->time_limit > 0))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "time_limit (s) = %g: must be > 0", o->time_limit);
-    status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
+    int status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
     if (!status) status = rst_check_range(o->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(o->radius_limit, 0, INFINITY, "radius_limit", error);
     return status ? status : rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
+}
+
+int rst_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
+{
+    const int status = theirs ? RST_CHECK(table_options, theirs, error) : RESTITUTE_OK;
+    if (status) return status;
+    restitute_table_options_init(ours);
+    if (theirs) rst_copy(ours, sizeof *ours, theirs);
+    return check_options(ours, error);
 }
 
 /* ---- start */
@@ -185,7 +191,7 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
     destroy(&b);
     if (status) return status;
     *table = made;
-    const struct rst_table_data *d = restitute_private_table_data(made);
+    const restitute_table_data *d = &made->d;
     if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
@@ -196,10 +202,8 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
 int restitute_table_build(const restitute_scene *scene, const restitute_table_options *options, restitute_table **table,
                           restitute_error *error)
 {
-    restitute_table_options defaults;
-    restitute_table_options_init(&defaults);
-    if (!options) options = &defaults;
+    restitute_table_options own;
     if (!scene || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "table" : "scene");
-    const int status = rst_check_options(options, error);
-    return status ? status : rst_build(scene, options, options->threads, table, error);
+    const int status = rst_take_options(options, &own, error);
+    return status ? status : rst_build(scene, &own, own.threads, table, error);
 }

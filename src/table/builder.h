@@ -162,9 +162,11 @@ void rst_table_one_at_a_time(void (*act)(void *of), void *of);
 
 /* ---- all of it */
 
-/* One table; the scene and options are checked (builder.c). */
+/* One table; the scene is checked, the options were (builder.c). */
 int rst_build(const restitute_scene *scene, const restitute_table_options *options, int threads,
               restitute_table **table, restitute_error *error);
-int rst_check_options(const restitute_table_options *options, restitute_error *error);
+
+/* The caller's options, with defaults for what they have not (NULL: for all), and checked. */
+int rst_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error);
 
 #endif

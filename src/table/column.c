@@ -3,9 +3,10 @@
 #include "table/column.h"
 
 #include <math.h>
+
 /* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated
  * error that it was not finished. */
-static const int64_t most_updates = 10000000;
+static const double most_work = 0.01; /* nominal seconds */
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
                         restitute_error *error)
@@ -21,27 +22,28 @@ static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, res
 static int without_time(const restitute_material *material)
 {
     double g_inf, eta;
-    restitute_material_series(material, &g_inf, &eta, NULL, NULL);
+    restitute_material_series(material, &g_inf, &eta, NULL, NULL, NULL);
     return restitute_material_terms(material) == 0 && (g_inf <= 0 || eta <= 0);
 }
 
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error)
 {
-    int status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    restitute_scene plain;
+    int status = RST_CHECK(scene, scene, error);
     if (status) return status;
-    restitute_scene plain = *scene;
+    RST_TAKE(scene, &plain, scene);
     plain.normal_speed = 1;
     plain.tangential_speed = plain.spin1 = plain.spin2 = 0;
     restitute_numbers_init(&contact->numbers);
     status = restitute_scene_numbers(&plain, &contact->numbers, error); /* refuses what is wrong with it */
     if (!status) status = unit_numbers(&plain, &contact->scene, &contact->numbers, error);
     if (status) return status;
-    contact->friction = scene->friction;
-    contact->sliding = scene->friction <= 0      ? RST_NO_FRICTION
-                       : isinf(scene->friction) ? RST_NEVER_SLIPS
-                                                : RST_SLIDES;
-    if (contact->sliding != RST_SLIDES) contact->scene.friction = scene->friction;
-    contact->timeless = without_time(scene->material);
+    contact->friction = plain.friction;
+    contact->sliding = plain.friction <= 0      ? RST_NO_FRICTION
+                       : isinf(plain.friction) ? RST_NEVER_SLIPS
+                                               : RST_SLIDES;
+    if (contact->sliding != RST_SLIDES) contact->scene.friction = plain.friction;
+    contact->timeless = without_time(plain.material);
     return RESTITUTE_OK;
 }
 
@@ -56,7 +58,7 @@ int rst_column_solver_create(const struct rst_contact *contact, double tolerance
     restitute_options_init(&s->options);
     s->options.method = restitute_method_sync();
     s->options.tolerance = fmax(1e-8, tolerance);
-    s->options.max_updates = most_updates;
+    s->options.max_work = most_work;
     s->options.time_limit = INFINITY; /* a clock would make tables differ */
     s->contact = contact;
     s->plan = NULL;
@@ -86,7 +88,7 @@ int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error 
     restitute_error why;
     restitute_plan *plan;
     scene.normal_speed = speed;
-    const int status = restitute_plan_create_scene(&s->options, &scene, &plan, &why);
+    const int status = restitute_plan_create_scene(&scene, &s->options, &plan, &why);
     if (status < 0) return name_place(speed, 0, &why, error);
     restitute_plan_destroy(s->plan);
     s->plan = plan;

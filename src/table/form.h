@@ -4,9 +4,11 @@
 #define RST_TABLE_FORM_H
 
 #include "table/axis.h"
-#include "table/table_data.h"
+
+#include <restitute/table.h>
 
 #include "base/ranges.h"
+#include "base/sized.h"
 #include "base/status.h"
 
 /* A node along the speed. */
@@ -22,8 +24,8 @@ static const double rst_largest_speed = 1e100;
 static const double rst_least = 0x1p-1000;
 
 struct restitute_table {
-    struct rst_table_data d;
-    struct restitute_table_contact own;
+    restitute_table_data d;
+    restitute_table_contact own;
     double share;           /* rst_share(chi) */
     double of_stick, of_slip; /* cells of psi */
     double end;             /* just below s of the last node */
@@ -49,9 +51,20 @@ static inline int rst_same_chi(double a, double b)
     return fabs(a - b) <= 1e-9 * fabs(b);
 }
 
+/* Number of places of psi: each panel has its own at psi = 1. */
+static inline int64_t rst_places(const restitute_table_data *d)
+{
+    return d->stick_cells + d->slip_cells + 2;
+}
+
 /* The pair at `speed` on the table's axis and psi = sliding/v_n; v_n may be 0 and sliding infinite. */
-void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n,
-                        restitute_table_value *pair);
+void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n, double *ez, double *ex);
+
+/* The contact that a call is about, which is one of a table; NULL: the table's own. */
+int rst_check_contact(const restitute_table_contact *contact, restitute_error *error);
+
+/* The speeds that are looked up are in their ranges; `place` is "" or "s[i]" of many. */
+int rst_check_speeds(double normal, double tangential, const char *place, restitute_error *error);
 
 /* Highest value of chi that tables take, and lowest. */
 static const double rst_chi_range[2] = {0.3, 1000};

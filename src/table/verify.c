@@ -40,7 +40,7 @@ static double miss_node(const double *below, const double *node, const double *a
 }
 
 /* The same of place j of speed i, along psi and along the speed: large at folds, wherever they lie between nodes. */
-static double doubt_of_node(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, int64_t j)
+static double doubt_of_node(const struct rst_builder *b, const restitute_table_data *d, int64_t i, int64_t j)
 {
     const int64_t row = 4 * rst_places(d), slips = j > d->stick_cells ? d->stick_cells + 1 : 0, p = j - slips;
     const struct rst_column *c = b->column + i;
@@ -53,7 +53,7 @@ static double doubt_of_node(const struct rst_builder *b, const struct rst_table_
 }
 
 /* The middles of the cells of psi that are most in doubt between speeds i and i + 1; not beside each other. */
-static void find_doubtful(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, struct rst_place *place)
+static void find_doubtful(const struct rst_builder *b, const restitute_table_data *d, int64_t i, struct rst_place *place)
 {
     const int64_t places = rst_places(d);
     double doubt[2][2 * rst_most_cells + 2];
@@ -110,7 +110,7 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     const struct rst_builder *b = w->b;
     const int64_t n = b->contact.sliding == RST_SLIDES ? w->places : b->contact.sliding == RST_NEVER_SLIPS;
     struct rst_column_normal normal;
-    restitute_table_value pair;
+    double ez, ex;
     int status = rst_column_begin(s, c->speed, &c->why);
     if (!status) status = rst_column_normal(s, &normal, &c->why);
     if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
@@ -118,16 +118,16 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
         return RESTITUTE_OK;
     }
     if (status < 0) return status;
-    rst_table_evaluate(w->table, c->speed, 0, 1, &pair);
-    c->ez = fabs(pair.ez - normal.ez) + normal.error;
+    rst_table_evaluate(w->table, c->speed, 0, 1, &ez, &ex);
+    c->ez = fabs(ez - normal.ez) + normal.error;
     for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
         const struct rst_place place = place_of(c, i, c->cell + 7 * w->round);
         const double psi = b->contact.sliding == RST_SLIDES ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
-        double ex, error_ex;
-        status = rst_column_solve(s, psi, &ex, &error_ex, &c->why);
+        double solved, error_ex;
+        status = rst_column_solve(s, psi, &solved, &error_ex, &c->why);
         if (status < 0) break;
-        rst_table_evaluate(w->table, c->speed, psi, 1, &pair);
-        const double miss = fabs(pair.ex - ex) + error_ex;
+        rst_table_evaluate(w->table, c->speed, psi, 1, &ez, &ex);
+        const double miss = fabs(ex - solved) + error_ex;
         if (miss > c->ex) c->ex = miss, c->worst = place;
     }
     return status;
@@ -154,7 +154,7 @@ static int64_t plan(const struct rst_builder *b, const restitute_table *table, i
         if (least > 0)
             find_around(b, c->worst, check[n++].doubtful);
         else
-            find_doubtful(b, restitute_private_table_data(table), i, check[n++].doubtful);
+            find_doubtful(b, &table->d, i, check[n++].doubtful);
     }
     return n;
 }
