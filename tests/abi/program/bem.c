@@ -24,7 +24,6 @@ void call_bem(void)
     ONE(bem_snapshot, snapshot);
     ball(scene, material);
     TEXT(restitute_method_name(restitute_method_bem()));
-    TEXT(restitute_method_name(restitute_method_bem_both()));
     TEXT(restitute_method_name(restitute_method_bem_paper()));
     DONE(restitute_bem_recorder_create(SNAPSHOTS, &recorder, &error));
     options->method = restitute_bem_recorder_method(recorder), options->elements = 8;
