@@ -45,7 +45,7 @@ static void look_up(const restitute_table *table, const restitute_material *mate
     SHOW(contact->speed_factor, contact->psi_factor, contact->radius, contact->mass);
     DONE(restitute_table_pair(table, contact, 0.1, 0.05, ez, ex, &error));
     SHOW(ez[0], ex[0]);
-    DONE(restitute_table_pair_many(table, NULL, PAIRS, normal, tangential, ez, ex, &error));
+    DONE(restitute_table_pair_many(table, contact, PAIRS, normal, tangential, ez, ex, &error));
     SHOW(ez[0], ex[0], ez[1], ex[1]);
     second->radius = INFINITY, second->normal[2] = 1;
     first->radius = 0.01, first->mass = 4e-3, first->position[2] = 0.01;
