@@ -10,7 +10,7 @@ int main(void)
     restitute_scene scene;
     restitute_table_options options;
     restitute_table *table = NULL;
-    double ez, ex;
+    double ez = 0, ex = 0;
     restitute_error error;
     restitute_scene_init(&scene);
     restitute_table_options_init(&options);
