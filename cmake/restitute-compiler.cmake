@@ -94,6 +94,18 @@ endfunction()
 set(RESTITUTE_EXPORT_MAP "${PROJECT_SOURCE_DIR}/cmake/restitute.map")
 check_linker_flag(C "-Wl,--version-script=${RESTITUTE_EXPORT_MAP}" RESTITUTE_LINKER_HAS_VERSION_SCRIPTS)
 
+check_linker_flag(C "-Wl,--push-state,--no-as-needed,--pop-state" RESTITUTE_LINKER_HAS_AS_NEEDED)
+
+# Has a component name librestitute among what it needs, though it may call nothing of it: a method is of the version of
+# the core that it was built with.
+function(restitute_needs_core target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND RESTITUTE_LINKER_HAS_AS_NEEDED)
+    target_link_options(${target} PRIVATE
+                        "-Wl,--push-state,--no-as-needed,$<TARGET_FILE:restitute_core>,--pop-state")
+  endif()
+endfunction()
+
 # Lets only restitute_* out of a shared library. Where the linker knows no version scripts, hidden visibility still
 # keeps our C helpers in, and the Fortran kernel's rst_* remain visible, which harms nobody.
 function(restitute_limit_exports target)

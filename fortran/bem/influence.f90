@@ -2,16 +2,15 @@
 !> Influence coefficients of the incompressible half-space (18): the displacement of one cell of a square grid under a uniform
 !> traction on another, in closed form, for unit shear modulus and unit spacing.
 !>
-!> The kernels are 1/(4 pi r) (normal), (1/r + x^2/r^3)/(4 pi) (along x under a traction along x), (x y/r^3)/(4 pi)
-!> (along y under a traction along x). With S1 = x asinh(y/|x|) and S2 = y asinh(x/|y|) their integrals over a cell are signed
-!> sums over its corners of S1 + S2, S1 + 2 S2 and -r.
+!> The kernels are 1/(4 pi r) (normal) and (1/r + x^2/r^3)/(4 pi) (along x under a traction along x). With S1 = x asinh(y/|x|)
+!> and S2 = y asinh(x/|y|) their integrals over a cell are signed sums over its corners of S1 + S2 and S1 + 2 S2.
 module rst_bem_influence
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: influence, normal_traction, shear_along, shear_across
+  public :: influence, normal_traction, shear_along
 
-  integer(ip), parameter :: normal_traction = 0, shear_along = 1, shear_across = 2
+  integer(ip), parameter :: normal_traction = 0, shear_along = 1
   real(dp), parameter :: pi = 3.14159265358979323846_dp
 
 contains
@@ -39,14 +38,11 @@ contains
     integer(ip), intent(in) :: kind
     real(dp), intent(in) :: x, y
     real(dp) :: s
-    select case (kind)
-    case (normal_traction)
-      s = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
-    case (shear_along)
+    if (kind == shear_along) then
       s = x*asinh(y/abs(x)) + 2*y*asinh(x/abs(y))
-    case default
-      s = -hypot(x, y)
-    end select
+    else
+      s = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
+    end if
   end function corner
 
 end module rst_bem_influence

@@ -65,10 +65,6 @@ extern "C" {
 /** `bem`: second order in the step, bound-constrained friction, traction along x alone. */
 RESTITUTE_SINCE_0_1 const restitute_method *restitute_method_bem(void);
 
-/** `bem-both`: tractions along y, across the sliding, too, so that cells stick and slip in the
- *  plane. To show how little the others neglect; some ten times slower. */
-RESTITUTE_SINCE_0_1 const restitute_method *restitute_method_bem_both(void);
-
 /** `bem-paper`: as in section 4 of the paper, explicit Euler steps and a sticking set that shrinks
  *  until no cell of it passes the friction limit. First order in the step: for comparison. */
 RESTITUTE_SINCE_0_1 const restitute_method *restitute_method_bem_paper(void);

@@ -323,8 +323,8 @@ typedef struct restitute_options {
                                          library was built without OpenMP. OpenMP ends a program
                                          whose threads it cannot start, and hangs in a child (fork)
                                          of one that used them; 1 never enters it */
-    double max_work;                /**< most work that a call may spend, in nominal seconds, > 0;
-                                         default 10. It is counted (@ref restitute_result.work), not
+    double max_work;                /**< most work that a call may spend, in nominal seconds, > 0,
+                                         infinity allowed; default 10. It is counted (@ref restitute_result.work), not
                                          measured: a nominal second takes about one second of a core
                                          of the year 2020, and the same call ends at the same place
                                          on every machine. A call that reaches it before the

@@ -247,7 +247,7 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
                           step * p->time_unit, p->unit_name);
     if (end == BEM_REBOUND || end == BEM_SUNK) /* a run, but none to compare it with */
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_updates = %lld: spent before there was a result; raise it", (long long)p->max_updates);
+                          "max_work = %g: spent before there was a result; raise it", p->max_work);
     return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                       "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
                       step * p->time_unit, p->unit_name);
@@ -277,8 +277,8 @@ static int too_many_steps(struct impact *impact, double elements, double step, r
     if (updates <= (double)p->max_updates) return RESTITUTE_OK;
     return rst_report(
         error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-        "max_updates = %lld: some %.1g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
-        (long long)p->max_updates, updates, (long long)elements, step * p->time_unit, p->unit_name);
+        "max_work = %g: some %.2g are needed for %lld cells over the radius and steps of %.3g %s; raise it",
+        p->max_work, updates / p->method->updates_per_second, (long long)elements, step * p->time_unit, p->unit_name);
 }
 
 /* Elements or step given: one run with them, and one with half the cells and twice the step. */
@@ -350,8 +350,7 @@ static int bem_solve(const struct rst_problem *problem, struct rst_workspace *wo
     impact.keep_ledger = keep_ledger;
     status = problem->elements > 0 || problem->time_step > 0 ? solve_prescribed(&impact, outcome, error)
                                                              : solve_refining(&impact, outcome, error);
-    if (status == RESTITUTE_OK && error) *error = (restitute_error){.status = RESTITUTE_OK};
-    return status;
+    return status == RESTITUTE_OK ? rst_done(error) : status;
 }
 
 /* Takes samples of a run, evenly spaced over its steps, and snapshots for a recorder. */
@@ -418,28 +417,18 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }
 
-const struct restitute_method rst_bem_base_method = {.name = "bem",
-                                                     .time_limit = INFINITY,
-                                                     .takes_time_step = 1,
-                                                     .takes_all_terms = 1,
-                                                     .solve = bem_solve,
-                                                     .record = bem_record};
+/* What is counted are the cells of convolutions: 6 ns each, 5.8 to 6.6 (measured, x86-64). */
+#define UPDATES_PER_SECOND 1.5e8
 
 #define BASE(its_name)                                                                                                 \
     {                                                                                                                  \
-        .name = its_name, .time_limit = INFINITY, .takes_time_step = 1, .takes_all_terms = 1, .solve = bem_solve,      \
-        .record = bem_record                                                                                           \
+        .struct_size = sizeof(struct restitute_method), .number = RST_METHOD_NUMBER, .name = (its_name),               \
+        .time_limit = INFINITY, .updates_per_second = UPDATES_PER_SECOND, .takes_time_step = 1, .takes_all_terms = 1,  \
+        .solve = bem_solve, .record = bem_record                                                                       \
     }
 static const struct bem_method standard = {.base = BASE("bem")};
 static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),
                                                .variant = {.explicit_euler = 1, .stick_sets = 1}};
-
-static const struct bem_method in_both_directions = {.base = BASE("bem-both"), .variant = {.both_directions = 1}};
-
-const restitute_method *restitute_method_bem_both(void)
-{
-    return &in_both_directions.base;
-}
 
 const restitute_method *restitute_method_bem(void)
 {

@@ -9,20 +9,7 @@
 static void convolve(struct bem_bounded *b, const double *x, double *u)
 {
     rst_bem_convolve(b->transform, b->kind, b->ld, x, u);
-    for (int64_t j = 0; b->diagonal && j < b->transform->m; j++)
-        for (int64_t i = j * b->ld; i < j * b->ld + b->transform->m; i++)
-            u[i] += b->diagonal[i] * x[i];
     b->convolutions++;
-}
-
-/* An added diagonal may be much larger than K, whose own is 0.42 and whose eigenvalues are of order 1 where fields are
- * not smooth. */
-static void precondition(struct bem_bounded *b)
-{
-    rst_bem_precondition(b->transform, b->kind, b->ld, b->r, b->z);
-    for (int64_t j = 0; b->diagonal && j < b->transform->m; j++)
-        for (int64_t i = j * b->ld; i < j * b->ld + b->transform->m; i++)
-            b->z[i] /= 1 + b->diagonal[i];
 }
 
 int rst_bem_solve_bounded(struct bem_bounded *b)
@@ -37,7 +24,7 @@ int rst_bem_solve_bounded(struct bem_bounded *b)
         if (squares <= b->closeness * b->closeness * count) return 0;
         if (i == b->most_iterations) return 1;
         b->iterations++;
-        precondition(b);
+        rst_bem_precondition(b->transform, b->kind, ld, b->r, b->z);
         if (changed > 0) rz = 0;
         rst_bem_new_direction(ld, m, b->free, b->r, b->z, &rz, b->d);
         convolve(b, b->d, b->kd);

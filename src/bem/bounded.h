@@ -12,9 +12,8 @@ struct bem_bounded {
     enum bem_kind kind;
     int64_t ld;
     const double *low, *high, *rhs;
-    const double *diagonal;        /* added to that of K; NULL: nothing */
     double *x;                     /* in: where to start; out: the solution */
-    double *u;                     /* out: K x, with the diagonal */
+    double *u;                     /* out: K x */
     double *free, *r, *z, *d, *kd; /* room */
     double closeness;              /* root mean square of the residual on free cells */
     int64_t most_iterations;

@@ -1,4 +1,4 @@
-/* The Fortran procedures of the component; see fortran/bem_*.f90.
+/* The Fortran procedures of the component; see fortran/bem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_KERNELS_H
 #define BEM_KERNELS_H
@@ -6,11 +6,8 @@
 #include <fftw3.h>
 #include <stdint.h>
 
-/* Kinds of fortran/bem_influence.f90. */
-enum bem_kind { BEM_NORMAL = 0, BEM_SHEAR = 1, BEM_CROSS = 2 };
-
-/* Displacement along y under a traction along y, both odd in x and in y; see plane.h. */
-enum { BEM_SHEAR_Y = 3 };
+/* Kinds of fortran/bem/influence.f90. */
+enum bem_kind { BEM_NORMAL = 0, BEM_SHEAR = 1 };
 
 void rst_bem_influence_table(int64_t kind, int64_t n, double *table);
 void rst_bem_creep_form(double g_inf, int64_t n, const double *g, const double *tau, double *instantaneous,

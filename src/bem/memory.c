@@ -26,8 +26,7 @@ struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace)
     return (struct bem_memory *)workspace->own;
 }
 
-int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
-                          struct bem_fields *fields)
+int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, struct bem_fields *fields)
 {
     double **single[] = {&fields->p,       &fields->p_before, &fields->p_new,  &fields->tau,        &fields->tau_before,
                          &fields->tau_new, &fields->f_z,      &fields->f_x,    &fields->f_new,      &fields->drift_z,
@@ -35,12 +34,8 @@ int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms,
                          &fields->gap,     &fields->s,        &fields->anchor, &fields->gap_before, &fields->s_before,
                          &fields->free,    &fields->r,        &fields->z,      &fields->d,          &fields->kd,
                          &fields->touched};
-    double **more[] = {&fields->tau_y,      &fields->f_y,      &fields->drift_y, &fields->h_y,       &fields->s_y,
-                       &fields->s_y_before, &fields->anchor_y, &fields->full_x,  &fields->full_y,    &fields->cross,
-                       &fields->total_x,    &fields->total_y,  &fields->slips,   &fields->resistance};
-    const size_t basic = sizeof single / sizeof *single, extra = both_directions ? sizeof more / sizeof *more : 0;
-    const size_t count = basic + extra, cells = (size_t)(m * m);
-    const size_t wanted = cells * (count + (both_directions ? 3 : 2) * (size_t)n_terms);
+    const size_t count = sizeof single / sizeof *single, cells = (size_t)(m * m);
+    const size_t wanted = cells * (count + 2 * (size_t)n_terms);
     if (wanted > memory->block_size) {
         double *block = fftw_alloc_real(wanted);
         if (!block) return 1;
@@ -49,15 +44,12 @@ int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms,
         memory->block_size = wanted;
     }
     memset(memory->block, 0, wanted * sizeof *memory->block);
-    for (size_t i = 0; i < basic; i++)
+    for (size_t i = 0; i < count; i++)
         *single[i] = memory->block + i * cells;
-    for (size_t i = 0; i < extra; i++)
-        *more[i] = memory->block + (basic + i) * cells;
     fields->m = m;
     fields->n_terms = n_terms;
     fields->b_z = memory->block + count * cells;
     fields->b_x = fields->b_z + cells * (size_t)n_terms;
-    fields->b_y = fields->b_x + cells * (size_t)n_terms; /* there with both directions only */
     return 0;
 }
 

@@ -19,9 +19,6 @@ struct bem_fields {
     double *b_z, *b_x, *drift_z, *drift_x; /* memory of the solid; b: n_terms fields */
     double *h, *target, *low, *high;
     double *gap, *gap_before, *s, *s_before, *anchor;
-    double *tau_y, *f_y, *b_y, *drift_y; /* the same along y, odd in x and in y; with both directions only */
-    double *h_y, *s_y, *s_y_before, *anchor_y;
-    double *full_x, *full_y, *cross, *total_x, *total_y, *slips, *resistance;
     double *touched; /* > 0: has been in contact; kept for the ledger only */
     double *free, *r, *z, *d, *kd;
 };
@@ -39,8 +36,7 @@ struct bem_memory {
 struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace);
 
 /* Fields set to zero; nonzero: out of memory. */
-int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, int both_directions,
-                          struct bem_fields *fields);
+int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, struct bem_fields *fields);
 
 /* Transform of a size, made at first use; NULL: out of memory. */
 struct bem_transform *rst_bem_memory_transform(struct bem_memory *memory, int64_t m);

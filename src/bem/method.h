@@ -13,8 +13,6 @@ struct bem_method {
     struct restitute_bem_recorder *recorder; /* NULL: keeps no fields */
 };
 
-extern const struct restitute_method rst_bem_base_method;
-
 /* A new impact: forget the last one. */
 void rst_bem_recorder_begin(struct restitute_bem_recorder *recorder);
 

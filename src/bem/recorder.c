@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/sized.h"
 #include "bem/method.h"
 
 struct snapshot {
@@ -21,10 +22,7 @@ struct restitute_bem_recorder {
 
 enum { most_snapshots = 1000 };
 
-void restitute_bem_snapshot_init(restitute_bem_snapshot *snapshot)
-{
-    if (snapshot) *snapshot = (restitute_bem_snapshot){.struct_size = sizeof *snapshot};
-}
+RST_DEFAULTS(bem_snapshot, 0)
 
 int restitute_bem_recorder_create(size_t count, restitute_bem_recorder **recorder, restitute_error *error)
 {
@@ -34,10 +32,10 @@ int restitute_bem_recorder_create(size_t count, restitute_bem_recorder **recorde
     restitute_bem_recorder *r = calloc(1, sizeof *r + count * sizeof *r->snapshots);
     if (!r) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a recorder");
     r->capacity = count;
-    r->method = (struct bem_method){.base = rst_bem_base_method, .recorder = r};
+    r->method = *(const struct bem_method *)restitute_method_bem();
+    r->method.recorder = r;
     *recorder = r;
-    if (error) *error = (restitute_error){.status = RESTITUTE_OK};
-    return RESTITUTE_OK;
+    return rst_done(error);
 }
 
 void rst_bem_recorder_begin(restitute_bem_recorder *recorder)
@@ -99,21 +97,18 @@ int restitute_bem_recorder_get(const restitute_bem_recorder *recorder, size_t in
 {
     if (!recorder || !snapshot)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? "snapshot" : "recorder");
-    if (snapshot->struct_size != sizeof *snapshot)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "restitute_bem_snapshot.struct_size = %zu: must be %zu; prepare it with "
-                          "restitute_bem_snapshot_init of this version",
-                          snapshot->struct_size, sizeof *snapshot);
+    const int status = RST_CHECK(bem_snapshot, snapshot, error);
+    if (status) return status;
     if (index >= recorder->count)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "index = %zu: must be below %zu", index, recorder->count);
     const struct snapshot *s = &recorder->snapshots[index];
-    *snapshot = (restitute_bem_snapshot){.struct_size = sizeof *snapshot,
-                                         .time = s->time,
-                                         .spacing = s->spacing,
-                                         .cells = s->cells,
-                                         .pressure = s->values,
-                                         .traction = s->values + s->cells * s->cells,
-                                         .stick = s->values + 2 * s->cells * s->cells};
-    if (error) *error = (restitute_error){.status = RESTITUTE_OK};
-    return RESTITUTE_OK;
+    const restitute_bem_snapshot own = {.struct_size = sizeof own,
+                                        .time = s->time,
+                                        .spacing = s->spacing,
+                                        .cells = s->cells,
+                                        .pressure = s->values,
+                                        .traction = s->values + s->cells * s->cells,
+                                        .stick = s->values + 2 * s->cells * s->cells};
+    RST_GIVE(&own, snapshot);
+    return rst_done(error);
 }

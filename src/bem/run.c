@@ -80,7 +80,7 @@ static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
     const double wanted = (radius_of(s->motion.contact) + fmax(0, growth)) / s->setup->spacing + reach;
-    int64_t m = s->setup->variant.both_directions ? s->f.m : size_for(fmax(wanted, (double)least), s->f.m);
+    int64_t m = size_for(fmax(wanted, (double)least), s->f.m);
     const int64_t m_before = s->near ? s->near->m : 0;
     const int shrinks = growth < 0 && s->motion.contact < 0.98 * s->run->max_area;
     if (m < m_before && !shrinks) m = m_before;
@@ -131,7 +131,7 @@ static enum bem_end advance(struct bem_stepper *s)
     if (choose_part(s, 0)) return BEM_NO_MEMORY;
     end = press(s, q.depth, q.shift);
     if (end == BEM_REBOUND && !setup->normal_only && setup->problem->mode != RST_FRICTIONLESS)
-        end = setup->variant.both_directions ? rst_bem_solve_both(s, q.shift) : rst_bem_solve_shear(s, q.shift);
+        end = rst_bem_solve_shear(s, q.shift);
     if (end != BEM_REBOUND) return end;
     q.force = s->motion.force, q.contact = s->motion.contact;
     q.shear_force = s->motion.shear_force, q.stick = s->motion.stick;
@@ -225,9 +225,8 @@ void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struc
                  struct bem_run *run)
 {
     struct bem_stepper s = {.setup = setup, .solid = setup->solid, .memory = memory, .run = run};
-    const int both = setup->variant.both_directions && !setup->normal_only;
     *run = (struct bem_run){.end = BEM_NO_MEMORY, .step = setup->step, .ringing = setup->solid->ringing};
-    if (rst_bem_memory_fields(memory, setup->m, setup->solid->n_terms, both, &s.f)) return;
+    if (rst_bem_memory_fields(memory, setup->m, setup->solid->n_terms, &s.f)) return;
     if (setup->keep_ledger && !rst_bem_memory_transform(memory, setup->m)) return;
     run->end = BEM_TOO_LONG;
     s.cell = 4 * setup->spacing;

@@ -8,7 +8,6 @@
 /* How the steps are made; all 0: the method of the component. */
 struct bem_variant {
     int explicit_euler;  /* positions, forces, velocities; entering cells stick from the step's beginning */
-    int both_directions; /* tractions along y too */
     int stick_sets;      /* the sticking set shrinks until none of it passes the friction limit */
 };
 

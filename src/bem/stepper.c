@@ -10,7 +10,8 @@
 static const double closeness = 1e-6;
 enum { most_iterations = 200 };
 
-int rst_bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double residual, double *x)
+/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. Nonzero: not settled. */
+static int solve_target(struct bem_stepper *s, enum bem_kind kind, double residual, double *x)
 {
     struct bem_fields *f = &s->f;
     struct bem_bounded b = {.transform = s->near,
@@ -19,7 +20,6 @@ int rst_bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double
                             .low = f->low,
                             .high = f->high,
                             .rhs = f->target,
-                            .diagonal = diagonal,
                             .x = x,
                             .u = f->f_new,
                             .free = f->free,
@@ -62,15 +62,12 @@ enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double sh
     rst_bem_recall(ld, m, solid->n_terms, solid->decay, f->b_z, solid->held, f->drift_z, f->f_z, f->h);
     rst_bem_normal_target(ld, m, s->setup->spacing, depth, solid->c, f->h, f->target);
     rst_bem_start_normal(ld, s->near->m, f->p, f->p_before, f->p_new, f->low, f->high);
-    if (rst_bem_solve_target(s, BEM_NORMAL, NULL, closeness * depth / solid->c, f->p_new)) return BEM_UNSETTLED;
+    if (solve_target(s, BEM_NORMAL, closeness * depth / solid->c, f->p_new)) return BEM_UNSETTLED;
     if (touches_side(s)) return BEM_OUTGREW;
     spread(s, BEM_NORMAL, f->p_new);
     const double first_ratio = !(s->run->max_force > 0) && !naive ? shift / depth : -1;
     rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio, f->p_new, f->p, f->gap,
                   naive ? f->gap : f->gap_before, f->s, f->s_before, f->anchor);
-    if (s->setup->variant.both_directions && !s->setup->normal_only)
-        rst_bem_enter(ld, s->near->m, s->setup->spacing, first_ratio < 0 ? -1 : 0, f->p_new, f->p, f->gap,
-                      f->gap_before, f->s_y, f->s_y_before, f->anchor_y);
     rst_bem_measure(ld, m, s->near->m, solid->c, f->f_new, f->target, f->p_new, f->gap, f->gap_before, &sum, &cells);
     rst_bem_remember(ld, m, solid->n_terms, solid->decay, solid->gain, solid->half_flow, f->f_new, f->b_z, f->drift_z,
                      f->f_z);
@@ -100,7 +97,7 @@ static int solve_by_stick_sets(struct bem_stepper *s, double residual)
     const int64_t m = s->near->m;
     rst_bem_shear_bounds(f->m, m, 1, f->p_new, f->low, f->high);
     do {
-        if (rst_bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new)) return 1;
+        if (solve_target(s, BEM_SHEAR, residual, f->tau_new)) return 1;
     } while (s->setup->problem->mode != RST_NO_SLIP && shrink_stick_set(s) > 0);
     rst_bem_shear_bounds(f->m, m, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
     return 0;
@@ -118,7 +115,7 @@ enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift)
     rst_bem_shear_target(ld, near, shift, solid->c, f->anchor, f->h, f->target);
     rst_bem_start_shear(ld, near, f->p, f->tau, f->tau_before, f->high, f->tau_new);
     if (s->setup->variant.stick_sets ? solve_by_stick_sets(s, residual)
-                                     : rst_bem_solve_target(s, BEM_SHEAR, NULL, residual, f->tau_new))
+                                     : solve_target(s, BEM_SHEAR, residual, f->tau_new))
         return BEM_UNSETTLED;
     spread(s, BEM_SHEAR, f->tau_new);
     rst_bem_settle(ld, m, near, shift, solid->c, f->h, f->f_new, f->p_new, f->tau, f->tau_new, f->low, f->high,
@@ -147,7 +144,7 @@ static double energy_of_terms(struct bem_stepper *s, enum bem_kind kind, const d
         memset(x, 0, (size_t)cells * sizeof *x);
         for (int64_t i = 0; i < cells; i++)
             largest = fmax(largest, fabs(f->target[i]));
-        if (!(largest > 0) || rst_bem_solve_target(s, kind, NULL, 1e-3 * largest, x)) continue;
+        if (!(largest > 0) || solve_target(s, kind, 1e-3 * largest, x)) continue;
         for (int64_t i = 0; i < cells; i++)
             energy += 0.5 * x[i] * f->target[i] / s->solid->compliance[k];
     }

@@ -24,14 +24,6 @@ enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double sh
 /* The traction at a shift, under the pressure just found. */
 enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift);
 
-/* The same with tractions along y, which friction turns towards the slip of each cell. */
-enum bem_end rst_bem_solve_both(struct bem_stepper *s, double shift);
-
-/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. diagonal: added to K's,
- * or NULL. Nonzero: not settled. */
-int rst_bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double closeness,
-                         double *x);
-
 /* Energy that the springs of the solid hold when the contact has ended. */
 void rst_bem_find_left(struct bem_stepper *s);
 

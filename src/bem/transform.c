@@ -4,9 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "bem/plane.h"
 #include "bem/planner.h"
 
 /* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
@@ -125,7 +123,6 @@ void rst_bem_transform_destroy(struct bem_transform *t)
     if (!t) return;
     cosine_release(&t->padded);
     cosine_release(&t->plain);
-    rst_bem_plane_destroy(t->plane);
     for (int kind = 0; kind < 2; kind++) {
         fftw_free(t->spectrum[kind]);
         fftw_free(t->inverse[kind]);
@@ -135,17 +132,10 @@ void rst_bem_transform_destroy(struct bem_transform *t)
 
 void rst_bem_convolve(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *x, double *u)
 {
-    if ((int)kind == BEM_SHEAR_Y)
-        rst_bem_plane_convolve(t->plane, BEM_Y_FROM_Y, ld, x, u);
-    else
-        apply(&t->padded, t->spectrum[kind], ld, x, u);
+    apply(&t->padded, t->spectrum[kind], ld, x, u);
 }
 
 void rst_bem_precondition(struct bem_transform *t, enum bem_kind kind, int64_t ld, const double *r, double *z)
 {
-    if ((int)kind == BEM_SHEAR_Y) /* seldom needed: none */
-        for (int64_t j = 0; j < t->m; j++)
-            memcpy(z + j * ld, r + j * ld, (size_t)t->m * sizeof *z);
-    else
-        apply(&t->plain, t->inverse[kind], ld, r, z);
+    apply(&t->plain, t->inverse[kind], ld, r, z);
 }

@@ -17,7 +17,6 @@ struct bem_cosine {
 struct bem_transform {
     int64_t m;
     struct bem_cosine padded, plain;
-    struct bem_plane *plane;          /* NULL: not made */
     double *spectrum[2], *inverse[2]; /* of BEM_NORMAL and BEM_SHEAR: times n^-2; 1/spectrum of the unpadded grid */
 };
 

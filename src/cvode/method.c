@@ -10,7 +10,6 @@ static void release(struct rst_own_memory *own)
 {
     struct cvode_memory *memory = (struct cvode_memory *)own;
     rst_trace_release(&memory->trace);
-    rst_log_release(&memory->log);
     free(memory);
 }
 
@@ -25,60 +24,48 @@ static int reserve(double tolerance, struct rst_workspace *workspace)
     return 0;
 }
 
-static const enum integrator_family bdf = INTEGRATOR_BDF, adams = INTEGRATOR_ADAMS;
-
-static int solve_with(const enum integrator_family *family, const struct rst_problem *problem,
-                      struct rst_workspace *workspace, int keep_ledger, struct rst_outcome *outcome,
-                      restitute_error *error)
+static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                 struct rst_outcome *outcome, restitute_error *error)
 {
     if (reserve(problem->tolerance, workspace)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    return rst_cvode_solve(problem, (struct cvode_memory *)workspace->own, family, keep_ledger, outcome, error);
+    return rst_cvode_solve(problem, (struct cvode_memory *)workspace->own, keep_ledger, outcome, error);
 }
 
-static int record_with(const enum integrator_family *family, const struct rst_problem *problem,
-                       struct rst_workspace *workspace, const struct rst_outcome *outcome, struct rst_history *history,
-                       restitute_error *error)
+static int record(const struct rst_problem *problem, struct rst_workspace *workspace, const struct rst_outcome *outcome,
+                  struct rst_history *history, restitute_error *error)
 {
-    return rst_cvode_record(problem, (struct cvode_memory *)workspace->own, family, outcome, history, error);
+    return rst_cvode_record(problem, (struct cvode_memory *)workspace->own, outcome, history, error);
 }
 
-/* A method object with its two functions. */
-#define METHOD(identifier, word, family)                                                                               \
-    static int identifier##_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger, \
-                                  struct rst_outcome *outcome, restitute_error *error)                                 \
-    {                                                                                                                  \
-        return solve_with(family, problem, workspace, keep_ledger, outcome, error);                                    \
-    }                                                                                                                  \
-    static int identifier##_record(const struct rst_problem *problem, struct rst_workspace *workspace,                 \
-                                   const struct rst_outcome *outcome, struct rst_history *history,                     \
-                                   restitute_error *error)                                                             \
-    {                                                                                                                  \
-        return record_with(family, problem, workspace, outcome, history, error);                                       \
-    }                                                                                                                  \
-    static const struct restitute_method identifier = {.name = word,                                                   \
-                                                       .time_limit = 1,                                                \
-                                                       .reserve = reserve,                                             \
-                                                       .records_between_steps = 1,                                     \
-                                                       .solve = identifier##_solve,                                    \
-                                                       .record = identifier##_record}
+/* What is counted are elements, and terms of each, at every evaluation of the rates and of the rootfunctions: 2 to 25 ns
+ * each with elements, 10 in the mean of impacts to 1e-5 (measured, x86-64). */
+#define UPDATES_PER_SECOND 1e8
 
-METHOD(by_scene, "cvode", NULL);
-METHOD(by_bdf, "cvode-bdf", &bdf);
-METHOD(by_adams, "cvode-adams", &adams);
+#define BASE(word)                                                                                                     \
+    {                                                                                                                  \
+        .struct_size = sizeof(struct restitute_method), .number = RST_METHOD_NUMBER, .name = (word), .time_limit = 1,  \
+        .updates_per_second = UPDATES_PER_SECOND, .reserve = reserve, .records_between_steps = 1, .solve = solve,      \
+        .record = record                                                                                               \
+    }
+
+static const enum integrator_family bdf = INTEGRATOR_BDF, adams = INTEGRATOR_ADAMS;
+static const struct cvode_method by_scene = {.base = BASE("cvode")};
+static const struct cvode_method by_bdf = {.base = BASE("cvode-bdf"), .family = &bdf};
+static const struct cvode_method by_adams = {.base = BASE("cvode-adams"), .family = &adams};
 
 const restitute_method *restitute_method_cvode(void)
 {
-    return &by_scene;
+    return &by_scene.base;
 }
 
 const restitute_method *restitute_method_cvode_bdf(void)
 {
-    return &by_bdf;
+    return &by_bdf.base;
 }
 
 const restitute_method *restitute_method_cvode_adams(void)
 {
-    return &by_adams;
+    return &by_adams.base;
 }
 
 const char *restitute_cvode_sundials_version(void)

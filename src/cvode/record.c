@@ -39,11 +39,10 @@ static void sample(struct run *run)
     }
 }
 
-int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
-                     const enum integrator_family *family, const struct rst_outcome *outcome,
+int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const struct rst_outcome *outcome,
                      struct rst_history *history, restitute_error *error)
 {
-    struct run_setup setup = rst_cvode_setup(problem, family);
+    struct run_setup setup = rst_cvode_setup(problem);
     struct recorder recorder = {.history = history, .psi = setup.psi};
     struct run run = {.sample = sample, .observer = &recorder};
     const double *y;

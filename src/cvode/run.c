@@ -472,8 +472,8 @@ static int change_motion(struct run *run, int *restart)
             weight += 0.5 * ((i + 1 < run->inside ? e->x[i + 1] : run->contact.radius) - (i > 0 ? e->x[i - 1] : 0));
         }
     }
-    if (slipping) status = note(run, RESTITUTE_EVENT_STICK_TO_SLIP, slip_at, slipping);
-    if (sticking && !status) status = note(run, RESTITUTE_EVENT_SLIP_TO_STICK, stick_at, sticking);
+    if (slipping) status = note(run, RESTITUTE_CVODE_EVENT_STICK_TO_SLIP, slip_at, slipping);
+    if (sticking && !status) status = note(run, RESTITUTE_CVODE_EVENT_SLIP_TO_STICK, stick_at, sticking);
     if (sticking && suffered(run, weight) > late_part * error_scale(run)) *restart = 1;
     return status;
 }
@@ -489,7 +489,7 @@ static int restart(struct run *run)
 static int end_contact(struct run *run)
 {
     run->ended = 1;
-    return note(run, RESTITUTE_EVENT_CONTACT_END, 0, 1);
+    return note(run, RESTITUTE_CVODE_EVENT_CONTACT_END, 0, 1);
 }
 
 /* The foundation of a solid that has forgotten all it bore may have let go by then: nothing would fall through 0. */
@@ -500,7 +500,7 @@ static int turn(struct run *run)
     run->max_time = run->time;
     if (run->setup->n_nodes == 0) run->scene.n_knots = run->trace->count;
     run->near = run->scene.n_knots - 1;
-    int status = note(run, RESTITUTE_EVENT_TURN, sqrt(run->y[0]), 0);
+    int status = note(run, RESTITUTE_CVODE_EVENT_TURN, sqrt(run->y[0]), 0);
     run->scene.restitution = 1;
     run->outermost = run->next_entry - 1;
     if (!status) status = restart(run);
@@ -515,7 +515,7 @@ static int end_gross_slip(struct run *run)
     for (int64_t i = 0; i < run->setup->n_nodes; i++)
         inside += run->elements.x[i] * run->elements.x[i] < run->contact.square;
     run->y[1] = run->slip_end;
-    const int status = note(run, RESTITUTE_EVENT_GROSS_SLIP_END, run->contact.radius, inside);
+    const int status = note(run, RESTITUTE_CVODE_EVENT_GROSS_SLIP_END, run->contact.radius, inside);
     return status ? status : begin_shear(run, 1);
 }
 
@@ -533,11 +533,11 @@ static int react(struct run *run, int64_t first)
     int status = RESTITUTE_OK, again = 0;
     evaluate(run, run->time, run->y, run->scratch);
     if (fell[ROOT_ENTRY]) {
-        status = note(run, RESTITUTE_EVENT_ENTRY, run->elements.x[run->next_entry], 1);
+        status = note(run, RESTITUTE_CVODE_EVENT_ENTRY, run->elements.x[run->next_entry], 1);
         run->next_entry++;
     }
     if (fell[ROOT_EXIT] && !status) {
-        status = note(run, RESTITUTE_EVENT_EXIT, run->elements.x[run->outermost], 1);
+        status = note(run, RESTITUTE_CVODE_EVENT_EXIT, run->elements.x[run->outermost], 1);
         run->outermost--;
     }
     if (run->shears && !status) {
@@ -640,8 +640,8 @@ static int check_work(struct run *run)
         snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
     else if (spent(run) > s->budget) {
         run->spent = 1;
-        snprintf(run->text, sizeof run->text, "max_updates = %lld: spent in a run with elements = %lld; raise it",
-                 (long long)s->max_updates, (long long)s->n_nodes);
+        snprintf(run->text, sizeof run->text, "max_work = %g: spent in a run with elements = %lld; raise it",
+                 s->max_work, (long long)s->n_nodes);
     } else if (is_late(run)) {
         run->spent = 1;
         snprintf(run->text, sizeof run->text, "time_limit = %g s: spent in a run with elements = %lld; raise it",
@@ -668,7 +668,7 @@ int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace 
         run->slip_end = (2 * setup->chi - setup->psi) / (2 * setup->chi - 1);
     if (setup->n_nodes == 0 && rst_trace_add(trace, 0, 0, 1, run->y + 2))
         return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
-    if (setup->n_nodes > 0) status = note(run, RESTITUTE_EVENT_ENTRY, 0, 1);
+    if (setup->n_nodes > 0) status = note(run, RESTITUTE_CVODE_EVENT_ENTRY, 0, 1);
     if (status) return status;
     status = friction && setup->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);
     while (!status && !run->ended) {

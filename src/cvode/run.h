@@ -22,7 +22,8 @@ struct run_setup {
     double rebound;     /* D' at the end, where known: decides on slip to the end */
     double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
     enum integrator_family family;
-    int64_t max_updates;             /* of the whole call, for messages */
+    double max_work;                 /* of the whole call, for messages */
+    int64_t max_updates;             /* likewise, in what is counted here */
     int64_t budget;                  /* of them, what this run may spend */
     const struct rst_problem *timed; /* has the clock of the call; NULL: no limit of time */
     double until;                    /* of that clock: when this run has to end */

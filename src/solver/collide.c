@@ -64,8 +64,8 @@ int restitute_collide(restitute_solver *solver, const restitute_collision *colli
     if (status) return status;
     restitute_result_init(&own);
     int first_moves = !rst_is_plane(first) && !isinf(first->mass);
-    status = first_moves ? collide(solver, &c, first, second, &own, error)
-                         : collide(solver, &c, second, first, &own, error);
+    status =
+        first_moves ? collide(solver, &c, first, second, &own, error) : collide(solver, &c, second, first, &own, error);
     if (status >= 0 && result) RST_GIVE(&own, result);
     return status;
 }

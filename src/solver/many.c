@@ -44,9 +44,9 @@ static void solve_case(const struct batch *batch, size_t i, struct worker *worke
 {
     restitute_error error;
     restitute_result *result = batch->results ? rst_at(batch->results, i) : NULL;
-    error.status =
-        batch->scenes ? restitute_solve_scene(worker->solver, rst_at(batch->scenes, i), result, NULL, NULL, &error)
-                      : restitute_solve(worker->solver, rst_at(batch->impacts, i), result, NULL, NULL, &error);
+    error.status = batch->scenes
+                       ? restitute_solve_scene(worker->solver, rst_at(batch->scenes, i), result, NULL, NULL, &error)
+                       : restitute_solve(worker->solver, rst_at(batch->impacts, i), result, NULL, NULL, &error);
     if (batch->statuses) batch->statuses[i] = error.status;
     if (error.status != RESTITUTE_OK) note(worker, i, &error);
 }

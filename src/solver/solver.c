@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/solver.h"
 #include "base/clock.h"
 #include "base/material.h"
 #include "base/method.h"
@@ -12,6 +11,7 @@
 #include "base/status.h"
 #include "euler/euler.h"
 #include "solver/output.h"
+#include "solver/solver.h"
 #include "solver/validity.h"
 #include "sync/sync.h"
 
@@ -82,7 +82,7 @@ static int check_options(const restitute_options *options, restitute_error *erro
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)",
                             options->threads, most_threads);
     if (!status && !(options->max_work > 0))
-        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g s: must be > 0 (inf: no limit)",
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g: must be > 0 (inf: no limit)",
                             options->max_work);
     if (!status) status = rst_check_range(options->time_limit, 0, INFINITY, "time_limit (s)", error);
     if (!status) status = rst_check_range(options->speed_limit, 0, INFINITY, "speed_limit", error);
