@@ -89,7 +89,7 @@ class ContactModel
 
     restitute_material *material = nullptr;
     restitute_contact_law *law = nullptr;
-    restitute_contact_rates rates = {};
+    restitute_contact_rates rates;
     restitute_contact_motion motion;
     restitute_error error = {};
     std::string remark;      /* of the library on the law */

@@ -61,7 +61,7 @@ static int alike(const restitute_table *a, const restitute_table *b)
     for (int i = 0; i <= 40; i++)
         for (int j = 0; j <= 40; j++) {
             const double v = 0.05 * pow(30, i / 40.0), u = 0.05 * j * v;
-            const restitute_table_value p = look_up(a, v, u), q = look_up(b, v, u);
+            const struct pair p = look_up(a, v, u), q = look_up(b, v, u);
             if (p.ez != q.ez || p.ex != q.ex) return 0;
         }
     return 1;
@@ -82,7 +82,7 @@ static void what_is_written_is_read(void **state)
     CHECK(memcmp(&one, &other, sizeof one) == 0, "what the table says of itself");
     restitute_table_contact contact;
     restitute_table_contact_init(&contact);
-    CHECK(restitute_table_contact_of(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_table_contact_set(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(contact.speed_factor == 1, "%.17g: the material is known again", contact.speed_factor);
     CHECK(restitute_table_write(read, broken, &error) == RESTITUTE_OK, "%s", error.message);
     FILE *file = fopen(broken, "rb");
@@ -302,7 +302,7 @@ static void damage_behind_a_right_checksum_is_bounded(void **state)
         if (restitute_table_read(broken, &read, NULL) < 0) continue;
         accepted++;
         for (double v = 0.05; v < 2; v *= 1.5) {
-            const restitute_table_value p = look_up(read, v, 0.7 * v);
+            const struct pair p = look_up(read, v, 0.7 * v);
             CHECK(p.ez >= 0 && p.ez <= 1 && p.ex >= -1 && p.ex <= 1, "case %d: %g, %g", n, p.ez, p.ex);
         }
         restitute_table_info info;
@@ -310,7 +310,7 @@ static void damage_behind_a_right_checksum_is_bounded(void **state)
         restitute_table_info_init(&info);
         restitute_table_contact_init(&contact);
         restitute_table_describe(read, &info, NULL);
-        restitute_table_contact_of(read, &scene, &contact, NULL);
+        restitute_table_contact_set(read, &scene, &contact, NULL);
         restitute_table_destroy(read);
     }
     CHECK(accepted > 50 && accepted < 500, "%d of 500 were accepted", accepted);

@@ -34,7 +34,7 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
         const double psi = random_in(&state, 0, random_below(&state, 5) < 2 ? 1 : most_psi);
         scene.tangential_speed = psi * scene.normal_speed / psi_factor;
         CHECK(restitute_solve_scene(solver, &scene, &result, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
-        const restitute_table_value pair = look_up(table, scene.normal_speed, scene.tangential_speed);
+        const struct pair pair = look_up(table, scene.normal_speed, scene.tangential_speed);
         const double ez = fabs(pair.ez - result.ez), ex = fabs(pair.ex - result.ex);
         CHECK(ez <= info->error_ez + result.error_ez && ex <= info->error_ex + result.error_ex, "v_n = %g, psi = %g: off by %g and %g, stated %g and %g",
               scene.normal_speed, psi, ez, ex, info->error_ez, info->error_ex);

@@ -169,14 +169,15 @@ static void stored_energy_is_the_work(void **unused)
     restitute_contact_law *law = elastic_law(8);
     struct drive d = drive_of(law, 1e-3, friction);
     restitute_contact_energies e;
+    restitute_contact_energies_init(&e);
     drive_steps(&d, 2000, overlap, 0, 0);
-    assert_int_equal(restitute_contact_energies_of(law, 1, d.state, &e, NULL), 0);
+    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
     CHECK_NEAR(e.stored / (0.4 * d.force.normal * overlap), 1, 0.01, "stored");
     CHECK_NEAR((e.stored + e.viscous + e.friction) / d.work, 1, 1e-12, "the three are the work");
     const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
     drive_steps(&d, 2000, 0, 4 * reach, 0); /* three quarters of it in gross slip */
     const restitute_contact_energies before = e;
-    assert_int_equal(restitute_contact_energies_of(law, 1, d.state, &e, NULL), 0);
+    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
     CHECK(e.friction > 3 * limit * reach && e.friction < 4 * limit * reach, "friction %g of %g", e.friction,
           4 * limit * reach);
     CHECK_NEAR(e.viscous - before.viscous, 0, 0.01 * limit * reach, "nothing is viscous");

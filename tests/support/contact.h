@@ -89,6 +89,7 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
     double v[3] = {incoming * along[0], incoming * along[1], 1}, half[3];
     const double mass[3] = {impact->tangential_mass, impact->tangential_mass, impact->mass};
     struct dem_result result = {0};
+    restitute_contact_rates_init(&rates);
     CHECK(restitute_contact_rates_set(law, h, &rates, &error) == 0, "%s", error.message);
     restitute_contact_motion_init(&motion);
     motion.overlap = -impact->phase * h;
