@@ -13,7 +13,7 @@ int main(void)
     restitute_error error;
     restitute_fit_options_init(&options);
     restitute_fit_result_init(&result);
-    options.model = RESTITUTE_FIT_ELASTIC;
+    options.model = RESTITUTE_FIT_MODEL_ELASTIC;
     for (int i = 0; i < 4; i++) {
         restitute_fit_point_init(&points[i]);
         points[i].scene.radius1 = 0.005, points[i].scene.mass1 = 0.004, points[i].scene.normal_speed = 0.1 * (i + 1);
