@@ -41,7 +41,7 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
     return status ? status : rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
 }
 
-int rst_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
+int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
 {
     const int status = theirs ? RST_CHECK(table_options, theirs, error) : RESTITUTE_OK;
     if (status) return status;
@@ -199,6 +199,6 @@ int restitute_table_build(const restitute_scene *scene, const restitute_table_op
 {
     restitute_table_options own;
     if (!scene || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "table" : "scene");
-    const int status = rst_take_options(options, &own, error);
+    const int status = rst_table_take_options(options, &own, error);
     return status ? status : rst_build(scene, &own, own.threads, table, error);
 }
