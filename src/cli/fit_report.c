@@ -36,7 +36,7 @@ static const char *name_of(const struct fit_settings *s, const struct fit_input 
 
 static const char *model_of(const struct fit_settings *s)
 {
-    return s->text[FIT_DMA] ? "prony" : fit_models[s->options.model - RESTITUTE_FIT_ELASTIC];
+    return s->text[FIT_DMA] ? "prony" : fit_models[s->options.model - RESTITUTE_FIT_MODEL_ELASTIC];
 }
 
 /* A text cut to what a material file takes. */

@@ -43,7 +43,7 @@ struct fit_settings {
     const char *const *arguments;
 };
 
-extern const char *const fit_models[]; /* names, from RESTITUTE_FIT_ELASTIC on */
+extern const char *const fit_models[]; /* names, from RESTITUTE_FIT_MODEL_ELASTIC on */
 
 /* STOP: help was printed, FAILED: a complaint. To be released in any case. */
 enum reading fit_options_read(int count, char **arguments, struct fit_settings *settings);

@@ -91,14 +91,4 @@ static inline void rst_hermite(double u, double w[4])
     w[3] = -uu * v;
 }
 
-/* The derivatives of these weights by u. */
-static inline void rst_hermite_slope(double u, double w[4])
-{
-    const double v = 1 - u;
-    w[0] = -6 * u * v;
-    w[1] = v * (v - 2 * u);
-    w[2] = 6 * u * v;
-    w[3] = u * (u - 2 * v);
-}
-
 #endif

@@ -10,37 +10,33 @@
 
 #include "table/column.h"
 
-/* Constants of the build, measured with the target table-campaign (docs/table.md). */
+/* ---- constants of the build, measured with the target table-campaign (docs/table.md) ---- */
 
-/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are
- * a quarter of the estimates. */
+/* Nodes and checks are solved to this part of the tolerance: their noise must not be taken for a
+ * shape. True errors are a quarter of the estimates. */
 static const double rst_part_for_nodes = 0.3;
-/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved
- * before what that brought is known; kinks have up to 1/2. */
-static const double rst_gain = 0.0625, rst_least_gain = 0.03, rst_most_gain = 0.5;
-/* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
+/* What speed and psi may miss each, likewise. The sum leaves room for the solver. */
 static const double rst_part_of_axis = 0.4;
-/* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
-static const double rst_margin = 1.7;
-/* So many places of a check are those where the table's own values say that cubics fit worst. With four, a random
- * solid exceeded its stated error 1.4 times that holds it now. */
-enum { rst_doubtful = 6 };
-/* Then cells that miss more than this part of the worst are compared again around their worst places, in so many looks in all. */
-static const double rst_look_again = 0.7;
-enum { rst_looks = 3 };
-/* Cells are not narrower than this, in s. */
-static const double rst_narrowest = 0x1p-10;
-/* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
- * folds were missed. */
-enum { rst_probes = 5 };
-/* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
-enum { rst_finest = 4 };
-/* So many middles of the finest cells are solved: their largest miss is what psi leaves to the stated error. */
-enum { rst_last_probes = 3 };
-/* What refinement leaves of the impacts, and of the time, for the checks. */
-static const double rst_for_refining = 0.8;
-/* Cells whose error is within this factor of the largest are halved together. */
-static const double rst_together = 8;
+
+/* Speed. Of a halved cell the error is this part of what its middle showed (1/16 where all is
+ * smooth), or what the halving before brought (at kinks up to 1/2). Cells whose errors are within a
+ * factor of the largest are halved together. None is narrower, in s, than the last. */
+static const double rst_gain = 0.0625, rst_least_gain = 0.03, rst_most_gain = 0.5;
+static const double rst_together = 8, rst_narrowest = 0x1p-10;
+
+/* psi. The first cells are for 1e-5: cubics miss 3e-6 then unless e_x has a fold. Folds, whose slope
+ * jumps, would take any number: there are at most `finest` times the first. A panel is done when
+ * cubics meet so many middles in turn, two at the ends and three elsewhere; with three in all folds
+ * were missed. Of the finest cells so many are solved: their largest miss is what psi leaves. */
+enum { rst_first_stick = 12, rst_first_slip = 44, rst_finest = 4, rst_probes = 5, rst_last_probes = 3 };
+
+/* Checks. Refinement leaves the rest of the impacts, and of the time, to them. Stated errors are so
+ * many times the largest difference, since 10 000 random places find larger ones. So many places of
+ * a check are those where the table's own values say that cubics fit worst: with four a random solid
+ * exceeded its stated error 1.4 times that holds it now. Cells that miss more than a part of the
+ * worst are compared again around their worst places, in so many looks in all. */
+static const double rst_for_refining = 0.8, rst_margin = 1.7, rst_look_again = 0.7;
+enum { rst_rounds = 6, rst_doubtful = 6, rst_looks = 3 };
 
 /* psi has two panels: 0 stick, 1 slip; x in [0, 1]. */
 struct rst_place {
@@ -167,6 +163,6 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
               restitute_table **table, restitute_error *error);
 
 /* The caller's options, with defaults for what they have not (NULL: for all), and checked. */
-int rst_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error);
+int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error);
 
 #endif

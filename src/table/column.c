@@ -52,23 +52,14 @@ double rst_psi_factor(const struct rst_contact *c)
     return c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
 }
 
-int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
-                             restitute_error *error)
+void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s)
 {
+    *s = (struct rst_column_solver){.contact = contact};
     restitute_options_init(&s->options);
     s->options.method = restitute_method_sync();
     s->options.tolerance = fmax(1e-8, tolerance);
     s->options.max_work = most_work;
     s->options.time_limit = INFINITY; /* a clock would make tables differ */
-    s->contact = contact;
-    s->plan = NULL;
-    return rst_done(error);
-}
-
-void rst_column_solver_destroy(struct rst_column_solver *s)
-{
-    restitute_plan_destroy(s->plan);
-    s->plan = NULL;
 }
 
 /* A status < 0 with the place of the column that it is about. */

@@ -31,9 +31,8 @@ struct rst_column_solver {
     double speed;         /* of the column, m/s */
 };
 
-int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
-                             restitute_error *error);
-void rst_column_solver_destroy(struct rst_column_solver *s);
+/* Its plan is to be destroyed. */
+void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s);
 
 /* What is the same at all psi. */
 struct rst_column_normal {

@@ -160,7 +160,7 @@ static void damping_is_checked(void **state)
     restitute_impact impact = impact_on(strong, 1, 1);
     CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "%s", error.message);
     CHECK(strncmp(error.message, "delta1 = 1.369", 14) == 0, "%s", error.message);
-    impact.solid = weak;
+    impact.material = weak;
     CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
     restitute_scene scene = good_scene();
     scene.material = strong;
@@ -248,8 +248,8 @@ static void options_are_checked(void **state)
         CHECK(strstr(error.message, "elements"), "%s", error.message);
     }
     restitute_options options = default_options();
-    options.max_updates = 0;
-    CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "max_updates");
+    options.max_work = 0;
+    CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "max_work");
     options = default_options();
     options.method = NULL;
     CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_NULL, "method");
