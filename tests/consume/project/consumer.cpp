@@ -27,7 +27,8 @@ static bool ball_leaves(restitute_solver *solver, const restitute_material *rubb
     ball.velocity[2] = -2;
     collision.material = rubber;
     collision.friction = 0.3;
-    return restitute_collide(solver, &collision, &ball, &floor, nullptr, nullptr) == RESTITUTE_OK && ball.velocity[2] > 0;
+    return restitute_collide(solver, &collision, &ball, &floor, nullptr, nullptr) == RESTITUTE_OK &&
+           ball.velocity[2] > 0;
 }
 
 // A ball that slides faster over a rough floor turns back less of its sliding, with one plan for both.

@@ -10,7 +10,6 @@ int main(void)
     restitute_solver *solver;
     restitute_error error;
     restitute_impact impact;
-    restitute_result result;
     restitute_cvode_event list[1000];
     restitute_cvode_events events;
     restitute_options_init(&options);
@@ -22,8 +21,7 @@ int main(void)
     restitute_cvode_events_init(&events);
     events.event = list;
     events.capacity = 1000;
-    restitute_result_init(&result);
-    if (restitute_solve(solver, &impact, &result, NULL, NULL, &error)) return 1;
+    if (restitute_solve(solver, &impact, NULL, NULL, NULL, &error)) return 1;
     if (restitute_cvode_recorder_events(recorder, &events, &error)) return 1;
     printf("SUNDIALS %s: %zu events, the last: %s\n", restitute_cvode_sundials_version(), events.count,
            restitute_cvode_event_text(list[events.count - 1].kind));
