@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What programs are compiled against, a line a fact:  facts.sh INCLUDE_DIRECTORY HEADER...
 #   function NAME exported|hidden TYPES        parameters have no names here
-#   struct NAME N MEMBER                       N-th member of a struct that grows, so its offset is known
+#   struct NAME N MEMBER                       of a struct that grows; with those before, its offset
 #   enum NAME ENUMERATOR = VALUE
 #   other DECLARATION                          a struct that never changes, a typedef
 # A program keeps working as long as no fact goes. CC comes from the environment.

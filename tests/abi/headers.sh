@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The present headers against the recorded ones: what a program was compiled with stays.
 #   headers.sh PRESENT RECORDED LONGER        three include directories; CC from the environment
-# A change that is meant is recorded anew by the target abi-baseline; from 1.0 on it needs a new major version.
+# The target abi-baseline records a change that is meant. From 1.0 on it needs a new major version.
 set -eu
 here=$(dirname -- "$0")
 present=$1 recorded=$2 longer=$3
 all=$(cd "$recorded/restitute" && echo *.h)
 
-# stays INCLUDE_DIRECTORY HEADER...: prints the recorded facts that do not hold there; false if there are any
+# stays INCLUDE_DIRECTORY HEADER...: prints recorded facts that do not hold there; false if any
 stays() {
     include=$1
     shift

@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# A program that was compiled with recorded headers and the libraries of today and of a later version:
+# Runs a program that was compiled with recorded headers, with the libraries of today and of a later
+# version:
 #   old_program.sh PROGRAM DIRECTORIES LONGER RECORDED HEADER...
-# DIRECTORIES, with colons between them, hold the libraries of the build, LONGER/lib those whose structs are longer, and
-# LONGER/spoilt a core that does not heed how long the caller's structs are. CC and NM come from the environment.
+# DIRECTORIES, with colons between them, hold the libraries of the build. LONGER/lib holds those whose
+# structs are longer, LONGER/spoilt a core that ignores how long the caller's structs are.
+# CC and NM come from the environment.
 set -eu
 ulimit -c 0
 here=$(dirname -- "$0")

@@ -47,7 +47,8 @@ void call_contact(void)
     SHOW(forces[0].normal, forces[0].tangential[0]);
     for (int s = 1; s <= STEPS; s++) {
         for (int i = 1; i < CONTACTS; i++) motions[i].overlap = 0.2 * step * s;
-        restitute_contact_step_many(law, rates, CONTACTS - 1, motions + 1, states[1], STATE, forces + 1, statuses, &error);
+        restitute_contact_step_many(law, rates, CONTACTS - 1, motions + 1, states[1], STATE, forces + 1, statuses,
+                                    &error);
     }
     motions[1].overlap = motions[2].overlap += 0.2 * step;
     DONE(restitute_contact_step_many(law, rates, CONTACTS - 1, motions + 1, states[1], STATE, forces + 1, statuses,

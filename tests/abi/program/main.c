@@ -45,7 +45,7 @@ void done(int status)
     if (status < 0) failed = 1;
 }
 
-/* Nine digits: compilers fold constants, and round them better than the mathematics library does. */
+/* Nine digits: a constant that the compiler folds may differ from libm's in the last. */
 void show(size_t n, const double *values)
 {
     for (size_t i = 0; i < n; i++) printf("    %.9g\n", values[i]);
