@@ -32,7 +32,7 @@ file(RELATIVE_PATH prefix_to_lib "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL
 file(RELATIVE_PATH prefix_to_include "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 
 set(headers "${PROJECT_SOURCE_DIR}/include/restitute")
-restitute_install_component(core "${headers}/restitute.h" "${headers}/status.h")
+restitute_install_component(core "${headers}/api.h" "${headers}/restitute.h" "${headers}/status.h")
 set(openmp_flags "")
 if(RESTITUTE_WITH_OPENMP)
   list(TRANSFORM OpenMP_C_LIB_NAMES PREPEND " -l" OUTPUT_VARIABLE openmp_flags)

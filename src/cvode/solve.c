@@ -358,51 +358,48 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     return status;
 }
 
-static int solve(const struct rst_problem *problem, struct cvode_memory *memory, int keep_ledger,
-                 struct rst_outcome *outcome, restitute_error *error)
+static int solve(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
+                 int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
-    struct cvode_record *record = rst_cvode_method_of(problem)->record;
-    struct run_setup setup = rst_cvode_setup(problem);
     struct rst_outcome normal;
-    const double stiffness = stiffness_of(problem, setup.depth);
-    if (setup.family == INTEGRATOR_ADAMS && stiffness > too_stiff)
+    const double stiffness = stiffness_of(problem, setup->depth);
+    if (setup->family == INTEGRATOR_ADAMS && stiffness > too_stiff)
         return rst_report(
             error, RESTITUTE_ERROR_UNSTABLE_STEP,
             "the solid relaxes %.3g times within the compression: up to %g with cvode-adams; take cvode or cvode-bdf",
             stiffness, too_stiff);
-    memory->work.stiff = setup.family == INTEGRATOR_BDF;
+    memory->work.stiff = setup->family == INTEGRATOR_BDF;
     memory->updates = 0;
-    int status = solve_normal(&setup, memory, &normal, error);
+    int status = solve_normal(setup, memory, &normal, error);
     if (status) return status;
-    setup.rebound = -normal.velocity;
+    setup->rebound = -normal.velocity;
     *outcome = normal;
     outcome->updates = memory->updates;
     if (normal.sunk)
-        status = stay(problem, &setup, outcome, error);
-    else if (slips_to_the_end(&setup, setup.rebound))
+        status = stay(problem, setup, outcome, error);
+    else if (slips_to_the_end(setup, setup->rebound))
         status = without_elements(problem, &normal, outcome, error);
     else
-        status = refine(problem, &setup, memory, outcome, error);
-    if (status >= 0 && keep_ledger) {
-        const int kept = rst_cvode_ledger(&setup, memory, outcome, error);
-        if (kept < 0) return kept;
-    }
-    if (status < 0 || !record) return status;
-    const int logged = log_events(&setup, outcome, memory, &record->log, error);
-    return logged < 0 ? logged : status;
+        status = refine(problem, setup, memory, outcome, error);
+    if (status < 0 || !keep_ledger) return status;
+    const int kept = rst_cvode_ledger(setup, memory, outcome, error);
+    return kept < 0 ? kept : status;
 }
 
 int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memory, int keep_ledger,
                     struct rst_outcome *outcome, restitute_error *error)
 {
     struct cvode_record *record = rst_cvode_method_of(problem)->record;
-    if (record) record->log.count = 0;
+    struct run_setup setup = rst_cvode_setup(problem);
     restitute_cvode_work_init(&memory->work);
-    const int status = solve(problem, memory, keep_ledger, outcome, error);
+    const int status = solve(problem, &setup, memory, keep_ledger, outcome, error);
     if (!record) return status;
-    if (status < 0) record->log.count = 0;
     record->units = problem->units;
     record->psi = problem->psi;
-    record->work = memory->work;
-    return status;
+    record->work = memory->work; /* without what the log takes */
+    record->log.count = 0;
+    if (status < 0) return status;
+    const int logged = log_events(&setup, outcome, memory, &record->log, error);
+    if (logged < 0) record->log.count = 0;
+    return logged < 0 ? logged : status;
 }

@@ -35,7 +35,8 @@ static void pair_of(size_t k, size_t *i, size_t *j)
     *i = k - *j * (*j + 1) / 2;
 }
 
-/* After a failure tables before it are still built, so that the first failure is the same for any number of threads. */
+/* After a failure tables before it are still built, so that the first failure is the same for any
+ * number of threads. */
 static void ask(void *of)
 {
     struct job *job = of;
@@ -108,7 +109,7 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be in [1, %d]", count, most_materials);
     for (size_t i = 0; i < count; i++)
         if (!materials[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "materials[%zu] is NULL", i);
-    int status = rst_take_options(options, &own, error);
+    int status = rst_table_take_options(options, &own, error);
     if (!status) status = RST_CHECK(scene, scene, error);
     if (status) return status;
     RST_TAKE(scene, &all, scene);

@@ -44,7 +44,7 @@ MATERIAL(elastic, 1e6, 0.4)
 MATERIAL(standard_solid, 1e6, 2e6, 50, 0.4)
 MATERIAL(kelvin_voigt, 1e6, 50, 0.4)
 MATERIAL(maxwell, 1e6, 50, 0.4)
-MATERIAL(pair, rubber, glue)
+MATERIAL(effective, rubber, glue)
 
 static void materials(void **state)
 {
@@ -54,7 +54,7 @@ static void materials(void **state)
                                          {"standard solid", NULL, standard_solid, NULL, 0, 0},
                                          {"Kelvin-Voigt", NULL, kelvin_voigt, NULL, 0, 0},
                                          {"Maxwell", NULL, maxwell, NULL, 0, 0},
-                                         {"pair of materials", NULL, pair, NULL, 0, 0}};
+                                         {"effective solid", NULL, effective, NULL, 0, 0}};
     if (!CAN_FAIL) skip();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         fail_each_allocation(&all[i]);
@@ -171,7 +171,7 @@ static int plan_create(struct given *given)
 {
     int status;
     restitute_plan *made = UNTOUCHED;
-    ARMED(status, restitute_plan_create_scene(&options, &scene, &made, &error));
+    ARMED(status, restitute_plan_create_scene(&scene, &options, &made, &error));
     CHECK(status >= 0 || made == UNTOUCHED, "plan touched");
     if (status >= 0) restitute_plan_destroy(made);
     give(given, status);
@@ -180,7 +180,7 @@ static int plan_create(struct given *given)
 
 static void begin_plan(void)
 {
-    CHECK(restitute_plan_create_scene(&options, &scene, &plan, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_plan_create_scene(&scene, &options, &plan, &error) == RESTITUTE_OK, "%s", error.message);
 }
 
 static void end_plan(void)
@@ -204,11 +204,11 @@ static int plan_solve(struct given *given)
 static int collide(struct given *given)
 {
     restitute_body ball, other;
-    restitute_contact contact;
+    restitute_collision collision;
     restitute_result result;
     int status;
     restitute_body_init(&ball);
-    restitute_contact_init(&contact);
+    restitute_collision_init(&collision);
     restitute_result_init(&result);
     ball.radius = 0.01;
     ball.mass = 4e-3;
@@ -216,10 +216,11 @@ static int collide(struct given *given)
     other.position[0] = 0.02;
     ball.velocity[0] = 2;
     ball.velocity[1] = 1;
-    contact.material = rubber;
-    contact.friction = 0.3;
+    collision.material = rubber;
+    collision.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    collision.friction = 0.3;
     const restitute_body before = ball;
-    ARMED(status, restitute_collide(solver, &contact, &ball, &other, &result, &error));
+    ARMED(status, restitute_collide(solver, &collision, &ball, &other, &result, &error));
     CHECK(status >= 0 || memcmp(&before, &ball, sizeof ball) == 0, "body touched");
     for (int i = 0; i < 3; i++) {
         give(given, ball.velocity[i]);
@@ -322,8 +323,8 @@ static int many_impacts(struct given *given)
         restitute_result_init(&results[i]);
         statuses[i] = 99;
     }
-    impacts[1].solid = rubber;
-    ARMED(status, restitute_solve_many(&options, cases, impacts, results, statuses, 1, &error));
+    impacts[1].material = rubber;
+    ARMED(status, restitute_solve_many(cases, impacts, &options, results, statuses, &error));
     return give_cases(status, 0, results, statuses, given);
 }
 
@@ -339,7 +340,7 @@ static int many_scenes(struct given *given)
         statuses[i] = 99;
     }
     scenes[1].material = glue;
-    ARMED(status, restitute_solve_scenes(&options, cases, scenes, results, statuses, 1, &error));
+    ARMED(status, restitute_solve_scene_many(cases, scenes, &options, results, statuses, &error));
     return give_cases(status, 1, results, statuses, given);
 }
 

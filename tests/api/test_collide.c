@@ -24,13 +24,14 @@ static int tear_down(void **state)
     return 0;
 }
 
-static restitute_contact rough(double friction)
+static restitute_collision rough(double friction)
 {
-    restitute_contact contact;
-    restitute_contact_init(&contact);
-    contact.material = rubber;
-    contact.friction = friction;
-    return contact;
+    restitute_collision collision;
+    restitute_collision_init(&collision);
+    collision.material = rubber;
+    collision.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+    collision.friction = friction;
+    return collision;
 }
 
 static void random_unit(uint64_t *random, double n[3])
@@ -100,13 +101,13 @@ static void momentum_is_conserved_and_the_twist_untouched(void **state)
         double n[3], before[2][3] = {{0}}, after[2][3] = {{0}};
         draw(&random, &a, &b, n);
         restitute_body a0 = a, b0 = b;
-        restitute_contact contact = rough(frictions[i % 4]);
+        restitute_collision collision = rough(frictions[i % 4]);
         restitute_result result;
         restitute_error error;
         restitute_result_init(&result);
         momentum(&a, origin, before[0], before[1]);
         momentum(&b, origin, before[0], before[1]);
-        int status = restitute_collide(solver, &contact, &a, &b, &result, &error);
+        int status = restitute_collide(solver, &collision, &a, &b, &result, &error);
         if (status == RESTITUTE_ERROR_DOMAIN && strstr(error.message, "not closing")) continue;
         CHECK(status == RESTITUTE_OK, "pair %d: %s", i, error.message);
         momentum(&a, origin, after[0], after[1]);
@@ -132,7 +133,7 @@ static void contact_point_velocity_turns_by_the_pair(void **state)
         restitute_body a, b;
         double n[3], v[2][3];
         draw(&random, &a, &b, n);
-        restitute_contact contact = rough(0.3);
+        restitute_collision collision = rough(0.3);
         restitute_result result;
         restitute_result_init(&result);
         for (int when = 0; when < 2; when++) {
@@ -142,7 +143,7 @@ static void contact_point_velocity_turns_by_the_pair(void **state)
             for (int k = 0; k < 3; k++)
                 v[when][k] =
                     a.velocity[k] - b.velocity[k] + w[(k + 1) % 3] * n[(k + 2) % 3] - w[(k + 2) % 3] * n[(k + 1) % 3];
-            if (when == 0 && restitute_collide(solver, &contact, &a, &b, &result, NULL) != RESTITUTE_OK) break;
+            if (when == 0 && restitute_collide(solver, &collision, &a, &b, &result, NULL) != RESTITUTE_OK) break;
             if (when == 0) continue;
             double normal[2] = {dot(v[0], n), dot(v[1], n)};
             CHECK_NEAR(normal[1], -result.ez * normal[0], 1e-13, "pair %d, normal", i); /* rounding of some m/s */
@@ -184,10 +185,10 @@ static void rotations_and_boosts_change_nothing(void **state)
             for (int k = 0; k < 3; k++)
                 turned[body]->velocity[k] += boost[k];
         }
-        restitute_contact contact = rough(0.3);
-        if (restitute_collide(solver, &contact, &a, &b, NULL, NULL) != RESTITUTE_OK) continue;
+        restitute_collision collision = rough(0.3);
+        if (restitute_collide(solver, &collision, &a, &b, NULL, NULL) != RESTITUTE_OK) continue;
         /* the order of the bodies is of no matter either */
-        CHECK(restitute_collide(solver, &contact, &d, &c, NULL, NULL) == RESTITUTE_OK, "pair %d", i);
+        CHECK(restitute_collide(solver, &collision, &d, &c, NULL, NULL) == RESTITUTE_OK, "pair %d", i);
         for (int body = 0; body < 2; body++) {
             rotate(q, kept[body]->velocity);
             rotate(q, kept[body]->spin);
@@ -203,18 +204,18 @@ static void plane_is_a_sphere_held_fast_of_infinite_radius(void **state)
 {
     (void)state;
     restitute_body ball, floor;
-    restitute_contact contact = rough(0.3);
+    restitute_collision collision = rough(0.3);
     restitute_result result;
     restitute_result_init(&result);
     restitute_body_init(&ball);
     restitute_body_init(&floor);
-    contact.deformable = RESTITUTE_ONE_BODY_DEFORMS;
+    collision.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     ball.radius = 0.01, ball.mass = 0.004, ball.position[2] = 0.01;
     ball.velocity[0] = 1, ball.velocity[1] = -2, ball.velocity[2] = -1.5;
     floor.radius = INFINITY, floor.normal[2] = 5;
     floor.velocity[0] = 1; /* a moving belt */
     floor.spin[1] = NAN;   /* not used for a plane */
-    CHECK(restitute_collide(solver, &contact, &floor, &ball, &result, NULL) == RESTITUTE_OK, "collide");
+    CHECK(restitute_collide(solver, &collision, &floor, &ball, &result, NULL) == RESTITUTE_OK, "collide");
     CHECK_NEAR(ball.velocity[2], 1.5 * result.ez, 1e-15, "rebound");
     CHECK_NEAR(ball.velocity[0], 1, 1e-15, "the belt moves with the ball along x");
     CHECK_NEAR(ball.velocity[1], -2 * (1 - (1 + result.ex) * 2 / 7), 1e-14, "solid sphere: 2/7 of the change");
@@ -222,11 +223,11 @@ static void plane_is_a_sphere_held_fast_of_infinite_radius(void **state)
     CHECK(floor.velocity[0] == 1 && floor.velocity[2] == 0, "the plane keeps its motion");
 }
 
-static void refuse(restitute_body a, restitute_body b, restitute_contact contact, const char *text)
+static void refuse(restitute_body a, restitute_body b, restitute_collision collision, const char *text)
 {
     restitute_body a0 = a, b0 = b;
     restitute_error error;
-    int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
+    int status = restitute_collide(solver, &collision, &a, &b, NULL, &error);
     CHECK(status < 0, "%s: status %d", text, status);
     CHECK(strstr(error.message, text) != NULL, "\"%s\" does not say %s", error.message, text);
     CHECK(memcmp(&a, &a0, sizeof a) == 0 && memcmp(&b, &b0, sizeof b) == 0, "%s: a body was touched", text);
@@ -236,56 +237,56 @@ static void what_is_no_impact_is_refused(void **state)
 {
     (void)state;
     restitute_body a, b, c;
-    restitute_contact contact = rough(0.3), wrong;
+    restitute_collision collision = rough(0.3), wrong;
     restitute_body_init(&a);
     restitute_body_init(&b);
     a.radius = b.radius = 0.01, a.mass = b.mass = 0.004;
     b.position[0] = 0.02, a.velocity[0] = 1;
     c = b, c.position[0] = 0.0201;
-    refuse(a, c, contact, "do not touch");
+    refuse(a, c, collision, "do not touch");
     c.position[0] = 0.015;
-    refuse(a, c, contact, "overlap");
+    refuse(a, c, collision, "overlap");
     c = b, c.velocity[0] = 2;
-    refuse(a, c, contact, "not closing");
+    refuse(a, c, collision, "not closing");
     c = b, c.velocity[0] = 1;
-    refuse(a, c, contact, "not closing");
+    refuse(a, c, collision, "not closing");
     c = b, c.velocity[1] = NAN;
-    refuse(a, c, contact, "second.velocity[1]");
+    refuse(a, c, collision, "second.velocity[1]");
     c = b, c.radius = -1;
-    refuse(a, c, contact, "second.radius");
+    refuse(a, c, collision, "second.radius");
     c = b, c.mass = 0;
-    refuse(a, c, contact, "second.mass");
+    refuse(a, c, collision, "second.mass");
     c = b, c.inertia = -1;
-    refuse(a, c, contact, "second.inertia");
+    refuse(a, c, collision, "second.inertia");
     c = b, c.struct_size = 3;
-    refuse(a, c, contact, "struct_size");
+    refuse(a, c, collision, "struct_size");
     c = b, c.radius = INFINITY;
-    refuse(a, c, contact, "second.normal");
+    refuse(a, c, collision, "second.normal");
     c.normal[0] = -1;
     c.position[0] = 0.01;
-    refuse(c, c, contact, "cannot move");
-    wrong = contact, wrong.friction = -1;
+    refuse(c, c, collision, "cannot move");
+    wrong = collision, wrong.friction = -1;
     refuse(a, b, wrong, "friction");
-    wrong = contact, wrong.material = NULL;
+    wrong = collision, wrong.material = NULL;
     refuse(a, b, wrong, "material");
-    wrong = contact, wrong.touch_gap = -1;
+    wrong = collision, wrong.touch_gap = -1;
     refuse(a, b, wrong, "touch_gap");
-    CHECK(restitute_collide(solver, &contact, &a, NULL, NULL, NULL) == RESTITUTE_ERROR_NULL, "NULL");
-    CHECK(restitute_collide(solver, &contact, &a, &b, NULL, NULL) == RESTITUTE_OK, "the good one is no refusal");
+    CHECK(restitute_collide(solver, &collision, &a, NULL, NULL, NULL) == RESTITUTE_ERROR_NULL, "NULL");
+    CHECK(restitute_collide(solver, &collision, &a, &b, NULL, NULL) == RESTITUTE_OK, "the good one is no refusal");
 }
 
 /* Whether two spheres, or a sphere and a plane, that are `gap` apart are taken to touch. */
 static int touch(double radius1, double radius2, double gap)
 {
     restitute_body a, b;
-    restitute_contact contact = rough(0.3);
+    restitute_collision collision = rough(0.3);
     restitute_error error;
     restitute_body_init(&a);
     restitute_body_init(&b);
-    contact.touch_gap = 1e-3;
+    collision.touch_gap = 1e-3;
     a.radius = radius1, b.radius = radius2, a.mass = b.mass = 0.004, a.velocity[0] = 1, b.normal[0] = -1;
     b.position[0] = radius1 + (isinf(radius2) ? 0 : radius2) + gap;
-    const int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
+    const int status = restitute_collide(solver, &collision, &a, &b, NULL, &error);
     CHECK(status == RESTITUTE_OK || (status == RESTITUTE_ERROR_DOMAIN &&
                                      (strstr(error.message, "do not touch") || strstr(error.message, "overlap"))),
           "%d %s", status, error.message);
@@ -313,7 +314,7 @@ static void ends_of_the_ranges_stay_finite(void **state)
     for (int n = 0; n < 2000; n++) {
         const double ends[] = {1e-50, 1, 1e50}, spins[] = {-1e100, -1, 0, 1, 1e100}, inertias[] = {0, 1e-150, 1, 1e150};
         restitute_body a, b;
-        restitute_contact contact = rough(random_below(&random, 2) ? 0.3 : 0);
+        restitute_collision collision = rough(random_below(&random, 2) ? 0.3 : 0);
         restitute_error error;
         restitute_body_init(&a);
         restitute_body_init(&b);
@@ -323,7 +324,7 @@ static void ends_of_the_ranges_stay_finite(void **state)
         a.velocity[0] = ends[random_below(&random, 3)], b.velocity[1] = -ends[random_below(&random, 3)];
         a.spin[2] = spins[random_below(&random, 5)], b.spin[1] = spins[random_below(&random, 5)];
         b.position[0] = a.radius + b.radius;
-        const int status = restitute_collide(solver, &contact, &a, &b, NULL, &error);
+        const int status = restitute_collide(solver, &collision, &a, &b, NULL, &error);
         done += status >= 0;
         refused += status == RESTITUTE_ERROR_DOMAIN;
         for (int i = 0; i < 3; i++)

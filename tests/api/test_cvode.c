@@ -14,22 +14,18 @@ static restitute_solver *make(restitute_options options)
     return solver;
 }
 
-/* The call fails with this status and a message that holds `word`, and `log` stays as it was. */
+/* The call fails with this status and a message that holds `word`, and the result stays as it was. */
 static void refused(restitute_solver *solver, restitute_impact impact, int status, const char *word)
 {
-    static struct logged log, before;
+    restitute_result result, before;
     restitute_error error;
-    memset(&log, 7, sizeof log);
-    restitute_result_init(&log.result);
-    restitute_cvode_events_init(&log.events);
-    log.events.event = log.event;
-    log.events.capacity = most_events;
-    log.events.count = 77;
-    before = log;
-    const int found = restitute_cvode_solve(solver, &impact, &log.result, NULL, NULL, &log.events, &error);
+    memset(&result, 7, sizeof result);
+    restitute_result_init(&result);
+    memcpy(&before, &result, sizeof result);
+    const int found = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
     CHECK(found == status, "%d and not %d: %s", found, status, error.message);
     CHECK(strstr(error.message, word) != NULL, "\"%s\" is not in \"%s\"", word, error.message);
-    CHECK(memcmp(&log, &before, sizeof log) == 0, "an output was touched: %s", error.message);
+    CHECK(memcmp(&result, &before, sizeof result) == 0, "the result was touched: %s", error.message);
 }
 
 static void failures_touch_nothing(void **state)
@@ -41,9 +37,9 @@ static void failures_touch_nothing(void **state)
     refused(solver, impact_of(7.0 / 6, NAN, 1, 1), RESTITUTE_ERROR_DOMAIN, "psi");
     refused(solver, impact_of(0, 1, 1, 1), RESTITUTE_ERROR_DOMAIN, "chi");
     restitute_solver_destroy(solver);
-    options.max_updates = 1000; /* less than one run of the normal side and its elements */
+    options.max_work = 1e-5; /* less than one run of the normal side and its elements */
     solver = make(options);
-    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK, "max_updates");
+    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK, "max_work");
     restitute_solver_destroy(solver);
     options = cvode_to(1e-5);
     options.elements = 100000;
@@ -54,9 +50,6 @@ static void failures_touch_nothing(void **state)
     options.method = restitute_method_cvode_adams();
     solver = make(options);
     refused(solver, impact_of(7.0 / 6, 0.5, 0.1, 1e-3), RESTITUTE_ERROR_UNSTABLE_STEP, "cvode-bdf");
-    restitute_solver_destroy(solver);
-    solver = make(default_options());
-    refused(solver, impact_of(7.0 / 6, 0.5, 1, 1), RESTITUTE_ERROR_DOMAIN, "euler");
     restitute_solver_destroy(solver);
 }
 
@@ -79,9 +72,9 @@ static void status_follows_the_reported_estimate(void **state)
     CHECK(reached > 9 && missed > 9, "%d, %d", reached, missed);
 }
 
-/* What max_updates allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
+/* What max_work allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
  * reference; elements are as many as fit, and no more than were asked for. */
-static void max_updates_ends_with_the_best_result(void **state)
+static void max_work_ends_with_the_best_result(void **state)
 {
     const restitute_impact impact = impact_of(8, 0.5, 0, 1);
     const double ex = solve_impact(cvode_to(1e-6), impact).result.ex;
@@ -93,16 +86,15 @@ static void max_updates_ends_with_the_best_result(void **state)
         restitute_error error;
         char named[60];
         restitute_result_init(&r);
-        options.max_updates = 50001 * (int64_t)lround(pow(3, i));
+        options.max_work = 5.0001e-4 * pow(3, i);
         options.elements = i == 3 ? 400 : 0;
         restitute_solver *solver = make(options);
         const int status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
-        CHECK(status == RESTITUTE_TOLERANCE_NOT_REACHED, "%lld: %d, %s", (long long)options.max_updates, status,
-              error.message);
-        snprintf(named, sizeof named, "max_updates = %lld:", (long long)options.max_updates);
+        CHECK(status == RESTITUTE_TOLERANCE_NOT_REACHED, "%g: %d, %s", options.max_work, status, error.message);
+        snprintf(named, sizeof named, "max_work = %g:", options.max_work);
         CHECK(strstr(error.message, named) != NULL, "\"%s\" is not in \"%s\"", named, error.message);
-        CHECK(r.updates <= options.max_updates * 1.01, "%lld of %lld", (long long)r.updates,
-              (long long)options.max_updates); /* looked at after a step, so the last one may pass it */
+        CHECK(r.work <= options.max_work * 1.01, "%g of %g", r.work,
+              options.max_work); /* looked at after a step, so the last one may pass it */
         CHECK(r.error_ex < last_error && (i != 3 || r.elements < 400), "%lld elements, %g", (long long)r.elements,
               r.error_ex);
         CHECK_NEAR(r.ex, ex, r.error_ex + 1e-6, "%lld elements", (long long)r.elements);
@@ -121,55 +113,64 @@ static void time_limit_ends_with_the_best_result(void **state)
 
 static void arguments_are_checked(void **state)
 {
-    restitute_solver *solver = make(cvode_to(1e-3));
-    restitute_impact impact = impact_of(7.0 / 6, 0.5, 1, 1);
+    struct recording r = record_with(cvode_to(1e-3));
+    const restitute_impact impact = impact_of(7.0 / 6, 0.5, 1, 1);
+    restitute_cvode_recorder *none = NULL;
     restitute_cvode_events events;
     restitute_cvode_work work;
     restitute_error error;
     restitute_options options = cvode_to(1e-3);
     (void)state;
     restitute_cvode_events_init(&events);
-    CHECK(restitute_cvode_solve(NULL, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "solver");
-    CHECK(restitute_cvode_solve(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "impact");
-    CHECK(restitute_cvode_solve_scene(solver, NULL, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL,
-          "scene");
-    events.capacity = 3;
-    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_NULL, "array");
-    events.struct_size = 1;
-    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == RESTITUTE_ERROR_STRUCT_SIZE,
-          "size");
     restitute_cvode_work_init(&work);
-    CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_ERROR_DOMAIN, "nothing solved yet");
-    CHECK(restitute_cvode_last_work(solver, NULL, &error) == RESTITUTE_ERROR_NULL, "work");
-    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(restitute_cvode_last_work(solver, &work, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_cvode_recorder_create(NULL, NULL, &error) == RESTITUTE_ERROR_NULL, "recorder");
+    CHECK(restitute_cvode_recorder_create(restitute_method_sync(), &none, &error) == RESTITUTE_ERROR_DOMAIN && !none,
+          "%s", error.message);
+    CHECK(restitute_cvode_recorder_method(NULL) == NULL, "method of none");
+    CHECK(restitute_cvode_recorder_events(NULL, &events, &error) == RESTITUTE_ERROR_NULL, "recorder");
+    CHECK(restitute_cvode_recorder_events(r.recorder, NULL, &error) == RESTITUTE_ERROR_NULL, "events");
+    CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == RESTITUTE_ERROR_DOMAIN, "no impact yet");
+    CHECK(restitute_cvode_recorder_work(r.recorder, &work, &error) == RESTITUTE_ERROR_DOMAIN, "no impact yet");
+    CHECK(restitute_solve(r.solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_cvode_recorder_work(r.recorder, NULL, &error) == RESTITUTE_ERROR_NULL, "work");
+    CHECK(restitute_cvode_recorder_work(r.recorder, &work, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(work.steps > 0 && work.rates >= work.steps && work.events > 0 && work.restarts > 0 && !work.stiff,
           "%lld steps", (long long)work.steps);
-    restitute_solver_destroy(solver);
+    events.capacity = 3;
+    CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == RESTITUTE_ERROR_NULL, "array");
+    end_recording(&r);
     options.time_step = 0.1;
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_ERROR_DOMAIN, "time_step");
-    CHECK(strcmp(restitute_cvode_event_text(RESTITUTE_EVENT_STICK_TO_SLIP), "stick-to-slip") == 0, "text");
+    CHECK(restitute_solver_create(&options, &r.solver, &error) == RESTITUTE_ERROR_DOMAIN, "time_step");
+    CHECK(strcmp(restitute_cvode_event_text(RESTITUTE_CVODE_EVENT_STICK_TO_SLIP), "stick-to-slip") == 0, "text");
     CHECK(strcmp(restitute_cvode_event_text(99), "unknown event") == 0, "text");
 }
 
-/* capacity 0 tells how many there are; a short array gets the first ones. */
+/* capacity 0 tells how many there are; a short array gets the first ones. Of an impact that failed there are none. */
 static void events_may_be_counted_first(void **state)
 {
-    restitute_solver *solver = make(cvode_to(1e-3));
+    const struct recording r = record_with(cvode_to(1e-3));
     restitute_impact impact = impact_of(7.0 / 6, 0.5, 1, 1);
     restitute_cvode_events events;
     restitute_cvode_event few[3] = {{0}};
     restitute_error error;
     (void)state;
     restitute_cvode_events_init(&events);
-    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == 0, "%s", error.message);
+    CHECK(restitute_solve(r.solver, &impact, NULL, NULL, NULL, &error) == 0, "%s", error.message);
+    CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == 0, "%s", error.message);
     const size_t count = events.count;
     CHECK(count > 10, "%zu", count);
     events.event = few;
     events.capacity = 2;
-    CHECK(restitute_cvode_solve(solver, &impact, NULL, NULL, NULL, &events, &error) == 0, "%s", error.message);
-    CHECK(events.count == count && few[1].kind == RESTITUTE_EVENT_ENTRY && few[2].kind == 0, "%zu", events.count);
-    restitute_solver_destroy(solver);
+    CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == 0, "%s", error.message);
+    CHECK(events.count == count && few[1].kind == RESTITUTE_CVODE_EVENT_ENTRY && few[2].kind == 0, "%zu", events.count);
+    end_recording(&r);
+    restitute_options little = cvode_to(1e-3);
+    little.max_work = 1e-5;
+    const struct recording failing = record_with(little);
+    CHECK(restitute_solve(failing.solver, &impact, NULL, NULL, NULL, &error) < 0, "it had enough");
+    CHECK(restitute_cvode_recorder_events(failing.recorder, &events, &error) == 0 && events.count == 0, "%zu events",
+          events.count);
+    end_recording(&failing);
 }
 
 /* Work follows the scene: nothing tangential without friction or in slip to the end, fewer steps for a larger tolerance. */
@@ -180,12 +181,12 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
     restitute_error error;
     (void)state;
     for (int i = 0; i < 2; i++) {
-        restitute_solver *solver = make(cvode_to(1e-5));
+        const struct recording r = record_with(cvode_to(1e-5));
         restitute_impact impact = impact_of(7.0 / 6, psi[i], 0, 1);
-        CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == 0, "%s", error.message);
+        CHECK(restitute_solve(r.solver, &impact, NULL, NULL, NULL, &error) == 0, "%s", error.message);
         restitute_cvode_work_init(&work[i]);
-        CHECK(restitute_cvode_last_work(solver, &work[i], &error) == 0, "%s", error.message);
-        restitute_solver_destroy(solver);
+        CHECK(restitute_cvode_recorder_work(r.recorder, &work[i], &error) == 0, "%s", error.message);
+        end_recording(&r);
     }
     CHECK(work[1].events <= 4, "slip to the end: turn and end of two runs, and no more: %lld",
           (long long)work[1].events);
@@ -266,7 +267,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failures_touch_nothing),
         cmocka_unit_test(status_follows_the_reported_estimate),
-        cmocka_unit_test(max_updates_ends_with_the_best_result),
+        cmocka_unit_test(max_work_ends_with_the_best_result),
         cmocka_unit_test(time_limit_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),

@@ -10,20 +10,19 @@
 
 enum { samples = 20, events = 30 };
 
-static restitute_solver *solver;
+static struct recording recording;
 static restitute_impact impact;
 static restitute_error error;
 static int keeps_ledger;
 
 static void create(void)
 {
-    const restitute_options options = cvode_to(0.1);
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    recording = record_with(cvode_to(0.1));
 }
 
 static void destroy(void)
 {
-    restitute_solver_destroy(solver);
+    end_recording(&recording);
 }
 
 struct outputs {
@@ -49,10 +48,11 @@ static int solve(struct given *given)
     o.events.capacity = events;
     o.events.event = o.event;
     memcpy(&fresh, &o, sizeof o);
-    ARMED(status, restitute_cvode_solve(solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history,
-                                        &o.events, &error));
+    ARMED(status,
+          restitute_solve(recording.solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history, &error));
     CHECK(status >= 0 || memcmp(&o, &fresh, sizeof o) == 0, "outputs touched");
     if (status < 0) return status;
+    CHECK(restitute_cvode_recorder_events(recording.recorder, &o.events, &error) == RESTITUTE_OK, "%s", error.message);
     give(given, o.result.ez);
     give(given, o.result.ex);
     give(given, o.ledger.friction_x);

@@ -34,7 +34,7 @@ static restitute_impact random_impact(const restitute_material *const solids[3],
     const double gamma = random_log(random, 1e-3, 1e3), delta1 = random_log(random, 1e-3, 100);
     const double psi = random_log(random, 0.05, 10), chi = random_in(random, 0.4, 4);
     restitute_impact impact = impact_of(chi, psi, delta1, gamma);
-    if (i % 2 == 0) impact.solid = solids[random_below(random, 3)];
+    if (i % 2 == 0) impact.material = solids[random_below(random, 3)];
     if (i % 9 == 5) impact.psi = i % 18 == 5 ? -1 : NAN;
     return impact;
 }
@@ -67,7 +67,7 @@ static void any_number_of_threads_gives_the_bits_of_single_calls(void **state)
     for (int i = 0; i < MIXED; i++)
         impacts[i] = random_impact((const restitute_material *const *)solids, &random, i);
     restitute_options options = to_tolerance(1e-2);
-    options.max_updates = 300000; /* a few sink for so long that they end with a remark or a refusal */
+    options.max_work = 3e-4; /* a few sink for so long that they end with a remark or a refusal */
     prepare(MIXED, expected, wanted);
     one_by_one(&options, MIXED, impacts, expected, wanted);
     int first = 0;
@@ -79,7 +79,8 @@ static void any_number_of_threads_gives_the_bits_of_single_calls(void **state)
     for (int k = 0; k < 5; k++) {
         restitute_error error;
         prepare(MIXED, results, statuses);
-        const int status = restitute_solve_many(&options, MIXED, impacts, results, statuses, threads[k], &error);
+        options.threads = threads[k];
+        const int status = restitute_solve_many(MIXED, impacts, &options, results, statuses, &error);
         CHECK(status == wanted[first] && strncmp(error.message, name, strlen(name)) == 0, "%d: %s", status,
               error.message);
         CHECK(memcmp(statuses, wanted, sizeof wanted) == 0, "%d threads: other statuses", threads[k]);
@@ -95,6 +96,15 @@ static void any_number_of_threads_gives_the_bits_of_single_calls(void **state)
           refused);
     for (int i = 0; i < 3; i++)
         restitute_material_destroy(solids[i]);
+}
+
+/* The defaults, with so many threads. */
+static const restitute_options *by(int threads)
+{
+    static restitute_options options;
+    restitute_options_init(&options);
+    options.threads = threads;
+    return &options;
 }
 
 static restitute_scene scene_of(const restitute_material *material, double speed)
@@ -123,13 +133,13 @@ static void scenes_give_the_bits_of_single_calls(void **state)
     prepare(FEW, results, statuses);
     for (int threads = 1; threads <= 3; threads++) {
         restitute_error error;
-        const int status = restitute_solve_scenes(NULL, FEW, scenes, results, statuses, threads, &error);
+        const int status = restitute_solve_scene_many(FEW, scenes, by(threads), results, statuses, &error);
         CHECK(status == RESTITUTE_OK && error.status == RESTITUTE_OK && !*error.message, "%s", error.message);
         for (int i = 0; i < FEW; i++) {
             restitute_result single = solve_scene(default_options(), &scenes[i]).result;
             CHECK(statuses[i] == RESTITUTE_OK && memcmp(&results[i].ez, &single.ez, sizeof single.ez) == 0 &&
                       memcmp(&results[i].ex, &single.ex, sizeof single.ex) == 0 &&
-                      results[i].contact_time == single.contact_time && results[i].updates == single.updates &&
+                      results[i].contact_time == single.contact_time && results[i].work == single.work &&
                       results[i].flags == single.flags,
                   "scene %d with %d threads", i, threads);
         }
@@ -155,7 +165,7 @@ static void failures_stop_nobody_and_the_first_is_named(void **state)
         restitute_error error;
         prepare(FEW, results, statuses);
         results[17].struct_size = 8;
-        const int status = restitute_solve_scenes(NULL, FEW, scenes, results, statuses, threads, &error);
+        const int status = restitute_solve_scene_many(FEW, scenes, by(threads), results, statuses, &error);
         CHECK(status == RESTITUTE_ERROR_NULL && error.status == status, "status %d", status);
         CHECK(strcmp(error.message, "scene[7]: scene.material is NULL") == 0, "%s", error.message);
         for (int i = 0; i < FEW; i++) {
@@ -187,11 +197,11 @@ static void remarks_are_told_after_failures(void **state)
     for (int threads = 1; threads <= 3; threads++) {
         restitute_error error;
         impacts[14].psi = 1;
-        int status = restitute_solve_many(NULL, FEW, impacts, NULL, NULL, threads, &error);
+        int status = restitute_solve_many(FEW, impacts, by(threads), NULL, NULL, &error);
         CHECK(status == RESTITUTE_NO_REBOUND && strncmp(error.message, "impact[3]: ", 11) == 0, "%d: %s", status,
               error.message);
         impacts[14].psi = -1;
-        status = restitute_solve_many(NULL, FEW, impacts, NULL, NULL, threads, NULL);
+        status = restitute_solve_many(FEW, impacts, by(threads), NULL, NULL, NULL);
         CHECK(status == RESTITUTE_ERROR_DOMAIN, "%d", status);
     }
     restitute_material_destroy(maxwell);
@@ -211,29 +221,30 @@ static void refused_calls_touch_nothing(void **state)
         impacts[i] = impact_of(7.0 / 6, 1, 0.1, 1);
     prepare(3, results, statuses);
     restitute_scene_init(&scene);
-    CHECK(restitute_solve_many(NULL, 3, NULL, results, statuses, 1, &error) == RESTITUTE_ERROR_NULL, "impacts");
+    CHECK(restitute_solve_many(3, NULL, NULL, results, statuses, &error) == RESTITUTE_ERROR_NULL, "impacts");
     CHECK(strcmp(error.message, "impacts is NULL") == 0, "%s", error.message);
-    CHECK(restitute_solve_scenes(NULL, 3, NULL, results, statuses, 1, &error) == RESTITUTE_ERROR_NULL, "scenes");
+    CHECK(restitute_solve_scene_many(3, NULL, NULL, results, statuses, &error) == RESTITUTE_ERROR_NULL, "scenes");
     CHECK(strcmp(error.message, "scenes is NULL") == 0, "%s", error.message);
     for (int threads = -1; threads <= 1025; threads += 1026) {
-        CHECK(restitute_solve_many(NULL, 3, impacts, results, statuses, threads, &error) == RESTITUTE_ERROR_DOMAIN,
+        CHECK(restitute_solve_many(3, impacts, by(threads), results, statuses, &error) == RESTITUTE_ERROR_DOMAIN,
               "%d threads", threads);
         CHECK(strstr(error.message, "must be in [0, 1024]"), "%s", error.message);
     }
     options.tolerance = 1;
-    CHECK(restitute_solve_many(&options, 3, impacts, results, statuses, 2, &error) == RESTITUTE_ERROR_DOMAIN,
-          "options");
+    options.threads = 2;
+    CHECK(restitute_solve_many(3, impacts, &options, results, statuses, &error) == RESTITUTE_ERROR_DOMAIN, "options");
     CHECK(strncmp(error.message, "tolerance = 1", 13) == 0, "%s", error.message);
     impacts[0].struct_size = 0; /* not prepared, or of another version: where is impacts[1]? */
-    CHECK(restitute_solve_many(NULL, 3, impacts, results, statuses, 1, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    CHECK(restitute_solve_many(3, impacts, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
     CHECK(strncmp(error.message, "restitute_impact.struct_size = 0", 32) == 0, "%s", error.message);
     scene.struct_size++;
-    CHECK(restitute_solve_scenes(NULL, 1, &scene, results, statuses, 1, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    CHECK(restitute_solve_scene_many(1, &scene, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE,
+          "size");
     impacts[0].struct_size = sizeof impacts[0];
     for (int i = 0; i < 3; i++)
         CHECK(statuses[i] == 99 && memcmp(&results[i], &fresh, sizeof fresh) == 0, "output %d was touched", i);
     results[0].struct_size = 1;
-    CHECK(restitute_solve_many(NULL, 3, impacts, results, statuses, 1, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    CHECK(restitute_solve_many(3, impacts, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
     CHECK(statuses[0] == 99 && statuses[2] == 99, "statuses were touched");
 }
 
@@ -251,7 +262,7 @@ static int one_thread_gives_the_same(void *of)
     const restitute_options options = to_tolerance(1e-2);
     for (int i = 0; i < FORKED; i++)
         results[i] = fresh_result();
-    return restitute_solve_many(&options, FORKED, known->impacts, results, NULL, 1, NULL) == RESTITUTE_OK &&
+    return restitute_solve_many(FORKED, known->impacts, &options, results, NULL, NULL) == RESTITUTE_OK &&
            memcmp(results, known->results, sizeof results) == 0;
 }
 
@@ -260,12 +271,13 @@ static void a_child_goes_on_with_one_thread(void **state)
 {
     (void)state;
     static struct forked known;
-    const restitute_options options = to_tolerance(1e-2);
+    restitute_options options = to_tolerance(1e-2);
+    options.threads = 4;
     for (int i = 0; i < FORKED; i++) {
         known.impacts[i] = impact_of(7.0 / 6, 0.05 * i, 1, 1);
         known.results[i] = fresh_result();
     }
-    CHECK(restitute_solve_many(&options, FORKED, known.impacts, known.results, NULL, 4, NULL) == RESTITUTE_OK, "batch");
+    CHECK(restitute_solve_many(FORKED, known.impacts, &options, known.results, NULL, NULL) == RESTITUTE_OK, "batch");
     CHECK(good_in_child(one_thread_gives_the_same, &known), "the child");
 }
 
@@ -274,10 +286,11 @@ static void no_cases_are_done_at_once(void **state)
     (void)state;
     restitute_options options = default_options();
     restitute_error error;
-    CHECK(restitute_solve_many(NULL, 0, NULL, NULL, NULL, 0, &error) == RESTITUTE_OK && !*error.message, "impacts");
-    CHECK(restitute_solve_scenes(&options, 0, NULL, NULL, NULL, 3, NULL) == RESTITUTE_OK, "scenes");
+    options.threads = 3;
+    CHECK(restitute_solve_many(0, NULL, by(0), NULL, NULL, &error) == RESTITUTE_OK && !*error.message, "impacts");
+    CHECK(restitute_solve_scene_many(0, NULL, &options, NULL, NULL, NULL) == RESTITUTE_OK, "scenes");
     options.elements = 1; /* a wrong option is told all the same */
-    CHECK(restitute_solve_scenes(&options, 0, NULL, NULL, NULL, 3, &error) == RESTITUTE_ERROR_DOMAIN, "options");
+    CHECK(restitute_solve_scene_many(0, NULL, &options, NULL, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "options");
 }
 
 #ifdef FE_UPWARD
@@ -293,16 +306,16 @@ static void threads_round_as_the_caller_does(void **state)
     prepare(FEW, nearest, statuses);
     prepare(FEW, alone, statuses);
     prepare(FEW, results, statuses);
-    CHECK(restitute_solve_many(NULL, FEW, impacts, nearest, NULL, 3, NULL) == RESTITUTE_OK, "to nearest");
+    CHECK(restitute_solve_many(FEW, impacts, by(3), nearest, NULL, NULL) == RESTITUTE_OK, "to nearest");
     CHECK(fesetround(FE_UPWARD) == 0, "rounding");
-    const int one = restitute_solve_many(NULL, FEW, impacts, alone, NULL, 1, NULL);
-    const int three = restitute_solve_many(NULL, FEW, impacts, results, NULL, 3, NULL);
+    const int one = restitute_solve_many(FEW, impacts, NULL, alone, NULL, NULL);
+    const int three = restitute_solve_many(FEW, impacts, by(3), results, NULL, NULL);
     fesetround(FE_TONEAREST);
     CHECK(one == RESTITUTE_OK && three == RESTITUTE_OK, "%d %d", one, three);
     CHECK(memcmp(alone, results, sizeof alone) == 0, "the threads do not round as the caller does");
     CHECK(memcmp(alone, nearest, sizeof alone) != 0, "rounding changes nothing: the check above could not fail");
     prepare(FEW, results, statuses);
-    CHECK(restitute_solve_many(NULL, FEW, impacts, results, NULL, 3, NULL) == RESTITUTE_OK, "to nearest again");
+    CHECK(restitute_solve_many(FEW, impacts, by(3), results, NULL, NULL) == RESTITUTE_OK, "to nearest again");
     CHECK(memcmp(nearest, results, sizeof nearest) == 0, "the threads keep a rounding that was not theirs");
 }
 #endif

@@ -56,7 +56,8 @@ static restitute_plan *plan_for(const restitute_options *options, const restitut
 {
     restitute_plan *plan;
     restitute_error error;
-    CHECK(restitute_plan_create(options, impact, &plan, &error) == RESTITUTE_OK && !*error.message, "%s", error.message);
+    CHECK(restitute_plan_create(impact, options, &plan, &error) == RESTITUTE_OK && !*error.message, "%s",
+          error.message);
     return plan;
 }
 
@@ -212,7 +213,7 @@ static void scenes_give_the_bits_of_single_calls(void **state)
         scene.friction = frictions[k];
         scene.tangential_speed = NAN; /* these two are not used */
         scene.spin1 = 1e200;
-        CHECK(restitute_plan_create_scene(&options, &scene, &plan, &error) == RESTITUTE_OK, "%s", error.message);
+        CHECK(restitute_plan_create_scene(&scene, &options, &plan, &error) == RESTITUTE_OK, "%s", error.message);
         scene.tangential_speed = scene.spin1 = 0;
         for (int i = 0; i < 30; i++)
             compare_scene(&options, scene, plan, i ? random_in(&random, -4, 4) : 0);
@@ -232,7 +233,7 @@ static void spins_are_part_of_the_sliding_speed(void **state)
     restitute_plan *plan;
     restitute_result result;
     scene.friction = 0.3;
-    CHECK(restitute_plan_create_scene(&options, &scene, &plan, NULL) == RESTITUTE_OK, "plan");
+    CHECK(restitute_plan_create_scene(&scene, &options, &plan, NULL) == RESTITUTE_OK, "plan");
     restitute_result_init(&result);
     CHECK(restitute_plan_solve(plan, 1.5, &result, NULL, NULL, NULL) == RESTITUTE_OK, "solve");
     scene.tangential_speed = 1;
@@ -261,24 +262,26 @@ static void refused_plans_leave_all_untouched(void **state)
     restitute_error error;
     restitute_plan *const nothing = (restitute_plan *)&wrong, *plan = nothing;
     restitute_scene_init(&scene);
-    REFUSED(restitute_plan_create(&options, NULL, &plan, &error), RESTITUTE_ERROR_NULL, "impact is NULL");
-    REFUSED(restitute_plan_create(&options, &impact, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
-    REFUSED(restitute_plan_create_scene(&options, NULL, &plan, &error), RESTITUTE_ERROR_NULL, "scene is NULL");
-    REFUSED(restitute_plan_create_scene(&options, &scene, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
-    REFUSED(restitute_plan_create_scene(&options, &scene, &plan, &error), RESTITUTE_ERROR_NULL, "scene.material is NULL");
+    REFUSED(restitute_plan_create(NULL, &options, &plan, &error), RESTITUTE_ERROR_NULL, "impact is NULL");
+    REFUSED(restitute_plan_create(&impact, &options, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
+    REFUSED(restitute_plan_create_scene(NULL, &options, &plan, &error), RESTITUTE_ERROR_NULL, "scene is NULL");
+    REFUSED(restitute_plan_create_scene(&scene, &options, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
+    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_NULL,
+            "scene.material is NULL");
     scene.material = dashpot;
-    REFUSED(restitute_plan_create_scene(&options, &scene, &plan, &error), RESTITUTE_ERROR_DOMAIN, "radius1");
+    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_DOMAIN, "radius1");
     scene.struct_size = 0;
-    REFUSED(restitute_plan_create_scene(&options, &scene, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE, "restitute_scene");
+    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE,
+            "restitute_scene");
     wrong.struct_size++;
-    REFUSED(restitute_plan_create(&options, &wrong, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE, "restitute_impact");
+    REFUSED(restitute_plan_create(&wrong, &options, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE, "restitute_impact");
     wrong = impact;
     wrong.chi = 0.1;
-    REFUSED(restitute_plan_create(&options, &wrong, &plan, &error), RESTITUTE_ERROR_DOMAIN, "chi = 0.1");
+    REFUSED(restitute_plan_create(&wrong, &options, &plan, &error), RESTITUTE_ERROR_DOMAIN, "chi = 0.1");
     wrong = impact_on(dashpot, 7.0 / 6, 1);
-    REFUSED(restitute_plan_create(&options, &wrong, &plan, &error), RESTITUTE_ERROR_DOMAIN, "parallel viscosity");
+    REFUSED(restitute_plan_create(&wrong, &options, &plan, &error), RESTITUTE_ERROR_DOMAIN, "parallel viscosity");
     options.tolerance = 1;
-    REFUSED(restitute_plan_create(&options, &impact, &plan, &error), RESTITUTE_ERROR_DOMAIN, "tolerance = 1");
+    REFUSED(restitute_plan_create(&impact, &options, &plan, &error), RESTITUTE_ERROR_DOMAIN, "tolerance = 1");
     CHECK(plan == nothing, "a refused call gave a plan");
     restitute_plan_destroy(NULL);
     restitute_material_destroy(dashpot);

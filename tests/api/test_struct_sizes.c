@@ -98,17 +98,17 @@ static void many_impacts(void **state)
     restitute_plan *plan = NULL;
     restitute_error *e = &with.error;
     (void)state;
-    REFUSED(restitute_solve_many(with.old, 1, &with.impact, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_many(NULL, 1, with.old, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_many(NULL, 1, &with.impact, with.old, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(with.old, 1, &with.scene, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(NULL, 1, with.old, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(NULL, 1, &with.scene, with.old, NULL, 1, e));
-    REFUSED(restitute_plan_create(with.old, &with.impact, &plan, e));
-    REFUSED(restitute_plan_create(NULL, with.old, &plan, e));
-    REFUSED(restitute_plan_create_scene(with.old, &with.scene, &plan, e));
-    REFUSED(restitute_plan_create_scene(NULL, with.old, &plan, e));
-    assert_int_equal(restitute_plan_create(NULL, &with.impact, &plan, e), RESTITUTE_OK);
+    REFUSED(restitute_solve_many(1, &with.impact, with.old, &with.result, NULL, e));
+    REFUSED(restitute_solve_many(1, with.old, NULL, &with.result, NULL, e));
+    REFUSED(restitute_solve_many(1, &with.impact, NULL, with.old, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, &with.scene, with.old, &with.result, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, with.old, NULL, &with.result, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, &with.scene, NULL, with.old, NULL, e));
+    REFUSED(restitute_plan_create(&with.impact, with.old, &plan, e));
+    REFUSED(restitute_plan_create(with.old, NULL, &plan, e));
+    REFUSED(restitute_plan_create_scene(&with.scene, with.old, &plan, e));
+    REFUSED(restitute_plan_create_scene(with.old, NULL, &plan, e));
+    assert_int_equal(restitute_plan_create(&with.impact, NULL, &plan, e), RESTITUTE_OK);
     REFUSED(restitute_plan_solve(plan, 1, with.old, NULL, NULL, e));
     REFUSED(restitute_plan_solve(plan, 1, &with.result, with.old, NULL, e));
     REFUSED(restitute_plan_solve(plan, 1, &with.result, NULL, with.old, e));
@@ -127,16 +127,16 @@ static void set_bodies(restitute_body *sphere, restitute_body *plane)
 static void bodies(void **state)
 {
     restitute_body sphere, plane;
-    restitute_contact contact;
+    restitute_collision collision;
     restitute_error *e = &with.error;
     (void)state;
     set_bodies(&sphere, &plane);
-    restitute_contact_init(&contact);
-    contact.material = with.material, contact.friction = 0.3;
+    restitute_collision_init(&collision);
+    collision.material = with.material, collision.friction = 0.3;
     REFUSED(restitute_collide(with.solver, with.old, &sphere, &plane, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, with.old, &plane, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, &sphere, with.old, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, &sphere, &plane, with.old, e));
+    REFUSED(restitute_collide(with.solver, &collision, with.old, &plane, NULL, e));
+    REFUSED(restitute_collide(with.solver, &collision, &sphere, with.old, NULL, e));
+    REFUSED(restitute_collide(with.solver, &collision, &sphere, &plane, with.old, e));
 }
 
 #ifdef RESTITUTE_WITH_BEM
@@ -155,15 +155,21 @@ static void the_contact_law(void **state)
 {
     restitute_contact_law *law = NULL;
     restitute_contact_rates rates;
+    restitute_contact_motion motion;
     restitute_contact_force force;
     restitute_error *e = &with.error;
     double law_state[256] = {0};
     (void)state;
     REFUSED(restitute_contact_law_create(with.material, with.old, &law, e));
     assert_int_equal(restitute_contact_law_create(with.material, NULL, &law, e), RESTITUTE_OK);
+    restitute_contact_rates_init(&rates);
+    restitute_contact_motion_init(&motion);
+    REFUSED(restitute_contact_rates_set(law, 1e-6, with.old, e));
     assert_int_equal(restitute_contact_rates_set(law, 1e-6, &rates, e), RESTITUTE_OK);
+    REFUSED(restitute_contact_step(law, with.old, &motion, law_state, &force, e));
     REFUSED(restitute_contact_step(law, &rates, with.old, law_state, &force, e));
     REFUSED(restitute_contact_step_many(law, &rates, 1, with.old, law_state, 256, &force, NULL, e));
+    REFUSED(restitute_contact_energies_get(law, 1, law_state, with.old, e));
     restitute_contact_law_destroy(law);
 }
 #endif
@@ -171,22 +177,20 @@ static void the_contact_law(void **state)
 #ifdef RESTITUTE_WITH_CVODE
 static void the_method_cvode(void **state)
 {
+    restitute_cvode_recorder *recorder;
     restitute_options options;
     restitute_solver *solver;
     restitute_error *e = &with.error;
     (void)state;
+    assert_int_equal(restitute_cvode_recorder_create(NULL, &recorder, e), RESTITUTE_OK);
     restitute_options_init(&options);
-    options.method = restitute_method_cvode();
+    options.method = restitute_cvode_recorder_method(recorder);
     assert_int_equal(restitute_solver_create(&options, &solver, e), RESTITUTE_OK);
-    REFUSED(restitute_cvode_solve(solver, with.old, &with.result, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, with.old, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, with.old, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, NULL, with.old, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, NULL, NULL, with.old, e));
-    REFUSED(restitute_cvode_solve_scene(solver, with.old, &with.result, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve_scene(solver, &with.scene, &with.result, NULL, NULL, with.old, e));
-    REFUSED(restitute_cvode_last_work(solver, with.old, e));
+    assert_int_equal(restitute_solve(solver, &with.impact, NULL, NULL, NULL, e), RESTITUTE_OK);
+    REFUSED(restitute_cvode_recorder_events(recorder, with.old, e));
+    REFUSED(restitute_cvode_recorder_work(recorder, with.old, e));
     restitute_solver_destroy(solver);
+    restitute_cvode_recorder_destroy(recorder);
 }
 #endif
 
@@ -246,8 +250,7 @@ static void tables(void **state)
     double ez, ex;
     restitute_table_options options;
     restitute_table_contact contact;
-    restitute_table_value value;
-    restitute_table *table = NULL;
+    restitute_table *table = NULL, *none = NULL;
     restitute_body sphere, plane;
     restitute_error *e = &with.error;
     (void)state;
@@ -260,14 +263,16 @@ static void tables(void **state)
     REFUSED(restitute_table_build_many(1, materials, with.old, &options, NULL, NULL, &table, e));
     REFUSED(restitute_table_build_many(1, materials, &with.scene, with.old, NULL, NULL, &table, e));
     assert_int_equal(restitute_table_build(&with.scene, &options, &table, e), RESTITUTE_OK);
-    REFUSED(restitute_table_contact_of(table, with.old, &contact, e));
-    REFUSED(restitute_table_contact_of(table, &with.scene, with.old, e));
-    REFUSED(restitute_table_pair_of(table, with.old, 1, 1, &value, NULL));
-    REFUSED(restitute_table_pairs(table, with.old, 1, &speed, &speed, &ez, &ex));
-    REFUSED(restitute_table_collide(table, with.old, &sphere, &plane, &value, e));
-    REFUSED(restitute_table_collide(table, NULL, with.old, &plane, &value, e));
-    REFUSED(restitute_table_collide(table, NULL, &sphere, with.old, &value, e));
+    REFUSED(restitute_table_contact_set(table, with.old, &contact, e));
+    REFUSED(restitute_table_contact_set(table, &with.scene, with.old, e));
+    REFUSED(restitute_table_pair(table, with.old, 1, 1, &ez, &ex, e));
+    REFUSED(restitute_table_pair_many(table, with.old, 1, &speed, &speed, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, with.old, &sphere, &plane, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, NULL, with.old, &plane, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, NULL, &sphere, with.old, &ez, &ex, e));
     REFUSED(restitute_table_describe(table, with.old, e));
+    REFUSED(restitute_table_data_get(table, with.old, e));
+    REFUSED(restitute_table_create(with.old, &none, e));
     restitute_table_destroy(table);
 }
 #endif

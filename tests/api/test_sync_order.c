@@ -95,7 +95,7 @@ static void no_order_is_seen_in_the_results(void **state)
     restitute_material_destroy(prony);
 }
 
-/* With so few updates some are refused, and some end short of the tolerance: with elements given too. */
+/* With so little work some are refused, and some end short of the tolerance: with elements given too. */
 static void neither_is_it_in_refusals(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static void neither_is_it_in_refusals(void **state)
     for (int64_t elements = 0; elements <= 24; elements += 24) {
         restitute_options options = sync_to(1e-6);
         options.elements = elements;
-        options.max_updates = 700;
+        options.max_work = 7e-5;
         check_orders(&options, impacts, refused);
     }
     CHECK(refused[0] > 20 && refused[1] > 20 && refused[0] + refused[1] < 2 * ALL,

@@ -4,6 +4,7 @@
 #include <fenv.h>
 #include <string.h>
 
+#include "../support/sized.h"
 #include "../support/table.h"
 
 static restitute_material *material;
@@ -47,8 +48,8 @@ static void limits(void **state)
     CHECK_NEAR(ex_at(1, 1e-9), ex_at(1, 0), 1e-7, "psi -> 0");
 }
 
-/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair below its node. Slopes times
- * 20 ulps are rounding. */
+/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair
+ * below its node. Slopes times 20 ulps are rounding. */
 static void just_above_the_lowest(void **state)
 {
     const double low = 0.00047995159222933681;
@@ -64,7 +65,8 @@ static void just_above_the_lowest(void **state)
     restitute_table_destroy(from_low);
 }
 
-/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12 of psi changes ex by 1e-11. */
+/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12
+ * of psi changes ex by 1e-11. */
 static void continuous(void **state)
 {
     (void)state;
@@ -143,7 +145,8 @@ static void many_at_once(void **state)
     assert_int_equal(restitute_table_pair_many(table, NULL, 0, NULL, NULL, NULL, NULL, NULL), RESTITUTE_OK);
 }
 
-/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the table's tolerance. */
+/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the
+ * table's tolerance. */
 static void other_sizes(void **state)
 {
     restitute_options options = to_tolerance(1e-5);
@@ -193,7 +196,8 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
-/* The material at another temperature: the impact itself is off by its tolerance, the table by its own. */
+/* The material at another temperature: the impact itself is off by its tolerance, the table by its
+ * own. */
 static void shifted_times(void **state)
 {
     restitute_options options = to_tolerance(1e-5);
@@ -276,6 +280,32 @@ static void one_of_the_pair(void **state)
     CHECK(error.status == 0 && !error.message[0], "%s", error.message);
 }
 
+static void structs_of_other_sizes_are_refused(void **state)
+{
+    static _Alignas(double) unsigned char place[guarded_bytes];
+    const void *given = place;
+    const restitute_material *materials[] = {material};
+    const double v = 1;
+    double ez = 7, ex = 7;
+    restitute_body ball, floor;
+    restitute_table *none = NULL;
+    restitute_error e;
+    (void)state;
+    restitute_body_init(&ball);
+    restitute_body_init(&floor);
+    CHECK_SIZES(table_options, displacement_limit, place, &e, restitute_table_build(&scene, given, &none, &e));
+    CHECK_SIZES(table_options, displacement_limit, place, &e,
+                restitute_table_build_many(1, materials, &scene, given, NULL, NULL, &none, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_contact_set(table, &scene, (void *)place, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair(table, given, v, v, &ez, &ex, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair_many(table, given, 1, &v, &v, &ez, &ex, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_collide(table, given, &ball, &floor, &ez, &ex, &e));
+    CHECK_SIZES(table_info, version, place, &e, restitute_table_describe(table, (void *)place, &e));
+    CHECK_SIZES(table_data, ex, place, &e, restitute_table_data_get(table, (void *)place, &e));
+    CHECK_SIZES(table_data, ex, place, &e, restitute_table_create(given, &none, &e));
+    CHECK(!none && ez == 7 && ex == 7, "a refused call has written");
+}
+
 /* Axes that a contact does not need are not there, and its limits are those of the impact. */
 static void axes_collapse(void **state)
 {
@@ -320,6 +350,7 @@ int main(void)
         cmocka_unit_test(other_contacts_are_refused),
         cmocka_unit_test(shifted_times),
         cmocka_unit_test(factors_out_of_range),
+        cmocka_unit_test(structs_of_other_sizes_are_refused),
         cmocka_unit_test(bad_speeds_are_refused),
         cmocka_unit_test(one_of_the_pair),
         cmocka_unit_test(axes_collapse)};

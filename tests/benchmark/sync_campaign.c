@@ -1,6 +1,6 @@
 /* Campaign: random impacts of the whole domain and of its corners (support/campaign.h), compared with `sync` at 1e-8.
  *
- *     sync_campaign COUNT SEED CORNER TOLERANCE,... [METHOD [MAX_UPDATES]]
+ *     sync_campaign COUNT SEED CORNER TOLERANCE,... [METHOD [MAX_WORK]]
  *
  * CORNER is a name, "corners" (all but the two domains) or "all". METHOD is sync (default) or euler. Of sync every
  * 64th impact is solved by `euler` and `cvode` as well, so that other methods check the reference.
@@ -27,9 +27,9 @@
 enum { piece = 128, threads = 2, most_rows = 12, every = 64, explained = 20 };
 
 static const double reference_tolerance = 1e-8, rounding = 1e-15; /* of e_z and e_x: four units in the last place */
-static const int64_t reference_updates = 100000000; /* half a second; the tested method has the default */
+static const double reference_work = 0.1;                         /* the tested method has the default */
 #ifdef RESTITUTE_WITH_CVODE
-static const int64_t cvode_updates = 3000000; /* one second */
+static const double cvode_work = 0.03;
 #endif
 
 enum worst { ERROR, ESTIMATE, FORCE, TIME, WORST };
@@ -106,7 +106,7 @@ static void solve_batch(struct row *row, struct batch *b)
         b->statuses[i] = 1000;
     }
     const double start = now();
-    restitute_solve_many(&row->options, (size_t)b->n, b->impacts, b->results, b->statuses, threads, &error);
+    restitute_solve_many((size_t)b->n, b->impacts, &row->options, b->results, b->statuses, &error);
     const double taken = now() - start;
     if (b->n > 0 && b->statuses[0] == 1000) {
         fprintf(stderr, "sync_campaign: %s\n", error.message);
@@ -274,6 +274,7 @@ static struct row row_of(const restitute_method *method, double tolerance, int s
 {
     struct row row = {.options = to_tolerance(tolerance), .step = step};
     row.options.method = method;
+    row.options.threads = threads;
     row.tested = step == 1 && method == restitute_method_sync();
     row.errors = malloc((size_t)count * sizeof *row.errors);
     if (!row.errors) exit(2);
@@ -286,18 +287,18 @@ static int make_rows(struct row *rows, const restitute_options *tested, const do
     int k = 0;
     rows[k++] = row_of(restitute_method_sync(), reference_tolerance, 1, count);
     rows[0].tested = 0;
-    rows[0].options.max_updates = reference_updates;
+    rows[0].options.max_work = reference_work;
     for (int i = 0; i < n; i++) {
         rows[k] = row_of(tested->method, tolerances[i], 1, count);
         rows[k].options.time_limit = 0; /* the default */
-        rows[k++].options.max_updates = tested->max_updates;
+        rows[k++].options.max_work = tested->max_work;
     }
     if (tested->method != restitute_method_sync()) return k;
     rows[k++] = row_of(restitute_method_euler(), 1e-3, every, count);
-    rows[k - 1].options.max_updates = reference_updates;
+    rows[k - 1].options.max_work = reference_work;
 #ifdef RESTITUTE_WITH_CVODE
     rows[k++] = row_of(restitute_method_cvode(), 1e-5, every, count);
-    rows[k - 1].options.max_updates = cvode_updates;
+    rows[k - 1].options.max_work = cvode_work;
 #endif
     return k;
 }
@@ -318,7 +319,7 @@ static int is_wanted(const char *wanted, const char *corner)
 
 static int usage(void)
 {
-    fprintf(stderr, "usage: sync_campaign COUNT SEED CORNER TOLERANCE,... [sync|euler [MAX_UPDATES]]\n"
+    fprintf(stderr, "usage: sync_campaign COUNT SEED CORNER TOLERANCE,... [sync|euler [MAX_WORK]]\n"
                     "CORNER is all, corners or one of ");
     for (int i = 0; i < CAMPAIGN_CORNERS; i++)
         fprintf(stderr, "%s%s", campaign_corners[i].name, i < CAMPAIGN_CORNERS - 1 ? " " : "\n");
@@ -336,7 +337,7 @@ int main(int argc, char **argv)
     if (argc < 5 || argc > 7 || count < 1 || n_tolerances < 1) return usage();
     restitute_options normal = sync_to(reference_tolerance), tested = sync_to(reference_tolerance);
     if (argc > 5 && strcmp(argv[5], "euler") == 0) tested.method = restitute_method_euler();
-    if (argc > 6) tested.max_updates = (int64_t)strtod(argv[6], NULL);
+    if (argc > 6) tested.max_work = strtod(argv[6], NULL);
     read_pib(draw.pib_tau, draw.pib_g);
     if (restitute_solver_create(&normal, &draw.normal, NULL) < 0) return 2;
     print_head();

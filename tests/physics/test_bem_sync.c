@@ -121,24 +121,6 @@ static void estimates_of_thin_rings(void **state)
                thin.result.error_ex, none.result.error_ex);
 }
 
-/* Tractions across the sliding direction: small, but there, without slip as with it (docs/bem.md). */
-static void both_directions(void **state)
-{
-    const restitute_impact impacts[] = {impact_of(7.0 / 6, 0.7, 0, INFINITY), impact_of(7.0 / 6, 2, 1, 1),
-                                        impact_of(4, 3, 0, INFINITY)};
-    (void)state;
-    for (int i = 0; i < 3; i++) {
-        restitute_options options = bem_options(20);
-        const struct solution one = solve_impact(options, impacts[i]);
-        options.method = restitute_method_bem_both();
-        const struct solution both = solve_impact(options, impacts[i]);
-        CHECK_NEAR(both.result.ex, one.result.ex, 0.003, "ex of %d", i); /* up to 0.0018 with 30 cells */
-        assert_true(fabs(both.result.ex - one.result.ex) > 1e-5);
-        CHECK_NEAR(both.result.ez, one.result.ez, 1e-6, "ez of %d",
-                   i); /* iterations stop at 1e-6; the parts of the grid differ */
-    }
-}
-
 /* The paper's steps find a box by themselves, and smaller steps where theirs would be unstable (the last two). */
 static void explicit_steps(void **state)
 {
@@ -212,16 +194,10 @@ static void ledger(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard),
-                                       cmocka_unit_test(prony_and_flow),
-                                       cmocka_unit_test(sinks_where_sync_does),
-                                       cmocka_unit_test(no_slip),
-                                       cmocka_unit_test(estimates_of_thin_rings),
-                                       cmocka_unit_test(explicit_steps),
-                                       cmocka_unit_test(extreme_terms),
-                                       cmocka_unit_test(ringing),
-                                       cmocka_unit_test(both_directions),
-                                       cmocka_unit_test(slip_to_the_end),
-                                       cmocka_unit_test(ledger)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard),    cmocka_unit_test(prony_and_flow),
+                                       cmocka_unit_test(sinks_where_sync_does),   cmocka_unit_test(no_slip),
+                                       cmocka_unit_test(estimates_of_thin_rings), cmocka_unit_test(explicit_steps),
+                                       cmocka_unit_test(extreme_terms),           cmocka_unit_test(ringing),
+                                       cmocka_unit_test(slip_to_the_end),         cmocka_unit_test(ledger)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

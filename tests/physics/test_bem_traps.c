@@ -9,7 +9,7 @@ static void over_the_domain(void **state)
     const int counts[] = {8, 6, 6};
     (void)state;
     sweep_known(restitute_method_bem(), 1e-2, 19);
-    sweep_random(restitute_method_bem(), 14, counts, 1e-2, 100000000);
+    sweep_random(restitute_method_bem(), 14, counts, 1e-2, 0.7);
 }
 
 static void hosts_that_trap(void **state)

@@ -31,18 +31,20 @@ static void elastic_entries_and_exits_are_those_of_hertz(void **state)
     restitute_options options = cvode_to(tolerance);
     options.elements = 64;
     solve_logged(options, impact_of(chi, 0.5, 0, 1), &log_a);
-    CHECK(count_events(&log_a, RESTITUTE_EVENT_ENTRY) == 64, "%d", count_events(&log_a, RESTITUTE_EVENT_ENTRY));
-    CHECK(count_events(&log_a, RESTITUTE_EVENT_EXIT) == 63, "%d", count_events(&log_a, RESTITUTE_EVENT_EXIT));
+    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY) == 64, "%d",
+          count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY));
+    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT) == 63, "%d",
+          count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT));
     double last_entry = -1, last_exit = 2;
     for (size_t i = 0; i < log_a.events.count; i++) {
         const restitute_cvode_event *e = &log_a.event[i];
-        if (e->kind != RESTITUTE_EVENT_ENTRY && e->kind != RESTITUTE_EVENT_EXIT) continue;
+        if (e->kind != RESTITUTE_CVODE_EVENT_ENTRY && e->kind != RESTITUTE_CVODE_EVENT_EXIT) continue;
         const double x2 = e->position * e->position, t = elastic_time(x2);
-        const double expected = e->kind == RESTITUTE_EVENT_ENTRY ? t : 2.9432751843 - t;
+        const double expected = e->kind == RESTITUTE_CVODE_EVENT_ENTRY ? t : 2.9432751843 - t;
         CHECK_NEAR(e->indentation, x2, instant, "D = X^2 at %g", e->position);
         /* time follows depth with 1/D', which grows towards the turning point */
         CHECK_NEAR(e->time, expected, instant / fabs(e->normal_velocity), "event %zu at %g", i, e->position);
-        if (e->kind == RESTITUTE_EVENT_ENTRY) {
+        if (e->kind == RESTITUTE_CVODE_EVENT_ENTRY) {
             CHECK(e->position > last_entry, "entry %zu: not from the inside out", i);
             last_entry = e->position;
         } else {
@@ -50,8 +52,8 @@ static void elastic_entries_and_exits_are_those_of_hertz(void **state)
             last_exit = e->position;
         }
     }
-    CHECK_NEAR(first_event(&log_a, RESTITUTE_EVENT_CONTACT_END)->time, 2.9432751843, instant, "contact time");
-    CHECK_NEAR(first_event(&log_a, RESTITUTE_EVENT_TURN)->indentation, 1, instant, "largest indentation");
+    CHECK_NEAR(first_event(&log_a, RESTITUTE_CVODE_EVENT_CONTACT_END)->time, 2.9432751843, instant, "contact time");
+    CHECK_NEAR(first_event(&log_a, RESTITUTE_CVODE_EVENT_TURN)->indentation, 1, instant, "largest indentation");
 }
 
 static void events_come_in_order_and_change_nothing(void **state)
@@ -63,7 +65,7 @@ static void events_come_in_order_and_change_nothing(void **state)
     for (size_t i = 1; i < log_a.events.count; i++)
         CHECK(log_a.event[i].time >= log_a.event[i - 1].time, "event %zu", i);
     const restitute_cvode_event *last = &log_a.event[log_a.events.count - 1];
-    CHECK(last->kind == RESTITUTE_EVENT_CONTACT_END, "%s", restitute_cvode_event_text(last->kind));
+    CHECK(last->kind == RESTITUTE_CVODE_EVENT_CONTACT_END, "%s", restitute_cvode_event_text(last->kind));
     CHECK_NEAR(last->time, s.result.contact_time, 1e-5, "the end of contact");
     CHECK_NEAR(-last->normal_velocity, s.result.ez, 1e-5, "both are within the tolerance");
     /* one of the runs that the pair was extrapolated from: its own error is larger than that of the pair */
@@ -78,8 +80,8 @@ static void gross_slip_ends_once_and_everywhere(void **state)
     for (int i = 0; i < 5; i++) {
         const double psi = cases[i][0], expected = (2 * chi - psi) / (2 * chi - 1);
         solve_logged(cvode_to(tolerance), impact_of(chi, psi, cases[i][1], cases[i][2]), &log_a);
-        CHECK(count_events(&log_a, RESTITUTE_EVENT_GROSS_SLIP_END) == 1, "case %d", i);
-        const restitute_cvode_event *e = first_event(&log_a, RESTITUTE_EVENT_GROSS_SLIP_END);
+        CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_GROSS_SLIP_END) == 1, "case %d", i);
+        const restitute_cvode_event *e = first_event(&log_a, RESTITUTE_CVODE_EVENT_GROSS_SLIP_END);
         CHECK_NEAR(e->normal_velocity, expected, instant, "case %d", i);
         CHECK_NEAR(e->tangential_velocity, expected, instant, "case %d: sliding has ended", i);
         CHECK(e->elements > 1, "case %d: %d", i, e->elements);
@@ -98,8 +100,8 @@ static void gross_slip_lasts_from_the_critical_psi_on(void **state)
     const double critical = restitute_critical_psi(chi, s.result.ez);
     solve_logged(cvode_to(tolerance), impact_of(chi, critical * (1 - 1e-5), 1, 1), &log_a);
     solve_logged(cvode_to(tolerance), impact_of(chi, critical * (1 + 1e-5), 1, 1), &log_b);
-    CHECK(count_events(&log_a, RESTITUTE_EVENT_GROSS_SLIP_END) == 1, "below %.9g", critical);
-    CHECK(count_events(&log_b, RESTITUTE_EVENT_GROSS_SLIP_END) == 0, "above %.9g", critical);
+    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_GROSS_SLIP_END) == 1, "below %.9g", critical);
+    CHECK(count_events(&log_b, RESTITUTE_CVODE_EVENT_GROSS_SLIP_END) == 0, "above %.9g", critical);
     CHECK_NEAR(log_b.result.ex, 2 * chi * (1 + log_b.result.ez) / (critical * (1 + 1e-5)) - 1, 1e-14, "(27)");
 }
 
@@ -109,16 +111,16 @@ static void elastic_elements_stick_again_together(void **state)
 {
     (void)state;
     solve_logged(cvode_to(1e-5), impact_of(8.42, 1.087, 0, 1), &log_a);
-    const int times = count_events(&log_a, RESTITUTE_EVENT_SLIP_TO_STICK);
+    const int times = count_events(&log_a, RESTITUTE_CVODE_EVENT_SLIP_TO_STICK);
     CHECK(times > 0 && times <= 4, "%d times", times);
     for (size_t i = 0; i < log_a.events.count; i++) {
         const restitute_cvode_event *e = &log_a.event[i];
-        if (e->kind != RESTITUTE_EVENT_SLIP_TO_STICK) continue;
+        if (e->kind != RESTITUTE_CVODE_EVENT_SLIP_TO_STICK) continue;
         CHECK(e->elements > 1, "%d elements", e->elements);
         CHECK_NEAR(fabs(e->tangential_velocity), fabs(e->normal_velocity), 1e-5, "event %zu", i);
     }
     solve_logged(cvode_to(1e-5), impact_of(chi, 0.9, 0, 1), &log_a);
-    CHECK_NEAR(first_event(&log_a, RESTITUTE_EVENT_STICK_TO_SLIP)->indentation, 0.96, 0.01,
+    CHECK_NEAR(first_event(&log_a, RESTITUTE_CVODE_EVENT_STICK_TO_SLIP)->indentation, 0.96, 0.01,
                "edge slip, at the first element behind the edge");
 }
 
@@ -129,8 +131,8 @@ static void events_of_a_scene_have_units(void **state)
     restitute_scene scene;
     restitute_numbers numbers;
     restitute_error error;
-    restitute_solver *solver;
-    restitute_options options = cvode_to(1e-4);
+    const restitute_options options = cvode_to(1e-4);
+    const struct recording r = record_with(options);
     (void)state;
     CHECK(restitute_material_standard_solid(1e6, 2e6, 50, 0.5, &solid, &error) == 0, "%s", error.message);
     restitute_scene_init(&scene);
@@ -138,13 +140,12 @@ static void events_of_a_scene_have_units(void **state)
     scene.normal_speed = 2, scene.tangential_speed = 1;
     restitute_numbers_init(&numbers);
     CHECK(restitute_scene_numbers(&scene, &numbers, &error) == 0, "%s", error.message);
-    CHECK(restitute_solver_create(&options, &solver, &error) == 0, "%s", error.message);
     restitute_cvode_events_init(&log_a.events);
     log_a.events.event = log_a.event;
     log_a.events.capacity = most_events;
-    CHECK(restitute_cvode_solve_scene(solver, &scene, NULL, NULL, NULL, &log_a.events, &error) == 0, "%s",
-          error.message);
-    restitute_solver_destroy(solver);
+    CHECK(restitute_solve_scene(r.solver, &scene, NULL, NULL, NULL, &error) == 0, "%s", error.message);
+    CHECK(restitute_cvode_recorder_events(r.recorder, &log_a.events, &error) == 0, "%s", error.message);
+    end_recording(&r);
     solve_logged(options, impact_of(numbers.chi, numbers.psi, numbers.delta1, numbers.gamma), &log_b);
     CHECK(log_a.events.count == log_b.events.count, "%zu, %zu", log_a.events.count, log_b.events.count);
     for (size_t i = 0; i < log_a.events.count; i++) {

@@ -9,15 +9,15 @@ static void over_the_domain(void **state)
     const int counts[] = {80, 80, 150};
     (void)state;
     sweep_known(restitute_method_cvode(), 1e-3, 1);
-    sweep_random(restitute_method_cvode(), 11, counts, 1e-2, 30000000);
+    sweep_random(restitute_method_cvode(), 11, counts, 1e-2, 0.3);
 }
 
 static void both_families(void **state)
 {
     const int counts[] = {40, 0, 0};
     (void)state;
-    sweep_random(restitute_method_cvode_bdf(), 12, counts, 1e-2, 30000000);
-    sweep_random(restitute_method_cvode_adams(), 13, counts, 1e-2, 30000000);
+    sweep_random(restitute_method_cvode_bdf(), 12, counts, 1e-2, 0.3);
+    sweep_random(restitute_method_cvode_adams(), 13, counts, 1e-2, 0.3);
 }
 
 static void events(void **state)

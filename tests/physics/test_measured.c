@@ -34,7 +34,7 @@ static restitute_material *elastic_pair(double young1, double nu1, double young2
     restitute_error error;
     CHECK(restitute_material_elastic(young1 / (2 + 2 * nu1), nu1, &one, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(restitute_material_elastic(young2 / (2 + 2 * nu2), nu2, &two, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(restitute_material_pair(one, two, &pair, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_material_effective(one, two, &pair, &error) == RESTITUTE_OK, "%s", error.message);
     restitute_material_destroy(one);
     restitute_material_destroy(two);
     return pair;

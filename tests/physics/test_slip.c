@@ -40,7 +40,7 @@ static int destroy_solids(void **state)
 static restitute_impact impact_with(const struct solid *solid, double chi, double psi)
 {
     restitute_impact impact = impact_of(chi, psi, solid->delta1, solid->gamma);
-    impact.solid = solid->prony;
+    impact.material = solid->prony;
     return impact;
 }
 

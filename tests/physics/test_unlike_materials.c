@@ -26,7 +26,7 @@ static restitute_material *pair_of(const restitute_material *a, const restitute_
 {
     restitute_material *pair;
     restitute_error error;
-    CHECK(restitute_material_pair(a, b, &pair, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_material_effective(a, b, &pair, &error) == RESTITUTE_OK, "%s", error.message);
     return pair;
 }
 
@@ -218,7 +218,7 @@ static void a_pair_is_not_halved_or_paired_again(void **state)
     restitute_error error;
     restitute_scene scene;
     double ez, ex;
-    CHECK(restitute_material_pair(pair, m, &again, &error) == RESTITUTE_ERROR_DOMAIN && again == NULL,
+    CHECK(restitute_material_effective(pair, m, &again, &error) == RESTITUTE_ERROR_DOMAIN && again == NULL,
           "pair of a pair");
     restitute_scene_init(&scene);
     scene.material = pair;
@@ -242,8 +242,8 @@ static void dashpots_and_bad_arguments(void **state)
     CHECK(restitute_material_terms(mixed) == 2 && restitute_material_modulus(mixed, 1e9) == 0, "mixed pair");
     /* at first the dashpot is rigid */
     CHECK_NEAR(restitute_material_modulus(mixed, 1e-9), 5, 1e-7, "instantaneous modulus");
-    CHECK(restitute_material_pair(NULL, voigt, &untouched, &error) == RESTITUTE_ERROR_NULL, "NULL");
-    CHECK(restitute_material_pair(voigt, voigt, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL output");
+    CHECK(restitute_material_effective(NULL, voigt, &untouched, &error) == RESTITUTE_ERROR_NULL, "NULL");
+    CHECK(restitute_material_effective(voigt, voigt, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL output");
     CHECK(untouched == NULL && isnan(restitute_material_dundurs(NULL)), "outputs");
     restitute_material_destroy(voigt);
     restitute_material_destroy(maxwell);
@@ -320,7 +320,7 @@ static struct drawn draw_any(uint64_t *random, double decades, int at_ends)
 static double plane_modulus(const restitute_material *m, double s)
 {
     double g_inf, eta, tau[2 * most_terms], g[2 * most_terms], sum;
-    restitute_material_series(m, &g_inf, &eta, tau, g);
+    restitute_material_series(m, &g_inf, &eta, tau, g, NULL);
     sum = g_inf + eta * s;
     for (size_t k = 0; k < restitute_material_terms(m); k++)
         sum += g[k] * (s * tau[k] / (1 + s * tau[k]));
@@ -356,14 +356,16 @@ static void pairs_over_the_whole_ranges(void **state)
         const struct drawn a = draw_any(&random, 30, 1), b = draw_any(&random, 30, 1);
         restitute_material *pair = NULL;
         restitute_error error;
-        const int status = a.material && b.material ? restitute_material_pair(a.material, b.material, &pair, &error)
-                                                    : RESTITUTE_ERROR_NULL;
+        const int status = a.material && b.material
+                               ? restitute_material_effective(a.material, b.material, &pair, &error)
+                               : RESTITUTE_ERROR_NULL;
         if (status == RESTITUTE_OK) {
             const double beta = restitute_material_dundurs(pair), nu = restitute_material_poisson_ratio(pair);
             CHECK(fabs(beta) <= 0.5 && nu >= 0 && nu <= 0.5, "%d: beta %g, nu %g", n, beta, nu);
             made++;
         } else if (a.material && b.material) {
-            CHECK(status == RESTITUTE_ERROR_DOMAIN && strncmp(error.message, "pair of material1", 17) == 0 && !pair,
+            CHECK(status == RESTITUTE_ERROR_DOMAIN && strncmp(error.message, "effective solid of material1", 28) == 0 &&
+                      !pair,
                   "%d: %d %s", n, status, error.message);
             refused++;
         }

@@ -24,8 +24,8 @@ enum { most_campaign_terms = 6 };
 /* Every impact has a solid of its own, or none. */
 static inline void free_impact(restitute_impact *impact)
 {
-    restitute_material_destroy((restitute_material *)impact->solid);
-    impact->solid = NULL;
+    restitute_material_destroy((restitute_material *)impact->material);
+    impact->material = NULL;
 }
 
 /* The measured solid at an impact time anywhere among its relaxation times; G_r is its modulus at that time. Moduli
@@ -71,9 +71,9 @@ static inline restitute_impact draw_solid(struct campaign_draw *d, enum campaign
     if (kind == KELVIN_VOIGT || kind == STANDARD) impact.delta1 = random_log(&d->random, 1e-4, 1e5);
     if (kind == KELVIN_VOIGT) impact.gamma = 0;
     if (kind == STANDARD) impact.gamma = random_log(&d->random, 1e-4, 1e4);
-    if (kind == MAXWELL) impact.solid = maxwell_of(random_log(&d->random, 0.05, 1e4));
-    if (kind == PRONY) impact.solid = draw_prony(&d->random, 2);
-    if (kind == POLYISOBUTYLENE) impact.solid = draw_polyisobutylene(d);
+    if (kind == MAXWELL) impact.material = maxwell_of(random_log(&d->random, 0.05, 1e4));
+    if (kind == PRONY) impact.material = draw_prony(&d->random, 2);
+    if (kind == POLYISOBUTYLENE) impact.material = draw_polyisobutylene(d);
     return impact;
 }
 
@@ -199,7 +199,7 @@ static inline restitute_impact nearly_sinking_corner(struct campaign_draw *d)
     const double tau = random_in(&d->random, 0.25, 0.4);
     restitute_impact impact = impact_of(7.0 / 6, 0, random_log(&d->random, 4e4, 1e7), 0);
     impact.gamma = pow(tau / (THETA_OF_DELTA1 * impact.delta1), 1 / 0.6);
-    if (random_below(&d->random, 3)) impact.solid = maxwell_of(tau);
+    if (random_below(&d->random, 3)) impact.material = maxwell_of(tau);
     impact.chi = draw_chi(&d->random);
     impact.psi = draw_psi(d, &impact);
     return impact;
@@ -254,19 +254,19 @@ static inline restitute_impact large_chi_corner(struct campaign_draw *d)
 static inline int is_accepted(const restitute_material *solid)
 {
     double eta;
-    return solid && restitute_material_series(solid, NULL, &eta, NULL, NULL) == RESTITUTE_OK &&
+    return solid && restitute_material_series(solid, NULL, &eta, NULL, NULL, NULL) == RESTITUTE_OK &&
            eta <= THETA_OF_DELTA1 * 1e12;
 }
 
-/* The ends of all ranges (domain.h), where the default of max_updates has to do. */
+/* The ends of all ranges (domain.h), where the default of max_work has to do. */
 static inline restitute_impact limit_corner(struct campaign_draw *d)
 {
     const enum reach reach = random_below(&d->random, 2) ? WIDE : EXTREME;
     restitute_impact impact;
     draw_impact(&d->random, reach, &impact);
     impact.chi = fmax(impact.chi, 1.0 / 3);
-    if (random_below(&d->random, 2)) impact.solid = draw_material(&d->random, reach, 1, 1);
-    if (!is_accepted(impact.solid)) free_impact(&impact);
+    if (random_below(&d->random, 2)) impact.material = draw_material(&d->random, reach, 1, 1);
+    if (!is_accepted(impact.material)) free_impact(&impact);
     return impact;
 }
 
@@ -298,7 +298,7 @@ static inline void write_solid(const restitute_material *solid, FILE *out)
 {
     double tau[64], g[64], g_inf, eta;
     const size_t terms = restitute_material_terms(solid);
-    if (terms > 64 || restitute_material_series(solid, &g_inf, &eta, tau, g) < 0) return;
+    if (terms > 64 || restitute_material_series(solid, &g_inf, &eta, tau, g, NULL) < 0) return;
     fprintf(out, "echo '{\"name\": \"case\", \"poisson_ratio\": 0.5, \"model\": ");
     if (terms == 0 && eta == 0) {
         fprintf(out, "\"elastic\", \"modulus_pa\": %.17g", g_inf);
@@ -323,11 +323,11 @@ static inline char *command_of(const restitute_impact *impact, const restitute_o
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
-    if (!impact->solid) {
+    if (!impact->material) {
         fprintf(out, "restitute pair --chi %.17g --psi %.17g --delta1 %.17g --gamma %.17g", impact->chi, impact->psi,
                 impact->delta1, impact->gamma);
     } else {
-        write_solid(impact->solid, out);
+        write_solid(impact->material, out);
         fprintf(out, "restitute pair --material case.json --radius 1 --mass1 %.17g", mass);
         fprintf(out, " --velocity 1.4142135623730951 --angle 45 --friction %.17g", friction);
         if (3 * impact->chi > 1)

@@ -23,18 +23,40 @@ static inline restitute_options cvode_to(double tolerance)
     return options;
 }
 
+/* A solver whose method, one of cvode's, keeps what it saw. */
+struct recording {
+    restitute_cvode_recorder *recorder;
+    restitute_solver *solver;
+};
+
+static inline struct recording record_with(restitute_options options)
+{
+    struct recording r;
+    restitute_error error;
+    CHECK(restitute_cvode_recorder_create(options.method, &r.recorder, &error) == RESTITUTE_OK, "%s", error.message);
+    options.method = restitute_cvode_recorder_method(r.recorder);
+    CHECK(restitute_solver_create(&options, &r.solver, &error) == RESTITUTE_OK, "%s", error.message);
+    return r;
+}
+
+static inline void end_recording(const struct recording *r)
+{
+    restitute_solver_destroy(r->solver);
+    restitute_cvode_recorder_destroy(r->recorder);
+}
+
 static inline void solve_logged(restitute_options options, restitute_impact impact, struct logged *log)
 {
-    restitute_solver *solver;
+    const struct recording r = record_with(options);
     restitute_error error;
     restitute_result_init(&log->result);
     restitute_cvode_events_init(&log->events);
     log->events.event = log->event;
     log->events.capacity = most_events;
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
-    log->status = restitute_cvode_solve(solver, &impact, &log->result, NULL, NULL, &log->events, &error);
-    restitute_solver_destroy(solver);
+    log->status = restitute_solve(r.solver, &impact, &log->result, NULL, NULL, &error);
     CHECK(log->status >= 0, "%s", error.message);
+    CHECK(restitute_cvode_recorder_events(r.recorder, &log->events, &error) == RESTITUTE_OK, "%s", error.message);
+    end_recording(&r);
     CHECK(log->events.count <= most_events, "%zu events", log->events.count);
 }
 

@@ -63,7 +63,7 @@ static inline void draw_scene(uint64_t *random, enum reach reach, restitute_scen
     const int kind = random_below(random, 5);
     s->friction = kind == 0 ? 0 : kind == 1 ? INFINITY : friction;
     s->rotation_blocked = random_below(random, 6) == 0;
-    if (random_below(random, 4) == 0) s->density = draw_number(random, reach, extent);
+    if (random_below(random, 4) == 0) s->wave_density = draw_number(random, reach, extent);
 }
 
 static inline void draw_impact(uint64_t *random, enum reach reach, restitute_impact *i)
@@ -86,7 +86,7 @@ static inline struct drawn draw_case(uint64_t *random, enum reach reach, int num
     draw_scene(random, reach, &d.scene);
     draw_impact(random, reach, &d.impact);
     d.scene.material = d.material;
-    if (random_below(random, 2)) d.impact.solid = d.material;
+    if (random_below(random, 2)) d.impact.material = d.material;
     if (!d.material) d.is_scene = 0;
     if (d.is_scene)
         snprintf(d.text, sizeof d.text, "case %d: R %g %g, m %g %g, mu %g, v %.17g %.17g, spin %g", number,
@@ -94,7 +94,7 @@ static inline struct drawn draw_case(uint64_t *random, enum reach reach, int num
                  d.scene.tangential_speed, d.scene.spin1);
     else
         snprintf(d.text, sizeof d.text, "case %d: chi %.17g, psi %.17g, delta1 %.17g, gamma %.17g%s", number,
-                 d.impact.chi, d.impact.psi, d.impact.delta1, d.impact.gamma, d.impact.solid ? ", a solid" : "");
+                 d.impact.chi, d.impact.psi, d.impact.delta1, d.impact.gamma, d.impact.material ? ", a solid" : "");
     return d;
 }
 

@@ -31,7 +31,7 @@ static inline restitute_impact impact_of(double chi, double psi, double delta1, 
 static inline restitute_impact impact_on(const restitute_material *solid, double chi, double psi)
 {
     restitute_impact impact = impact_of(chi, psi, 0, INFINITY);
-    impact.solid = solid;
+    impact.material = solid;
     return impact;
 }
 

@@ -17,7 +17,7 @@ static inline restitute_options sync_with(int64_t elements)
 {
     restitute_options options = sync_to(1e-8);
     options.elements = elements;
-    options.max_updates = INT64_C(1000000000000);
+    options.max_work = INFINITY;
     return options;
 }
 

@@ -92,21 +92,21 @@ static inline int sweep_case(restitute_solver *solver, const struct drawn *d)
     return status;
 }
 
-static inline restitute_solver *solver_of(const restitute_method *method, double tolerance, int64_t max_updates)
+static inline restitute_solver *solver_of(const restitute_method *method, double tolerance, double max_work)
 {
     restitute_options options = to_tolerance(tolerance);
     restitute_solver *solver;
     options.method = method;
-    options.max_updates = max_updates;
+    options.max_work = max_work;
     CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
     return solver;
 }
 
-/* Random cases of each reach; some of the extreme ones are refused, and some take more than max_updates. */
+/* Random cases of each reach; some of the extreme ones are refused, and some take more than max_work. */
 static inline void sweep_random(const restitute_method *method, uint64_t seed, const int counts[REACHES],
-                                double tolerance, int64_t max_updates)
+                                double tolerance, double max_work)
 {
-    restitute_solver *solver = solver_of(method, tolerance, max_updates);
+    restitute_solver *solver = solver_of(method, tolerance, max_work);
     for (int reach = 0; reach < REACHES; reach++) {
         int done = 0;
         for (int n = 0; n < counts[reach]; n++) {
@@ -123,7 +123,7 @@ static inline void sweep_random(const restitute_method *method, uint64_t seed, c
  * that sinks. */
 static inline void sweep_known(const restitute_method *method, double tolerance, int every)
 {
-    restitute_solver *solver = solver_of(method, tolerance, 1000000000);
+    restitute_solver *solver = solver_of(method, tolerance, 1);
     struct truth rows[truth_rows];
     struct solid all[solids];
     struct drawn d = {0};
@@ -175,7 +175,7 @@ static inline void host_that_traps(const restitute_method *method)
 #ifdef RESTITUTE_HAVE_FEENABLEEXCEPT
     const double psis[] = {0, 0.6, 1.5, 6};
     for (int i = 0; i < 4; i++) {
-        restitute_solver *solver = solver_of(method, 1e-2, 1000000000);
+        restitute_solver *solver = solver_of(method, 1e-2, 1);
         restitute_impact impact = impact_of(7.0 / 6, psis[i], 1, 1);
         feenableexcept(TRAPPED);
         const int status = restitute_solve(solver, &impact, NULL, NULL, NULL, NULL);

@@ -33,7 +33,7 @@ static void use_twice(double tolerance, const restitute_material *solid, restitu
             const double gamma = random_log(&random, 1e-1, 10), delta1 = random_log(&random, 1e-2, 10);
             const double psi = random_in(&random, 0.05, 3), chi = random_in(&random, 0.4, 2);
             restitute_impact impact = impact_of(chi, psi, delta1, gamma);
-            impact.solid = solid;
+            impact.material = solid;
             CHECK(restitute_solve(solver, &impact, &result, ledger, history, NULL) == RESTITUTE_OK, "impact %d", i);
         }
         CHECK(round == 0 || allocator.count == before, "tolerance %g: %ld calls of the allocator", tolerance,

@@ -9,7 +9,7 @@
 
 #include "cvode/solve.h"
 
-#include "../support/solve.h"
+#include "../support/cvode.h"
 
 /* Standard output and standard error go to a file from capture() on; captured() undoes that and tells how much was written. */
 struct capture {
@@ -144,13 +144,15 @@ static void failures_have_the_words_of_cvode_and_print_nothing(void **state)
 /* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the limits of the run. */
 static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup), struct run *run)
 {
-    const struct rst_problem problem = {.chi = 8,
+    const struct rst_problem problem = {.method = restitute_method_cvode(),
+                                        .chi = 8,
                                         .psi = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = modulus},
                                         .tolerance = 1e-4,
+                                        .max_work = 10,
                                         .max_updates = 1000000000};
-    struct run_setup setup = rst_cvode_setup(&problem, NULL);
+    struct run_setup setup = rst_cvode_setup(&problem);
     struct trace trace = {0};
     *run = (struct run){0};
     int status = rst_run_follow(run, &setup, &trace, NULL); /* the normal side */
@@ -198,7 +200,7 @@ static void runs_without_end_are_ended_and_say_why(void **state)
         {1, spoil_nothing, RESTITUTE_OK, 0, ""},
         {1, allow_no_event, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "event storm"},
         {1, allow_thirty_steps, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "more than 30 steps"},
-        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, 1, "max_updates = 1000000000:"},
+        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, 1, "max_work = 10:"},
         {NAN, spoil_nothing, RESTITUTE_ERROR_INTEGRATOR, 0, "right-hand side"},
     };
     (void)state;
@@ -217,18 +219,20 @@ static void runs_without_end_are_ended_and_say_why(void **state)
 /* What becomes of it in a call: the status and the words. */
 static void a_call_hands_on_the_words_of_cvode(void **state)
 {
-    const struct rst_problem problem = {.chi = 8,
+    const struct rst_problem problem = {.method = restitute_method_cvode(),
+                                        .chi = 8,
                                         .psi = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = NAN},
                                         .tolerance = 1e-4,
+                                        .max_work = 10,
                                         .max_updates = 1000000000};
     struct cvode_memory memory = {.trace = {0}};
     struct rst_outcome outcome;
     restitute_error error = {.status = RESTITUTE_OK};
     (void)state;
     struct capture c = capture();
-    const int status = rst_cvode_solve(&problem, &memory, NULL, 0, &outcome, &error);
+    const int status = rst_cvode_solve(&problem, &memory, 0, &outcome, &error);
     const long written = captured(&c);
     rst_trace_release(&memory.trace);
     CHECK(written == 0, "%ld bytes printed", written);
