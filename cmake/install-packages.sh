@@ -12,7 +12,7 @@ set -eu
 
 run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
     libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox"
-test_packages="abigail-tools g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
+test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;

@@ -4,6 +4,7 @@
 #include <restitute/files.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -38,7 +39,7 @@ bool touching(const Body &first, const Body &second, Contact &c)
     return true;
 }
 
-/* ------------------------------------------------------------------------------------------------------- record */
+/* ---- record */
 
 void Record::add(const Record &other)
 {
@@ -75,7 +76,7 @@ std::string Record::warning(Ratio which, long long step) const
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
-                      "spheres were put into each other, or their contact was forgotten or found late",
+                      "spheres were created with an overlap, or their contact was lost or found late",
                       step, largest[DEPTH]);
     return line;
 }
@@ -86,10 +87,11 @@ void ContactModel::note(Ratio which, double ratio)
     record.beyond[which] += ratio > limits[which];
 }
 
-/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one step of approach at
- * most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact radius of 0.003 R, covers that up to steps
- * of 0.009 R. A larger tolerance would hide forgotten contacts of hard spheres at rest.
- * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
+/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one
+ * step of approach at most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact
+ * radius of 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide forgotten
+ * contacts of hard spheres at rest. v/c_s as for one impact of the library: with the modulus at the
+ * time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
     double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
@@ -102,12 +104,14 @@ void ContactModel::note_first_touch(const Contact &contact, double speed, double
     note(STEP, rates.step / limit);
 }
 
-/* ---------------------------------------------------------------------------------------------- words of a script */
+/* ---- words of a script */
 
 static double number(const std::string &word)
 {
-    double value;
-    if (restitute_number_read(word.c_str(), &value) != RESTITUTE_OK)
+    double value = NAN;
+    const char *end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value); /* whatever the locale */
+    if (read.ec != std::errc() || read.ptr != end || std::isnan(value))
         throw std::invalid_argument("'" + word + "': must be a number");
     return value;
 }
@@ -123,9 +127,10 @@ ContactModel::ContactModel(const std::vector<std::string> &words, const Units &u
     std::string partner;
     restitute_contact_law_options_init(&options);
     restitute_contact_motion_init(&motion);
+    restitute_contact_rates_init(&rates);
     try {
         read(units, options, partner);
-        if (partner != "") options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
+        options.deformable = partner == "" ? RESTITUTE_BOTH_BODIES_DEFORM : RESTITUTE_ONE_BODY_DEFORMS;
         if (partner != "" && partner != "rigid") join(partner, units);
         demand(restitute_contact_law_create(material, &options, &law, &error), error);
         remark = error.message;
@@ -179,11 +184,11 @@ void ContactModel::open(const std::string &file, const Units &units, restitute_m
     restitute_material_info info;
     double g_inf, eta;
     restitute_material_info_init(&info);
-    demand(restitute_material_read_info(file.c_str(), &si, &info, &error), error);
+    demand(restitute_material_read(file.c_str(), &si, &info, &error), error);
     if (info.density > 0) file_density = std::max(file_density, info.density / units.density);
     const size_t n = restitute_material_terms(si);
     std::vector<double> tau(n + 1), g(n + 1);
-    restitute_material_series(si, &g_inf, &eta, tau.data(), g.data());
+    restitute_material_series(si, &g_inf, &eta, tau.data(), g.data(), nullptr);
     for (double &modulus : g)
         modulus /= units.stress;
     const int status = restitute_material_prony(g_inf / units.stress, eta / units.stress, n, tau.data(), g.data(),
@@ -195,13 +200,13 @@ void ContactModel::open(const std::string &file, const Units &units, restitute_m
 /* Makes one solid of our material and the partner's. */
 void ContactModel::join(const std::string &partner, const Units &units)
 {
-    restitute_material *other, *pair;
+    restitute_material *other, *effective;
     open(partner, units, &other);
-    const int status = restitute_material_pair(material, other, &pair, &error);
+    const int status = restitute_material_effective(material, other, &effective, &error);
     restitute_material_destroy(other);
     demand(status, error);
     restitute_material_destroy(material);
-    material = pair;
+    material = effective;
 }
 
 std::string ContactModel::about() const
@@ -209,7 +214,7 @@ std::string ContactModel::about() const
     size_t kept;
     double bound;
     char text[200];
-    restitute_contact_law_series(law, nullptr, nullptr, &kept, nullptr, nullptr, &bound);
+    restitute_contact_law_series(law, nullptr, nullptr, &kept, nullptr, nullptr, &bound, nullptr);
     std::snprintf(text, sizeof text, ": law %016llx, %zu of %zu terms, G(t) within %.2g %%, %d numbers a contact",
                   (unsigned long long)hash(), kept, restitute_material_terms(material), 100 * bound, history_size());
     const std::string warning = remark.empty() ? "" : "WARNING: restitute: " + words[0] + ": " + remark + "\n";
@@ -226,7 +231,7 @@ int ContactModel::history_size() const
     return 1 + (int)restitute_contact_law_state_size(law);
 }
 
-/* ---------------------------------------------------------------------------------------------------- time steps */
+/* ---- time steps */
 
 const char *ContactModel::set_step(double step)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Saturn's rings with REBOUND: ice boulders in a patch that goes round the planet, whose impacts take their restitution
- * from a table. REBOUND asks for it by the speed, through its callback `coefficient_of_restitution`.
+ * Saturn's rings with REBOUND: ice boulders in a patch that goes round the planet, whose impacts
+ * take their restitution from a table. REBOUND asks for it by the speed, through its callback
+ * `coefficient_of_restitution`.
  *
  *   ring [ORBITS]          default 40, some ten seconds
  *
@@ -23,15 +24,16 @@ struct impacts {
     double count, sum_ez, energy, energy_ez2; /* energy: sum of v^2 */
 };
 
-/* What REBOUND calls. Its speed is negative: bodies that approach. The simulation's `extras` is ours. */
+/* What REBOUND calls. Its speed is negative: bodies that approach. The simulation's `extras` is
+ * ours. */
 static double restitution(const struct reb_simulation *const r, double v)
 {
     struct impacts *impacts = r->extras;
-    restitute_table_value pair = {0, 0};
-    if (restitute_table_pair(impacts->table, fabs(v), 0, &pair) < 0) return NAN; /* v is not finite */
-    impacts->count += 1, impacts->sum_ez += pair.ez;
-    impacts->energy += v * v, impacts->energy_ez2 += v * v * pair.ez * pair.ez;
-    return pair.ez;
+    double ez;
+    if (restitute_table_pair(impacts->table, NULL, fabs(v), 0, &ez, NULL, NULL) < 0) return NAN; /* v is not finite */
+    impacts->count += 1, impacts->sum_ez += ez;
+    impacts->energy += v * v, impacts->energy_ez2 += v * v * ez * ez;
+    return ez;
 }
 
 static double boulder_mass(void)
@@ -39,7 +41,8 @@ static double boulder_mass(void)
     return 4.0 / 3 * acos(-1.0) * DENSITY * RADIUS * RADIUS * RADIUS;
 }
 
-/* REBOUND's spheres have no spin and its callback no tangential part: a table of ez alone, without friction. */
+/* REBOUND's spheres have no spin and its callback no tangential part: a table of ez alone, without
+ * friction. */
 static int build_table(restitute_table **table, restitute_error *error)
 {
     restitute_material *ice = NULL;
@@ -68,7 +71,7 @@ static struct reb_simulation *simulation(struct impacts *impacts)
     return r;
 }
 
-/* ------------------------------------------------------------------------------------------------------- two spheres */
+/* ---- two spheres */
 
 /* Component along the line of two spheres at which the second leaves the first. */
 static double opening(const struct reb_particle *a, const struct reb_particle *b, double vx, double vy, double vz)
@@ -77,8 +80,9 @@ static double opening(const struct reb_particle *a, const struct reb_particle *b
     return (x * vx + y * vy + z * vz) / sqrt(x * x + y * y + z * z);
 }
 
-/* Two boulders touch, approach at the speed v along their line, in any direction, and slide at v past each other. Sets
- * `before` and `after` to the speeds along the line where REBOUND saw them collide. */
+/* Two boulders touch, approach at the speed v along their line, in any direction, and slide at v
+ * past each other. Sets `before` and `after` to the speeds along the line where REBOUND saw them
+ * collide. */
 static void collide_pair(struct impacts *impacts, double v, double longitude, double height, double *before,
                          double *after)
 {
@@ -107,11 +111,10 @@ static int check(const restitute_table *table)
     double worst = 0;
     const int pairs = 600;
     for (int i = 0; i < pairs; ++i) {
-        double before, after;
-        restitute_table_value pair;
+        double before, after, ez;
         collide_pair(&impacts, 1e-6 * pow(10, i * 6.0 / pairs), 0.1 * i, sin(i), &before, &after);
-        if (restitute_table_pair(table, before, 0, &pair) < 0) return -1;
-        worst = fmax(worst, fabs(after / before - pair.ez));
+        if (restitute_table_pair(table, NULL, before, 0, &ez, NULL, NULL) < 0) return -1;
+        worst = fmax(worst, fabs(after / before - ez));
     }
     /* REBOUND turns the line onto an axis and back, by two angles: some ten roundings of 1e-16. */
     const int good = impacts.count == pairs && worst < 1e-14;
@@ -120,7 +123,7 @@ static int check(const restitute_table *table)
     return good ? 0 : -1;
 }
 
-/* -------------------------------------------------------------------------------------------------------------- ring */
+/* ---- ring */
 
 static struct reb_simulation *ring(struct impacts *impacts)
 {

@@ -1,4 +1,5 @@
-!> Springs and dashpots over one time step, exact for a velocity that is linear in it (docs/contact.md), and the width of a new contact.
+!> Springs and dashpots over one time step, exact for a velocity that is linear in it
+!> (docs/contact.md), and the width of a new contact.
 module rst_contact_rates
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_motion_factors, only: elastic_contact_time
@@ -10,8 +11,8 @@ module rst_contact_rates
 
 contains
 
-  !> One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement even over the step; by a unit
-  !> change of velocity from the mean of the step to its end.
+  !> One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement
+  !> even over the step; by a unit change of velocity from the mean of the step to its end.
   elemental subroutine arm_of(step, tau, decay, gain, bend)
     real(dp), intent(in) :: step, tau
     real(dp), intent(out) :: decay, gain, bend
@@ -31,7 +32,7 @@ contains
   pure subroutine set_rates(law, step, rates) bind(c, name="rst_law_rates")
     type(law_type), intent(in) :: law
     real(c_double), intent(in), value :: step
-    type(rates_type), intent(out) :: rates
+    type(rates_type), intent(inout) :: rates
     real(dp) :: stiffness
     integer(ip) :: k
     rates%step = step
@@ -49,8 +50,9 @@ contains
     rates%compliance = 1/stiffness
   end subroutine set_rates
 
-  !> Change of the velocity until the end of the step by a unit force that holds it back, with a damping of that force over
-  !> velocity. Such that a mere dashpot decays by exp(-damping dt/m) in a velocity-Verlet step, however strong it is.
+  !> Change of the velocity until the end of the step by a unit force against it; damping: force
+  !> over velocity. Corrected so that a mere dashpot of any strength decays by exp(-damping dt/m) in
+  !> a velocity-Verlet step.
   elemental function velocity_response(mobility, damping) result(response)
     real(dp), intent(in) :: mobility, damping  !! mobility: step/(2 m)
     real(dp) :: response, z, share
@@ -63,8 +65,9 @@ contains
     response = 2*mobility*share/(1 + z*share)
   end function velocity_response
 
-  !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24) with the mean modulus over
-  !> 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a parallel dashpot +-3 %, its part is fitted).
+  !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24)
+  !> with the mean modulus over 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a
+  !> parallel dashpot +-3 %, its part is fitted).
   pure function largest_overlap(law, mass, speed, radius) result(d)
     type(law_type), intent(in) :: law
     real(c_double), intent(in), value :: mass, speed, radius

@@ -34,6 +34,10 @@ struct rst_layout {
 /* A status: `value`, a struct restitute_NAME of the caller, was prepared with headers that are not later than ours. */
 #define RST_CHECK(NAME, value, error) rst_check_layout(&(const struct rst_layout)RST_LAYOUT(NAME), value, error)
 
+/* The same in a hot call, in place: no function is called. */
+#define RST_IS_SIZED(NAME, value)                                                                                      \
+    (RST_SIZE_UP_TO(restitute_##NAME, RST_LAST_##NAME) <= (value)->struct_size && (value)->struct_size <= sizeof *(value))
+
 /* Ours becomes theirs, which is checked, with defaults for what they have not. */
 #define RST_TAKE(NAME, ours, theirs) (restitute_##NAME##_init(ours), rst_copy(ours, sizeof *(ours), theirs))
 

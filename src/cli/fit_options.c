@@ -76,7 +76,7 @@ static bool word(const char *option, const char *text, const char *const *words,
 static bool read_terms(struct fit_settings *s, struct reason *why)
 {
     char *list = s->text[FIT_TERMS] ? copy_of(s->text[FIT_TERMS]) : NULL, *rest = NULL;
-    bool good = (s->options.model == RESTITUTE_FIT_PRONY) == (list != NULL) ||
+    bool good = (s->options.model == RESTITUTE_FIT_MODEL_PRONY) == (list != NULL) ||
                 refuse(why, "--terms and --model prony belong together");
     for (char *item = list ? strtok_r(list, ",", &rest) : NULL; item && good; item = strtok_r(NULL, ",", &rest))
         good = s->options.terms < 20
@@ -89,11 +89,11 @@ static bool read_terms(struct fit_settings *s, struct reason *why)
 /* The place of a constant in the model. */
 static int constant_place(const restitute_fit_options *o, const char *name)
 {
-    static const char *const names[][4] = {[RESTITUTE_FIT_ELASTIC] = {"modulus"},
-                                           [RESTITUTE_FIT_KELVIN_VOIGT] = {"modulus1", "viscosity"},
-                                           [RESTITUTE_FIT_STANDARD_SOLID] = {"modulus1", "modulus2", "viscosity"},
-                                           [RESTITUTE_FIT_MAXWELL] = {"modulus", "viscosity"},
-                                           [RESTITUTE_FIT_PRONY] = {"equilibrium"}};
+    static const char *const names[][4] = {[RESTITUTE_FIT_MODEL_ELASTIC] = {"modulus"},
+                                           [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = {"modulus1", "viscosity"},
+                                           [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = {"modulus1", "modulus2", "viscosity"},
+                                           [RESTITUTE_FIT_MODEL_MAXWELL] = {"modulus", "viscosity"},
+                                           [RESTITUTE_FIT_MODEL_PRONY] = {"equilibrium"}};
     int term;
     char more;
     for (int i = 0; i < 4 && names[o->model][i]; i++)
@@ -116,7 +116,7 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         else if (!isnan(s->known[place]))
             good = refuse(why, "--known: %s is given twice", item);
         else
-            good = option_number("known", equals + 1, s->options.model == RESTITUTE_FIT_PRONY ? 0 : 1e-30, 1e30, false,
+            good = option_number("known", equals + 1, s->options.model == RESTITUTE_FIT_MODEL_PRONY ? 0 : 1e-30, 1e30, false,
                                  &s->known[place], why);
     }
     free(list);
@@ -165,8 +165,8 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     restitute_fit_options *o = &s->options;
     double starts = o->starts, seed = (double)o->seed, threads = -1;
     const bool good =
-        word("model", s->text[FIT_MODEL], fit_models, RESTITUTE_FIT_ELASTIC, &o->model, why) &&
-        word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_SQUARES, &o->loss, why) &&
+        word("model", s->text[FIT_MODEL], fit_models, RESTITUTE_FIT_MODEL_ELASTIC, &o->model, why) &&
+        word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_LOSS_SQUARES, &o->loss, why) &&
         read_terms(s, why) && read_known(s, why) && read_wlf(s, why) &&
         option_number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, false, &o->confidence, why) &&
         option_number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, false, &o->reference_temperature,

@@ -6,6 +6,7 @@
 #include <restitute/fit.h>
 
 #include "arguments.h"
+#include "files/csv_table.h"
 #include "problem.h"
 
 enum fit_text {
@@ -43,7 +44,7 @@ struct fit_settings {
     const char *const *arguments;
 };
 
-extern const char *const fit_models[]; /* names, from RESTITUTE_FIT_ELASTIC on */
+extern const char *const fit_models[]; /* names, from RESTITUTE_FIT_MODEL_ELASTIC on */
 
 /* STOP: help was printed, FAILED: a complaint. To be released in any case. */
 enum reading fit_options_read(int count, char **arguments, struct fit_settings *settings);
@@ -52,11 +53,12 @@ void fit_options_release(struct fit_settings *settings);
 /* The measurements of --input or --dma. */
 struct fit_input {
     const char *source;
-    restitute_csv *csv;
+    struct rst_csv *csv;
     struct materials materials; /* of partners */
     size_t n;
     double *numbers; /* of the columns */
     restitute_fit_point *points;
+    restitute_scene *scenes; /* of the points */
     const double *frequency, *storage, *loss, *temperature; /* of --dma; temperature NULL: no such column */
 };
 

@@ -7,20 +7,14 @@
 #include <string.h>
 
 #include "base/report.h"
+#include "base/sized.h"
 
-void restitute_contact_law_options_init(restitute_contact_law_options *options)
-{
-    if (!options) return;
-    *options = (restitute_contact_law_options){
-        .struct_size = sizeof *options, .deformable = RESTITUTE_BOTH_BODIES_DEFORM, .elements = 8, .terms = 4};
-}
+RST_DEFAULTS(contact_law_options, .deformable = RESTITUTE_ONE_BODY_DEFORMS, .elements = 8, .terms = 4)
+
+RST_DEFAULTS(contact_rates, .struct_size = 0)
 
 static int check_options(const restitute_contact_law_options *o, restitute_error *error)
 {
-    if (o->struct_size != sizeof *o)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "options.struct_size = %zu: must be %zu; prepare it with restitute_contact_law_options_init",
-                          o->struct_size, sizeof *o);
     if (o->deformable != RESTITUTE_ONE_BODY_DEFORMS && o->deformable != RESTITUTE_BOTH_BODIES_DEFORM)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.deformable = %d: must be 1 or 2 bodies", o->deformable);
     if (o->elements < 8 || o->elements > rst_most_nodes || o->elements % 8)
@@ -43,7 +37,8 @@ static int check_times(const restitute_contact_law_options *o, size_t n_terms, r
                       o->shortest, o->longest, least, largest, n_terms, o->terms);
 }
 
-/* Of the bound on the relative error of G(t). The error of ez is up to a third of it (docs/contact.md). */
+/* Of the bound on the relative error of G(t). The error of ez is up to a third of it
+ * (docs/contact.md). */
 static const double remarkable_error = 0.2, largest_error = 0.5;
 
 static int judge_reduction(const restitute_contact_law_options *o, size_t n_terms, double bound, restitute_error *error)
@@ -62,7 +57,7 @@ static int judge_reduction(const restitute_contact_law_options *o, size_t n_term
         o->terms, o->shortest, o->longest, n_terms, 100 * bound, poor ? "" : ", at most 50 % are allowed");
 }
 
-/* The material's series, all of it or reduced. */
+/* The series of the material, complete or reduced. */
 static int take_series(const restitute_material *material, const restitute_contact_law_options *options,
                        restitute_contact_law *law, restitute_error *error)
 {
@@ -70,7 +65,7 @@ static int take_series(const restitute_material *material, const restitute_conta
     const size_t n = restitute_material_terms(material);
     if (n <= (size_t)options->terms) {
         k->n_terms = (int64_t)n;
-        restitute_material_series(material, &k->g_inf, &k->eta, k->tau, k->g);
+        restitute_material_series(material, &k->g_inf, &k->eta, k->tau, k->g, NULL);
         return RESTITUTE_OK;
     }
     const int status = check_times(options, n, error);
@@ -78,7 +73,7 @@ static int take_series(const restitute_material *material, const restitute_conta
     double *tau = malloc(2 * n * sizeof *tau);
     if (!tau) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", n);
     struct rst_series series = {.n_terms = n, .tau = tau, .g = tau + n};
-    restitute_material_series(material, &series.g_inf, &series.eta, tau, tau + n);
+    restitute_material_series(material, &series.g_inf, &series.eta, tau, tau + n, NULL);
     rst_reduce_series(&series, options->terms, options->shortest, options->longest, k, &law->error_bound);
     free(tau);
     return judge_reduction(options, n, law->error_bound, error);
@@ -106,29 +101,32 @@ static uint64_t hash_of(const struct rst_law *kernel)
 int restitute_contact_law_create(const restitute_material *material, const restitute_contact_law_options *options,
                                  restitute_contact_law **law, restitute_error *error)
 {
-    restitute_contact_law_options defaults;
+    restitute_contact_law_options own;
+    int status = RESTITUTE_OK;
     if (!material || !law)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "law" : "material");
-    restitute_contact_law_options_init(&defaults);
-    if (!options) options = &defaults;
-    int status = check_options(options, error);
+    if (options) status = RST_CHECK(contact_law_options, options, error);
+    if (status) return status;
+    restitute_contact_law_options_init(&own);
+    if (options) rst_copy(&own, sizeof own, options);
+    status = check_options(&own, error);
     if (status) return status;
     restitute_contact_law *made = calloc(1, sizeof *made);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a contact law");
-    status = take_series(material, options, made, error);
+    status = take_series(material, &own, made, error);
     if (status < 0) {
         free(made);
         return status;
     }
     struct rst_law *k = &made->kernel;
     const double nu = restitute_material_poisson_ratio(material);
-    k->n = options->elements;
-    k->slips = !options->frictionless;
-    k->accounts = options->energies != 0;
+    k->n = own.elements;
+    k->slips = !own.frictionless;
+    k->accounts = own.energies != 0;
     k->surface = k->eta > 0 || !(k->g_inf > 0);
     k->normal = 4 / (1 - nu);
     k->tangential = 8 / (2 - nu);
-    made->halved = options->deformable == RESTITUTE_BOTH_BODIES_DEFORM;
+    made->halved = own.deformable == RESTITUTE_BOTH_BODIES_DEFORM;
     if (made->halved) halve(k);
     k->compliance = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
@@ -155,9 +153,9 @@ uint64_t restitute_contact_law_hash(const restitute_contact_law *law)
 
 int restitute_contact_law_series(const restitute_contact_law *law, double *equilibrium_modulus,
                                  double *parallel_viscosity, size_t *n_terms, double *relaxation_time, double *modulus,
-                                 double *error_bound)
+                                 double *error_bound, restitute_error *error)
 {
-    if (!law) return RESTITUTE_ERROR_NULL;
+    if (!law) return rst_report(error, RESTITUTE_ERROR_NULL, "law is NULL");
     const struct rst_law *k = &law->kernel;
     const double whole = law->halved ? 2 : 1;
     if (equilibrium_modulus) *equilibrium_modulus = whole * k->g_inf;
@@ -168,7 +166,7 @@ int restitute_contact_law_series(const restitute_contact_law *law, double *equil
         if (modulus) modulus[i] = whole * k->g[i];
     }
     if (error_bound) *error_bound = law->error_bound;
-    return RESTITUTE_OK;
+    return rst_done(error);
 }
 
 static int check_positive(double value, const char *name, restitute_error *error)
@@ -180,11 +178,15 @@ static int check_positive(double value, const char *name, restitute_error *error
 int restitute_contact_rates_set(const restitute_contact_law *law, double step, restitute_contact_rates *rates,
                                 restitute_error *error)
 {
+    restitute_contact_rates made;
     if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
-    const int status = check_positive(step, "step (s)", error);
+    int status = RST_CHECK(contact_rates, rates, error);
+    if (!status) status = check_positive(step, "step (s)", error);
     if (status) return status;
-    rst_law_rates(&law->kernel, step, rates);
-    rates->law = law->hash;
+    restitute_contact_rates_init(&made);
+    rst_law_rates(&law->kernel, step, &made);
+    made.law = law->hash;
+    RST_GIVE(&made, rates);
     return rst_done(error);
 }
 

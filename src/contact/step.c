@@ -1,13 +1,15 @@
-/* Steps of contacts: what is refused, and the mark of the law in the state.
+/* Steps of contacts: checks of the input, and the mark of the law in the state.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/report.h"
+#include "base/sized.h"
 #include "contact/law.h"
 
-/* The lowest bits of the grid width, the first number of a state, are those of the law's hash: a width needs no nine digits. */
+/* The first number of a state is the grid width. Its lowest bits are replaced by bits of the hash
+ * of the law, since a width does not need all its digits. */
 static const uint64_t mark_bits = (1u << 24) - 1;
 
 static uint64_t bits_of(double value)
@@ -33,19 +35,18 @@ static int is_unit(const double v[3])
     return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
 }
 
-/* Ranges that the arithmetic holds: radii and masses of anything. */
+/* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
 static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e30, largest_friction = 1e6;
 
-void restitute_contact_motion_init(restitute_contact_motion *motion)
-{
-    if (!motion) return;
-    *motion = (restitute_contact_motion){.struct_size = sizeof *motion, .normal = {0, 0, 1}};
-}
+RST_DEFAULTS(contact_motion, .normal = {0, 0, 1})
 
-/* One test for all: comparisons are false for NaN. */
+RST_DEFAULTS(contact_energies, .struct_size = 0)
+
+/* Motions and rates are read in place, since every caller's have what a step needs. One test for all: comparisons are
+ * false for NaN. */
 static int is_good(const restitute_contact_rates *rates, const restitute_contact_motion *m)
 {
-    if (m->struct_size != sizeof *m) return 0;
+    if (!RST_IS_SIZED(contact_motion, m)) return 0;
     const double *u = m->displacement, r = m->radius;
     return r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
            fabs(m->normal_velocity) <= r / rates->step && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
@@ -73,13 +74,11 @@ static int check_unit(const double *v, const char *name, restitute_error *error)
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1], v[2]);
 }
 
-/* The first thing that is wrong with a motion that is not good. */
+/* Report the first wrong value of a motion that failed the test. */
 static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
 {
-    if (m->struct_size != sizeof *m)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "motion.struct_size = %zu: must be %zu; prepare it with restitute_contact_motion_init",
-                          m->struct_size, sizeof *m);
+    const int status = RST_CHECK(contact_motion, m, error);
+    if (status) return status;
     const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
     const struct {
         const char *name;
@@ -125,7 +124,7 @@ static int refuse_corrupt(restitute_error *error)
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
 }
 
-/* A checked step; what is refused leaves nothing behind. */
+/* A checked step. A refused step changes nothing. */
 static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                    restitute_error *error)
@@ -152,6 +151,7 @@ static int check_call(const restitute_contact_law *law, const restitute_contact_
     if (!law || !rates || !motion || !state || !force)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
                           !law ? "law" : !rates ? "rates" : !motion ? "motion" : !state ? "state" : "force");
+    if (!RST_IS_SIZED(contact_rates, rates)) return RST_CHECK(contact_rates, rates, error);
     if (rates->law != law->hash)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "rates: are of another law; make them with restitute_contact_rates_set");
@@ -174,13 +174,14 @@ int restitute_contact_step_many(const restitute_contact_law *law, const restitut
     int first = RESTITUTE_OK;
     restitute_error its;
     if (n == 0) return rst_done(error);
-    const int status = check_call(law, rates, motions, states, forces, error);
+    int status = check_call(law, rates, motions, states, forces, error);
+    if (!status) status = RST_CHECK(contact_motion, motions, error);
     if (status) return status;
     if (stride < law->size)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "stride = %zu: must be at least the size of a state, %zu",
                           stride, law->size);
     for (size_t i = 0; i < n; i++) {
-        const int one = advance(law, rates, &motions[i], states + i * stride, &forces[i], &its);
+        const int one = advance(law, rates, rst_at(motions, i), states + i * stride, &forces[i], &its);
         if (statuses) statuses[i] = one;
         if (one && !first) first = rst_report(error, one, "contact[%zu]: %.220s", i, its.message);
     }
@@ -200,10 +201,11 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
     return rst_done(error);
 }
 
-int restitute_contact_energies_of(const restitute_contact_law *law, double radius, const double *state,
-                                  restitute_contact_energies *energies, restitute_error *error)
+int restitute_contact_energies_get(const restitute_contact_law *law, double radius, const double *state,
+                                   restitute_contact_energies *energies, restitute_error *error)
 {
-    const int status = check_state(law, state, energies, "energies", error);
+    int status = check_state(law, state, energies, "energies", error);
+    if (!status) status = RST_CHECK(contact_energies, energies, error);
     if (status) return status;
     if (!law->kernel.accounts)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without energies");
@@ -211,7 +213,13 @@ int restitute_contact_energies_of(const restitute_contact_law *law, double radiu
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
                           largest_radius);
     const double *account = state + law->size - 2, stored = rst_law_stored(&law->kernel, radius, state);
-    *energies = (restitute_contact_energies){stored, account[1], account[0] - stored - account[1]};
+    const restitute_contact_energies found = {
+        .struct_size = sizeof found,
+        .stored = stored,
+        .friction = account[1],
+        .viscous = account[0] - stored - account[1],
+    };
+    RST_GIVE(&found, energies);
     return rst_done(error);
 }
 

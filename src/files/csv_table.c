@@ -1,9 +1,12 @@
 /* CSV tables: libcsv splits the text into cells; this file keeps them and checks that they form a table.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "files/csv_table.h"
+
 #include <csv.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/report.h"
 #include "files/file_text.h"
 
 /* A growing array of bytes or of positions. */
@@ -12,7 +15,7 @@ struct buffer {
     size_t count, capacity;
 };
 
-struct restitute_csv {
+struct rst_csv {
     size_t columns, rows;
     struct buffer text;  /* char: all cells, each with its NUL */
     struct buffer cells; /* size_t: where in text each cell begins, header first, row by row */
@@ -22,7 +25,7 @@ struct restitute_csv {
 
 /* State of a reading: libcsv calls back for every cell and for every end of a row. */
 struct reading {
-    restitute_csv *csv;
+    struct rst_csv *csv;
     const char *name;
     size_t line;      /* current line of the file */
     size_t row_start; /* cells before the current row */
@@ -53,7 +56,7 @@ static int no_memory(struct reading *reading)
 static void on_cell(void *bytes, size_t length, void *data)
 {
     struct reading *reading = data;
-    restitute_csv *csv = reading->csv;
+    struct rst_csv *csv = reading->csv;
     if (reading->status != RESTITUTE_OK) return;
     if (memchr(bytes, '\0', length)) {
         reading->status = rst_report(reading->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: a NUL byte; not a text file",
@@ -72,7 +75,7 @@ static void on_cell(void *bytes, size_t length, void *data)
     text[length] = '\0';
 }
 
-static const char *cell_text(const restitute_csv *csv, size_t cell)
+static const char *cell_text(const struct rst_csv *csv, size_t cell)
 {
     return (const char *)csv->text.items + ((const size_t *)csv->cells.items)[cell];
 }
@@ -103,7 +106,7 @@ static size_t first_repeated(struct named_column *names, size_t columns)
 /* The header: every column has a name, and none has another's. */
 static int check_names(struct reading *reading)
 {
-    const restitute_csv *csv = reading->csv;
+    const struct rst_csv *csv = reading->csv;
     struct named_column *names = malloc(csv->columns * sizeof *names);
     if (!names) return no_memory(reading);
     int status = RESTITUTE_OK;
@@ -125,7 +128,7 @@ static void on_row_end(int terminator, void *data)
 {
     (void)terminator;
     struct reading *reading = data;
-    restitute_csv *csv = reading->csv;
+    struct rst_csv *csv = reading->csv;
     if (reading->status != RESTITUTE_OK) return;
     size_t *line = buffer_append(&csv->lines, 1, sizeof *line);
     if (!line) {
@@ -196,12 +199,12 @@ static int parse_table(struct reading *reading, const struct file_text *text)
     return reading->status;
 }
 
-int rst_csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error)
+int rst_csv_read(const char *path, uint64_t most, struct rst_csv **csv, restitute_error *error)
 {
     struct file_text text;
     int status = rst_file_text_read(path, most, &text, error);
     if (status != RESTITUTE_OK) return status;
-    restitute_csv *table = calloc(1, sizeof *table);
+    struct rst_csv *table = calloc(1, sizeof *table);
     struct reading reading = {table, rst_file_name_for_message(path), 0, 0, RESTITUTE_OK, error};
     if (!table)
         status = no_memory(&reading);
@@ -212,19 +215,13 @@ int rst_csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, r
         *csv = table;
         rst_done(error);
     } else {
-        restitute_csv_destroy(table);
+        rst_csv_destroy(table);
     }
     free(text.bytes);
     return status;
 }
 
-int restitute_csv_read(const char *path, restitute_csv **csv, restitute_error *error)
-{
-    if (!path || !csv) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "csv" : "path");
-    return rst_csv_read_bounded(path, FILE_TEXT_OF_TABLE, csv, error);
-}
-
-void restitute_csv_destroy(restitute_csv *csv)
+void rst_csv_destroy(struct rst_csv *csv)
 {
     if (!csv) return;
     free(csv->text.items);
@@ -233,33 +230,32 @@ void restitute_csv_destroy(restitute_csv *csv)
     free(csv);
 }
 
-size_t restitute_csv_rows(const restitute_csv *csv)
+size_t rst_csv_rows(const struct rst_csv *csv)
 {
-    return csv ? csv->rows : 0;
+    return csv->rows;
 }
 
-size_t restitute_csv_columns(const restitute_csv *csv)
+size_t rst_csv_columns(const struct rst_csv *csv)
 {
-    return csv ? csv->columns : 0;
+    return csv->columns;
 }
 
-const char *restitute_csv_name(const restitute_csv *csv, size_t column)
+const char *rst_csv_name(const struct rst_csv *csv, size_t column)
 {
-    return csv && column < csv->columns ? cell_text(csv, column) : NULL;
+    return cell_text(csv, column);
 }
 
-const char *restitute_csv_cell(const restitute_csv *csv, size_t row, size_t column)
+const char *rst_csv_cell(const struct rst_csv *csv, size_t row, size_t column)
 {
-    if (!csv || row >= csv->rows || column >= csv->columns) return NULL;
     return cell_text(csv, (row + 1) * csv->columns + column);
 }
 
-size_t restitute_csv_line(const restitute_csv *csv, size_t row)
+size_t rst_csv_line(const struct rst_csv *csv, size_t row)
 {
-    return csv && row < csv->rows ? ((const size_t *)csv->lines.items)[row + 1] : 0;
+    return ((const size_t *)csv->lines.items)[row + 1];
 }
 
-uint64_t restitute_csv_fingerprint(const restitute_csv *csv)
+uint64_t rst_csv_fingerprint(const struct rst_csv *csv)
 {
-    return csv ? csv->fingerprint : 0;
+    return csv->fingerprint;
 }

@@ -4,6 +4,12 @@
 
 #include "files/file_text.h"
 
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/report.h"
 #include "base/whole_file.h"
 
 const char *rst_file_name_for_message(const char *path)

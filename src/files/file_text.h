@@ -3,9 +3,7 @@
 #ifndef RESTITUTE_FILE_TEXT_H
 #define RESTITUTE_FILE_TEXT_H
 
-#include <restitute/files.h>
-
-#include "base/report.h"
+#include <restitute/restitute.h>
 
 /* A file in memory; `bytes` has a NUL behind its `length` bytes. */
 struct file_text {
@@ -13,15 +11,8 @@ struct file_text {
     size_t length;
 };
 
-/* Most bytes: of a material, 64 MiB, a million of terms; of a table of cells, 4 GiB. */
-#define FILE_TEXT_OF_MATERIAL (UINT64_C(1) << 26)
-#define FILE_TEXT_OF_TABLE (UINT64_C(1) << 32)
-
 /* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees text->bytes. */
 int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
-
-/* A CSV table of up to `most` bytes. */
-int rst_csv_read_bounded(const char *path, uint64_t most, restitute_csv **csv, restitute_error *error);
 
 /* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */
 #define FILE_FINGERPRINT_START UINT64_C(14695981039346656037)

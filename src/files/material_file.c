@@ -8,6 +8,11 @@
 #include <string.h>
 #include <strings.h>
 
+#include <restitute/files.h>
+
+#include "base/report.h"
+#include "base/sized.h"
+#include "files/csv_table.h"
 #include "files/file_text.h"
 #include "files/json_place.h"
 #include "files/prony_terms.h"
@@ -54,13 +59,7 @@ static const struct model {
 };
 enum { MODEL_COUNT = sizeof models / sizeof models[0], NUMBER_COUNT = sizeof number_keys / sizeof number_keys[0] };
 
-void restitute_material_info_init(restitute_material_info *info)
-{
-    if (!info) return;
-    memset(info, 0, sizeof *info);
-    info->struct_size = sizeof *info;
-    info->density = NAN;
-}
+RST_DEFAULTS(material_info, .density = NAN)
 
 /* Copy a text that is to fit into `size` bytes. */
 static int copy_text(const struct material_file *file, const char *key, int required, char *target, size_t size)
@@ -289,10 +288,9 @@ static int material_from_root(struct material_file *file, restitute_material **m
     const struct model *model = NULL;
     int status = read_content(file, &content, &model);
     if (status == RESTITUTE_OK) status = create_material(file, model, &content, material);
-    if (status == RESTITUTE_OK && info) {
-        content.info.fingerprint = file->fingerprint;
-        *info = content.info;
-    }
+    if (status != RESTITUTE_OK) return status;
+    *info = content.info;
+    info->fingerprint = file->fingerprint;
     return status;
 }
 
@@ -300,7 +298,7 @@ static int read_json_material(const char *path, restitute_material **material, r
                               restitute_error *error)
 {
     struct file_text text;
-    int status = rst_file_text_read(path, FILE_TEXT_OF_MATERIAL, &text, error);
+    int status = rst_file_text_read(path, RST_BYTES_OF_MATERIAL, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
     struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
@@ -330,30 +328,29 @@ static int read_csv_material(const char *path, restitute_material **material, re
     status = restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, &why);
     rst_prony_terms_release(&terms);
     if (status != RESTITUTE_OK) return rst_report(error, status, "%s: %s", rst_file_name_for_message(path), why.message);
-    rst_done(error);
-    if (!info) return status;
     const char *slash = strrchr(path, '/');
-    restitute_material_info_init(info);
     snprintf(info->name, sizeof info->name, "%.127s", slash ? slash + 1 : path);
     snprintf(info->model, sizeof info->model, "prony");
     info->fingerprint = fingerprint;
-    return status;
+    return rst_done(error);
 }
 
-int restitute_material_read_info(const char *path, restitute_material **material, restitute_material_info *info,
-                                 restitute_error *error)
+int restitute_material_read(const char *path, restitute_material **material, restitute_material_info *info,
+                            restitute_error *error)
 {
+    restitute_material_info own;
+    int status = RESTITUTE_OK;
     if (!path || !material) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "material" : "path");
-    if (info && info->struct_size != sizeof *info)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "info was not prepared by restitute_material_info_init");
+    if (info && (status = RST_CHECK(material_info, info, error))) return status;
+    restitute_material_info_init(&own);
     const char *extension = strrchr(path, '.');
-    if (extension && strcasecmp(extension, ".json") == 0) return read_json_material(path, material, info, error);
-    if (extension && strcasecmp(extension, ".csv") == 0) return read_csv_material(path, material, info, error);
-    return rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
-                      rst_file_name_for_message(path));
-}
-
-int restitute_material_read(const char *path, restitute_material **material, restitute_error *error)
-{
-    return restitute_material_read_info(path, material, NULL, error);
+    if (extension && strcasecmp(extension, ".json") == 0)
+        status = read_json_material(path, material, &own, error);
+    else if (extension && strcasecmp(extension, ".csv") == 0)
+        status = read_csv_material(path, material, &own, error);
+    else
+        status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
+                            rst_file_name_for_message(path));
+    if (status == RESTITUTE_OK && info) RST_GIVE(&own, info);
+    return status;
 }

@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
+#include "files/number.h"
+
 #include <errno.h>
 #include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-
-#include <restitute/files.h>
 
 /* strtod also takes leading blanks, hexadecimal and "nan(...)", none of which belongs in a table. */
 static int only_number_characters(const char *text)
@@ -19,9 +19,8 @@ static int only_number_characters(const char *text)
     return *text != '\0' && strspn(text, "0123456789+-.eE") == strlen(text);
 }
 
-int restitute_number_read(const char *text, double *value)
+int rst_number_read(const char *text, double *value)
 {
-    if (!text || !value) return RESTITUTE_ERROR_NULL;
     if (!only_number_characters(text)) return RESTITUTE_ERROR_FORMAT;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (plain == (locale_t)0) return RESTITUTE_ERROR_MEMORY;

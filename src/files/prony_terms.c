@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/report.h"
+#include "files/csv_table.h"
 #include "files/file_text.h"
+#include "files/number.h"
 
 int rst_prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error)
 {
@@ -74,12 +77,12 @@ int rst_prony_terms_check(const struct prony_terms *terms, const char *file, con
 }
 
 /* Exactly the two columns, in any order. */
-static int find_columns(const restitute_csv *csv, const char *file, size_t column[2], restitute_error *error)
+static int find_columns(const struct rst_csv *csv, const char *file, size_t column[2], restitute_error *error)
 {
     static const char *const names[2] = {"tau_s", "G_Pa"};
     int found[2] = {0, 0};
-    for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
-        const char *name = restitute_csv_name(csv, i);
+    for (size_t i = 0; i < rst_csv_columns(csv); i++) {
+        const char *name = rst_csv_name(csv, i);
         const int which = strcmp(name, names[0]) == 0 ? 0 : strcmp(name, names[1]) == 0 ? 1 : -1;
         if (which < 0)
             return rst_report(error, RESTITUTE_ERROR_FORMAT,
@@ -94,27 +97,27 @@ static int find_columns(const restitute_csv *csv, const char *file, size_t colum
     return RESTITUTE_OK;
 }
 
-static int read_cell(const restitute_csv *csv, const char *file, size_t row, size_t column, double *value,
+static int read_cell(const struct rst_csv *csv, const char *file, size_t row, size_t column, double *value,
                      restitute_error *error)
 {
-    const char *cell = restitute_csv_cell(csv, row, column);
-    const int status = restitute_number_read(cell, value);
+    const char *cell = rst_csv_cell(csv, row, column);
+    const int status = rst_number_read(cell, value);
     if (status == RESTITUTE_OK) return status;
     return rst_report(error, status, "%s line %zu: %s = \"%.64s\": must be a finite number > 0", file,
-                      restitute_csv_line(csv, row), restitute_csv_name(csv, column), cell);
+                      rst_csv_line(csv, row), rst_csv_name(csv, column), cell);
 }
 
-static int terms_from_table(const restitute_csv *csv, const char *file, struct prony_terms *terms,
+static int terms_from_table(const struct rst_csv *csv, const char *file, struct prony_terms *terms,
                             restitute_error *error)
 {
     size_t column[2] = {0, 0};
     int status = find_columns(csv, file, column, error);
-    if (status == RESTITUTE_OK && restitute_csv_rows(csv) == 0)
+    if (status == RESTITUTE_OK && rst_csv_rows(csv) == 0)
         status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: has column names but no rows", file);
-    if (status == RESTITUTE_OK) status = rst_prony_terms_allocate(restitute_csv_rows(csv), terms, error);
+    if (status == RESTITUTE_OK) status = rst_prony_terms_allocate(rst_csv_rows(csv), terms, error);
     if (status != RESTITUTE_OK) return status;
     for (size_t i = 0; i < terms->count && status == RESTITUTE_OK; i++) {
-        terms->line[i] = restitute_csv_line(csv, i);
+        terms->line[i] = rst_csv_line(csv, i);
         status = read_cell(csv, file, i, column[0], &terms->relaxation_time[i], error);
         if (status == RESTITUTE_OK) status = read_cell(csv, file, i, column[1], &terms->modulus[i], error);
     }
@@ -125,11 +128,11 @@ static int terms_from_table(const restitute_csv *csv, const char *file, struct p
 
 int rst_prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64_t *fingerprint, restitute_error *error)
 {
-    restitute_csv *csv;
-    int status = rst_csv_read_bounded(path, FILE_TEXT_OF_MATERIAL, &csv, error);
+    struct rst_csv *csv;
+    int status = rst_csv_read(path, RST_BYTES_OF_MATERIAL, &csv, error);
     if (status != RESTITUTE_OK) return status;
     status = terms_from_table(csv, rst_file_name_for_message(path), terms, error);
-    *fingerprint = restitute_csv_fingerprint(csv);
-    restitute_csv_destroy(csv);
+    *fingerprint = rst_csv_fingerprint(csv);
+    rst_csv_destroy(csv);
     return status;
 }

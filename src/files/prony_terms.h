@@ -3,7 +3,7 @@
 #ifndef RESTITUTE_PRONY_TERMS_H
 #define RESTITUTE_PRONY_TERMS_H
 
-#include <restitute/files.h>
+#include <restitute/restitute.h>
 
 struct prony_terms {
     size_t count;

@@ -5,28 +5,17 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/report.h"
+#include "base/sized.h"
 #include "fit/least.h"
 #include "fit/model.h"
 
-void restitute_dma_options_init(restitute_dma_options *options)
-{
-    if (!options) return;
-    *options = (restitute_dma_options){.struct_size = sizeof *options,
-                                       .poisson_ratio = 0.5,
-                                       .noise = 0.01,
-                                       .reference_temperature = NAN,
-                                       .wlf_c1 = NAN,
-                                       .wlf_c2 = NAN};
-}
-
-void restitute_dma_result_init(restitute_dma_result *result)
-{
-    if (result) *result = (restitute_dma_result){.struct_size = sizeof *result};
-}
+RST_DEFAULTS(dma_options, .poisson_ratio = 0.5, .noise = 0.01, .reference_temperature = NAN, .wlf_c1 = NAN, .wlf_c2 = NAN)
+RST_DEFAULTS(dma_result, 0)
 
 static int check_rows(size_t n, const double *frequency, const double *storage, const double *loss,
                       const double *temperature, restitute_error *error)
@@ -51,8 +40,7 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
 
 static int check_options(const restitute_dma_options *o, restitute_error *error)
 {
-    int status = rst_fit_sized("options", o->struct_size, sizeof *o, error);
-    if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
+    const int status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
     return status ? status : rst_fit_outside("options.noise", o->noise, 1e-4, 0.5, error);
 }
 
@@ -103,7 +91,7 @@ static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
         low = fmin(low, first[t]), high = fmax(high, last[t]);
         laid &= t == 0 || !d->free_shifts || fmax(first[t - 1], first[t]) <= fmin(last[t - 1], last[t]);
     }
-    if (!laid || high < 10 * low) r->flags |= RESTITUTE_FIT_UNDETERMINED;
+    if (!laid || high < 10 * low) r->flags |= RESTITUTE_FIT_FLAG_UNDETERMINED;
     if (!laid) strcat(r->remarks, "curves of neighbouring temperatures do not overlap: their shifts are not determined\n");
     const size_t used = strlen(r->remarks);
     if (high < 10 * low)
@@ -146,7 +134,7 @@ static int write_result(const struct rst_dma *d, const restitute_dma_options *o,
     remark_range(d, r);
     if (r->rms > 3 * d->noise) {
         const size_t used = strlen(r->remarks);
-        r->flags |= RESTITUTE_FIT_MISFIT;
+        r->flags |= RESTITUTE_FIT_FLAG_MISFIT;
         rst_print(
             r->remarks + used, sizeof r->remarks - used,
             "the data do not follow a series with positive terms within %.2g: rms %.2g, worst %.2g (temperatures that "
@@ -191,11 +179,13 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     restitute_dma_options_init(&o);
     restitute_dma_result_init(&r);
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    int status = rst_fit_sized("result", result->struct_size, sizeof r, error);
-    if (!status && options) status = check_options(options, error);
+    int status = RST_CHECK(dma_result, result, error);
+    if (!status && options) status = RST_CHECK(dma_options, options, error);
+    if (status) return status;
+    if (options) RST_TAKE(dma_options, &o, options);
+    status = check_options(&o, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;
-    if (options) o = *options;
     struct rst_dma *d = calloc(1, sizeof *d);
     double *memory = calloc(5 * n, sizeof *memory), *omega = memory;
     size_t *group = calloc(n, sizeof *group);
@@ -212,6 +202,6 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
     free(memory);
     free(group);
     if (status < 0) return status;
-    *result = r;
+    RST_GIVE(&r, result);
     return rst_done(error);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/report.h"
+#include "base/sized.h"
 #include "fit/least.h"
 #include "fit/search.h"
 
@@ -16,8 +17,8 @@ struct restitute_fitter {
     struct rst_fit_data data;
     struct rst_fit_search search;
     double *weight;
-    struct rst_fit_certainty certainty;
-    size_t turn, turns; /* scan, starts, then weights and certainty, then the rivals, then the result */
+    struct rst_fit_intervals intervals;
+    size_t turn, turns; /* scan, starts, then weights and intervals, then the rivals, then the result */
     int status;         /* of the latest turn; negative: no other follows */
     restitute_fit_result result;
 };
@@ -33,7 +34,7 @@ static int try_rival(restitute_fitter *f, int kind, const double *known, const d
     rst_fit_constants(m, f->search.logs, ours);
     rst_fit_model_make(&f->data, kind, known, &model);
     if ((model.free == m->free && kind == m->kind) || model.free > f->data.rows) return RESTITUTE_OK;
-    if (model.free > m->free && f->certainty.judged > f->certainty.noise) return RESTITUTE_OK; /* nothing left to explain */
+    if (model.free > m->free && f->intervals.judged > f->intervals.noise) return RESTITUTE_OK; /* nothing left to explain */
     for (size_t k = 0; k < 3 * model.free; k++) {
         const size_t i = model.index[k % model.free];
         logs[k] = log(i < model.solid ? from[i] : ours[i + m->solid - model.solid]); /* friction, shifts */
@@ -43,7 +44,7 @@ static int try_rival(restitute_fitter *f, int kind, const double *known, const d
     if (status) return status;
     if (model.free) status = rst_fit_choose(&rival, 3, logs);
     if (status >= 0) status = model.free ? rst_fit_local(&rival, 0) : rst_fit_again(&rival);
-    if (status >= 0) rst_fit_remark_rival(&f->search, &f->certainty, &rival, &f->result);
+    if (status >= 0) rst_fit_remark_rival(&f->search, &f->intervals, &rival, &f->result);
     rst_fit_search_release(&rival);
     return status;
 }
@@ -52,7 +53,7 @@ static int try_rival(restitute_fitter *f, int kind, const double *known, const d
 static int try_shorter_series(restitute_fitter *f)
 {
     const struct rst_fit_model *m = &f->search.model;
-    const double *v = f->certainty.vector + (m->free - 1) * m->free;
+    const double *v = f->intervals.vector + (m->free - 1) * m->free;
     double known[RESTITUTE_FIT_CONSTANTS], ours[RESTITUTE_FIT_CONSTANTS];
     size_t worst = 0;
     if (m->free < 2) return RESTITUTE_OK;
@@ -62,7 +63,7 @@ static int try_shorter_series(restitute_fitter *f)
         if (m->index[k] < m->solid && fabs(v[k]) > fabs(v[worst])) worst = k;
     if (m->index[worst] >= m->solid) return RESTITUTE_OK;
     known[m->index[worst]] = 0;
-    return try_rival(f, RESTITUTE_FIT_PRONY, known, ours);
+    return try_rival(f, RESTITUTE_FIT_MODEL_PRONY, known, ours);
 }
 
 /* Solids with a constant more or less, and Maxwell's beside Kelvin and Voigt's. A spring that is new begins as strong as the
@@ -75,12 +76,12 @@ static int try_rivals(restitute_fitter *f)
     int status = RESTITUTE_OK;
     rst_fit_constants(m, f->search.logs, ours);
     if (m->free == 0) return try_rival(f, m->kind, NULL, ours); /* are the known constants right? */
-    if (m->kind == RESTITUTE_FIT_PRONY) return try_shorter_series(f);
+    if (m->kind == RESTITUTE_FIT_MODEL_PRONY) return try_shorter_series(f);
     for (int i = 0; i < RST_FIT_PARTS; i++)
         part[i] = i == RST_FIT_VISCOSITY ? m->viscosity : ours[0], known[i] = NAN;
     for (size_t i = 0; i < m->solid; i++)
         part[rst_fit_part(m->kind, i)] = ours[i], known[rst_fit_part(m->kind, i)] = m->known[i];
-    for (int kind = RESTITUTE_FIT_ELASTIC; kind <= RESTITUTE_FIT_MAXWELL && status >= 0; kind++) {
+    for (int kind = RESTITUTE_FIT_MODEL_ELASTIC; kind <= RESTITUTE_FIT_MODEL_MAXWELL && status >= 0; kind++) {
         const int differ = parts[kind] ^ parts[m->kind], other = differ == 3; /* the spring beside or behind the dashpot */
         const int which = other ? (parts[kind] & 1) : differ == 1 ? 0 : differ == 2 ? 1 : 2;
         double theirs[RST_FIT_PARTS], from[RST_FIT_PARTS];
@@ -134,12 +135,15 @@ static int prepare(restitute_fitter *f, restitute_error *error)
 int restitute_fitter_create(size_t n, const restitute_fit_point *points, const restitute_fit_options *options,
                             restitute_fitter **fitter, restitute_error *error)
 {
-    restitute_fit_options defaults;
-    restitute_fit_options_init(&defaults);
+    restitute_fit_options own;
     if (!fitter) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
+    int status = options ? RST_CHECK(fit_options, options, error) : RESTITUTE_OK;
+    if (status) return status;
+    restitute_fit_options_init(&own);
+    if (options) RST_TAKE(fit_options, &own, options);
     restitute_fitter *f = calloc(1, sizeof *f);
     if (!f) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
-    int status = rst_fit_data_create(n, points, options ? options : &defaults, &f->data, error);
+    status = rst_fit_data_create(n, points, &own, &f->data, error);
     if (!status) status = prepare(f, error);
     if (status) {
         restitute_fitter_destroy(f);
@@ -164,7 +168,7 @@ static double quantile(const restitute_fitter *f)
 {
     const double upper = 0.5 + 0.5 * f->data.options.confidence;
     return f->data.options.noise_known ? gsl_cdf_ugaussian_Pinv(upper)
-           : f->certainty.dof          ? gsl_cdf_tdist_Pinv(upper, (double)f->certainty.dof)
+           : f->intervals.dof          ? gsl_cdf_tdist_Pinv(upper, (double)f->intervals.dof)
                                        : INFINITY;
 }
 
@@ -180,14 +184,14 @@ static int settle(restitute_fitter *f)
     }
     if (status >= 0) status = rst_fit_judge_other(&f->search);
     if (status >= 0) status = rst_fit_rescale(&f->search);
-    if (status >= 0) status = rst_fit_certainty(&f->search, &f->certainty);
-    return status < 0 ? status : rst_fit_profile(&f->search, quantile(f), &f->certainty);
+    if (status >= 0) status = rst_fit_intervals(&f->search, &f->intervals);
+    return status < 0 ? status : rst_fit_profile(&f->search, quantile(f), &f->intervals);
 }
 
 static void write_constants(restitute_fitter *f)
 {
     const struct rst_fit_model *m = &f->search.model;
-    const struct rst_fit_certainty *c = &f->certainty;
+    const struct rst_fit_intervals *c = &f->intervals;
     restitute_fit_result *r = &f->result;
     rst_fit_constants(m, f->search.logs, r->value);
     r->constants = m->count;
@@ -210,7 +214,7 @@ static void write_constants(restitute_fitter *f)
 static int finish(restitute_fitter *f)
 {
     restitute_fit_result *r = &f->result;
-    const struct rst_fit_certainty *c = &f->certainty;
+    const struct rst_fit_intervals *c = &f->intervals;
     const size_t p = f->search.model.free;
     write_constants(f);
     r->values = f->data.rows;
@@ -263,12 +267,11 @@ int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *res
     int status = check_finished(f, error);
     if (status) return status;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    restitute_material *material;
-    status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
-    if (!status) status = rst_fit_solid(&f->data, &f->search.model, f->result.value, 1, &material, error);
+    restitute_fit_result own = f->result;
+    status = RST_CHECK(fit_result, result, error);
+    if (!status) status = rst_fit_solid(&f->data, &f->search.model, own.value, 1, &own.material, error);
     if (status < 0) return status;
-    *result = f->result;
-    result->material = material;
+    RST_GIVE(&own, result);
     return rst_done(error);
 }
 
@@ -295,7 +298,7 @@ int restitute_fit(size_t n, const restitute_fit_point *points, const restitute_f
     restitute_fitter *fitter;
     double done = 0;
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
-    int status = rst_fit_sized("result", result->struct_size, sizeof *result, error);
+    int status = RST_CHECK(fit_result, result, error);
     if (!status) status = restitute_fitter_create(n, points, options, &fitter, error);
     if (status) return status;
     while (!status && done < 1)

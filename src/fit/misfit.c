@@ -54,7 +54,7 @@ static size_t arrange(const struct rst_fit_search *s, int apart, struct place *p
     size_t n = 0;
     for (size_t i = 0; i < d->rows; i++) {
         const struct rst_fit_row *row = &d->row[i];
-        const restitute_scene *scene = &d->points[row->point].scene;
+        const restitute_scene *scene = &d->scene[row->point];
         if (rst_fit_passed_over(d, d->place[row->point].first) || (!apart && row->kind != RST_FIT_EZ)) continue;
         places[n++] = apart ? (struct place){{row->kind, (double)d->group[row->point],
                                               fabs(scene->tangential_speed) / scene->normal_speed,

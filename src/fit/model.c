@@ -15,7 +15,7 @@ enum { BATCH = 200 };
 static const double widest = 18.4; /* ln 1e8 */
 
 
-/* The plan has T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
+/* Impacts have T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 double rst_fit_elastic_modulus(const struct rst_fit_data *d, size_t point, double contact_time)
 {
     return 2 * (1 - d->options.poisson_ratio) * pow(rst_elastic_contact_time() * d->place[point].time / contact_time, 2.5);
@@ -27,7 +27,7 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     const double softness = 2 * (1 - d->options.poisson_ratio);
     double logs = 0, times = 0;
     size_t n = 0;
-    const size_t moduli = m->kind == RESTITUTE_FIT_PRONY ? m->solid : m->kind == RESTITUTE_FIT_STANDARD_SOLID ? 2 : 1;
+    const size_t moduli = m->kind == RESTITUTE_FIT_MODEL_PRONY ? m->solid : m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID ? 2 : 1;
     for (size_t i = 0; i < d->n; i++) {
         const double contact_time = d->points[i].contact_time;
         times += log(d->place[i].time) / (double)d->n;
@@ -44,11 +44,11 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
 
 int rst_fit_part(int kind, size_t i)
 {
-    static const signed char parts[][RST_FIT_PARTS] = {[RESTITUTE_FIT_ELASTIC] = {RST_FIT_MODULUS1},
-                                                       [RESTITUTE_FIT_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
-                                                       [RESTITUTE_FIT_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2,
+    static const signed char parts[][RST_FIT_PARTS] = {[RESTITUTE_FIT_MODEL_ELASTIC] = {RST_FIT_MODULUS1},
+                                                       [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
+                                                       [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2,
                                                                                          RST_FIT_VISCOSITY},
-                                                       [RESTITUTE_FIT_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
+                                                       [RESTITUTE_FIT_MODEL_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
     return parts[kind][i];
 }
 
@@ -63,7 +63,7 @@ static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
         m->centre[i] = i < m->solid ? log(modulus) : 0;
         m->spread[i] = i < m->solid ? log(300) : log(10);
     }
-    if (m->kind != RESTITUTE_FIT_PRONY && m->kind != RESTITUTE_FIT_ELASTIC) {
+    if (m->kind != RESTITUTE_FIT_MODEL_PRONY && m->kind != RESTITUTE_FIT_MODEL_ELASTIC) {
         m->centre[m->solid - 1] = log(m->viscosity);
         m->spread[m->solid - 1] = log(30);
     }
@@ -76,7 +76,7 @@ void rst_fit_model_make(const struct rst_fit_data *d, int kind, const double *kn
     int friction = 0;
     *m = (struct rst_fit_model){.kind = kind, .solid = rst_fit_solid_constants(kind, d->options.terms)};
     for (size_t i = 0; i < d->n; i++)
-        friction |= isnan(d->points[i].scene.friction) && !isnan(d->points[i].ex);
+        friction |= isnan(d->scene[i].friction) && !isnan(d->points[i].ex);
     m->shift = m->solid + (friction ? 1 : 0);
     m->count = m->shift + (isnan(d->options.wlf_c1) ? d->temperature.count - 1 : 0);
     m->friction = friction ? m->solid : m->count;
@@ -89,13 +89,13 @@ void rst_fit_model_make(const struct rst_fit_data *d, int kind, const double *kn
 
 void rst_fit_name(const struct rst_fit_data *d, const struct rst_fit_model *m, size_t i, char name[RESTITUTE_FIT_NAME])
 {
-    const int standard = m->kind == RESTITUTE_FIT_STANDARD_SOLID || m->kind == RESTITUTE_FIT_KELVIN_VOIGT;
+    const int standard = m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID || m->kind == RESTITUTE_FIT_MODEL_KELVIN_VOIGT;
     if (i == m->friction)
         rst_print(name, RESTITUTE_FIT_NAME, "friction");
     else if (i >= m->solid)
         rst_print(name, RESTITUTE_FIT_NAME, "shift_%g",
                   d->temperature.value[i - m->shift + (i - m->shift >= d->temperature.reference)]);
-    else if (m->kind == RESTITUTE_FIT_PRONY)
+    else if (m->kind == RESTITUTE_FIT_MODEL_PRONY)
         rst_print(name, RESTITUTE_FIT_NAME, i ? "modulus_pa[tau=%.3g]" : "equilibrium_modulus_pa",
                   i ? d->options.relaxation_time[i - 1] : 0);
     else if (i > 0 && i == m->solid - 1)
@@ -128,11 +128,11 @@ int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, c
     const double nu = d->options.poisson_ratio;
     double tau[RESTITUTE_FIT_CONSTANTS], g[RESTITUTE_FIT_CONSTANTS];
     size_t n = 0;
-    if (m->kind == RESTITUTE_FIT_ELASTIC) return restitute_material_elastic(c[0], nu, material, error);
-    if (m->kind == RESTITUTE_FIT_KELVIN_VOIGT)
+    if (m->kind == RESTITUTE_FIT_MODEL_ELASTIC) return restitute_material_elastic(c[0], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_MODEL_KELVIN_VOIGT)
         return restitute_material_kelvin_voigt(c[0], shift * c[1], nu, material, error);
-    if (m->kind == RESTITUTE_FIT_MAXWELL) return restitute_material_maxwell(c[0], shift * c[1], nu, material, error);
-    if (m->kind == RESTITUTE_FIT_STANDARD_SOLID)
+    if (m->kind == RESTITUTE_FIT_MODEL_MAXWELL) return restitute_material_maxwell(c[0], shift * c[1], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID)
         return restitute_material_standard_solid(c[0], c[1], shift * c[2], nu, material, error);
     for (size_t k = 1; k < m->solid; k++)
         if (c[k] > 0) tau[n] = shift * d->options.relaxation_time[k - 1], g[n++] = c[k];
@@ -145,11 +145,11 @@ static int make_solids(const struct rst_fit_data *d, const struct rst_fit_model 
 {
     int status = RESTITUTE_OK;
     for (size_t g = 0; g < d->groups && status >= 0; g++) {
-        const restitute_fit_point *p = &d->points[d->first[g]];
+        const restitute_material *partner = d->scene[d->first[g]].material;
         restitute_material *own = NULL;
         status = rst_fit_solid(d, m, constants, shift_of(d, m, constants, d->at[d->first[g]]), &own, NULL);
-        if (status >= 0 && p->scene.material) {
-            status = restitute_material_pair(own, p->scene.material, &solids[g], NULL);
+        if (status >= 0 && partner) {
+            status = restitute_material_effective(own, partner, &solids[g], NULL);
             restitute_material_destroy(own);
         } else
             solids[g] = own;
@@ -191,8 +191,8 @@ static int solve(struct rst_fit_data *d, const struct rst_fit_model *m, size_t s
     for (size_t first = 0, most = sets * n; first < most && status >= 0; first += BATCH) {
         const size_t count = most - first < BATCH ? most - first : BATCH;
         status = interrupted(&d->options) ? RESTITUTE_ERROR_INTERRUPTED
-                                          : restitute_solve_scenes(&d->solver, count, scenes + first, results + first,
-                                                                   statuses + first, d->options.threads, NULL);
+                                          : restitute_solve_scene_many(count, scenes + first, &d->solver,
+                                                                       results + first, statuses + first, NULL);
         d->impacts += (int64_t)count;
         if (status != RESTITUTE_ERROR_MEMORY && status != RESTITUTE_ERROR_INTERRUPTED) status = RESTITUTE_OK;
     }
@@ -230,7 +230,7 @@ int rst_fit_solve_points(struct rst_fit_data *d, const struct rst_fit_model *m, 
 {
     struct rst_fit_impact *impacts = calloc(d->n, sizeof *impacts);
     for (size_t i = 0; impacts && i < d->n; i++)
-        impacts[i].scene = d->points[i].scene, impacts[i].group = d->group[i];
+        impacts[i].scene = d->scene[i], impacts[i].group = d->group[i];
     const int status = impacts ? solve(d, m, 1, constants, d->n, impacts, results) : RESTITUTE_ERROR_MEMORY;
     free(impacts);
     return status;

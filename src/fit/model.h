@@ -44,7 +44,8 @@ struct rst_temperatures {
 /* Copies of the points and options, what follows from them, and points of one temperature and partner. */
 struct rst_fit_data {
     size_t n, rows, groups;
-    restitute_fit_point *points;
+    restitute_fit_point *points; /* their scenes are those below */
+    restitute_scene *scene;
     restitute_fit_options options;
     double *memory; /* relaxation times and known constants */
     struct rst_fit_row *row;
@@ -77,8 +78,6 @@ void rst_fit_data_release(struct rst_fit_data *data);
 
 /* A value out of its range is refused by its name; NaN is. */
 int rst_fit_outside(const char *name, double value, double low, double high, restitute_error *error);
-
-int rst_fit_sized(const char *name, size_t size, size_t wanted, restitute_error *error);
 
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
@@ -119,8 +118,8 @@ int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *
 /* Residual of a row, in its standard deviations; 0 if its impact was passed over. */
 double rst_fit_residual(const struct rst_fit_data *data, size_t row, const struct rst_fit_values *values);
 
-/* plan.c: the impacts that are needed, and from them the values of the points. */
-int rst_fit_plan(struct rst_fit_data *data, restitute_error *error);
+/* impacts.c: the impacts that are needed, and from them the values of the points. */
+int rst_fit_impacts(struct rst_fit_data *data, restitute_error *error);
 int rst_fit_passed_over(const struct rst_fit_data *data, size_t impact);
 
 /* For the search of starts: about a hundred of the own impacts, or all of them. */

@@ -13,7 +13,7 @@ static const double LINEAR = 0.2, UNBOUNDED = 6.9, NEAR = 0.9;
 enum { TRIALS = 8 };
 
 /* Sum of squares with fitted constant k a factor of exp(away) from its best value. */
-static int sum_with(struct rst_fit_search *s, const struct rst_fit_certainty *c, size_t k, double away, double *sum)
+static int sum_with(struct rst_fit_search *s, const struct rst_fit_intervals *c, size_t k, double away, double *sum)
 {
     const struct rst_fit_model *m = &s->model;
     const size_t p = m->free;
@@ -34,7 +34,7 @@ static int sum_with(struct rst_fit_search *s, const struct rst_fit_certainty *c,
 }
 
 /* From the linearised end outwards. */
-static int find_end(struct rst_fit_search *s, const struct rst_fit_certainty *c, size_t k, double quantile, double sign,
+static int find_end(struct rst_fit_search *s, const struct rst_fit_intervals *c, size_t k, double quantile, double sign,
                     double *end)
 {
     const double asked = pow(quantile * c->noise, 2);
@@ -51,7 +51,7 @@ static int find_end(struct rst_fit_search *s, const struct rst_fit_certainty *c,
     return status;
 }
 
-int rst_fit_profile(struct rst_fit_search *s, double quantile, struct rst_fit_certainty *c)
+int rst_fit_profile(struct rst_fit_search *s, double quantile, struct rst_fit_intervals *c)
 {
     const size_t p = s->model.free;
     int status = RESTITUTE_OK;

@@ -70,32 +70,32 @@ static size_t direction_text(const struct rst_fit_search *s, const double *v, ch
 }
 
 /* Constants and combinations that may be anything. */
-static void remark_directions(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+static void remark_directions(const struct rst_fit_search *s, const struct rst_fit_intervals *c,
                               restitute_fit_result *result)
 {
     const size_t p = s->model.free;
     double open[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];
     char text[600];
     if (isnan(c->noise))
-        remark(result, RESTITUTE_FIT_UNDETERMINED,
+        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
                "%zu measured values for %zu constants leave nothing to estimate the noise: no intervals", s->data->rows, p);
     memcpy(open, c->vector + c->rank * p, (p - c->rank) * p * sizeof *open);
     separate(p - c->rank, p, open);
     for (size_t k = 0; k < p - c->rank; k++)
         if (direction_text(s, open + k * p, text, sizeof text) == 1)
-            remark(result, RESTITUTE_FIT_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "), text,
-                   s->model.kind == RESTITUTE_FIT_PRONY ? "; the intervals of the others hold for this value of it" : "");
+            remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "), text,
+                   s->model.kind == RESTITUTE_FIT_MODEL_PRONY ? "; the intervals of the others hold for this value of it" : "");
         else
-            remark(result, RESTITUTE_FIT_UNDETERMINED,
+            remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
                    "the data do not tell these apart: %s for any factor f gives the same", text);
     if (c->rank < p && !s->model.scaled)
-        remark(result, RESTITUTE_FIT_UNDETERMINED,
+        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
                "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a "
                "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
 }
 
 /* Constants that have other values in another fit that is as good. */
-static void remark_other(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+static void remark_other(const struct rst_fit_search *s, const struct rst_fit_intervals *c,
                          restitute_fit_result *result)
 {
     char name[RESTITUTE_FIT_NAME], text[600] = "";
@@ -106,18 +106,18 @@ static void remark_other(const struct rst_fit_search *s, const struct rst_fit_ce
         rst_print(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->other[i]));
     }
     if (text[0])
-        remark(result, RESTITUTE_FIT_UNDETERMINED, "other constants fit as well: %s", text);
+        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "other constants fit as well: %s", text);
 }
 
 /* Constants that may be as large or as small as you like, with the others fitted to them. */
-static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_intervals *c,
                           restitute_fit_result *result)
 {
     char name[RESTITUTE_FIT_NAME];
     for (size_t i = 0; i < s->model.free; i++) {
         if (!c->determined[i] || (c->below[i] < INFINITY && c->above[i] < INFINITY)) continue;
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
-        remark(result, RESTITUTE_FIT_UNDETERMINED, "the data give no %s of %s",
+        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "the data give no %s of %s",
                c->above[i] < INFINITY   ? "lower bound"
                : c->below[i] < INFINITY ? "upper bound"
                                         : "bounds",
@@ -126,23 +126,23 @@ static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_c
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
-static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_intervals *c, restitute_fit_result *result)
 {
     struct rst_fit_misfit m;
     const int status = rst_fit_misfit(s, c->dof, &m);
     if (status < 0) return status;
     if (m.patterned && c->noise >= c->judged)
-        remark(result, RESTITUTE_FIT_MISFIT,
+        remark(result, RESTITUTE_FIT_FLAG_MISFIT,
                "the data do not follow the model: neighbours along speed, angle or temperature have like residuals "
                "(chance %.1g), their standard deviation is %.2g",
                m.chance, c->noise);
     if (m.large)
-        remark(result, RESTITUTE_FIT_MISFIT,
+        remark(result, RESTITUTE_FIT_FLAG_MISFIT,
                "the data do not follow the model: residuals of %.2g in e and %.2g in relative contact times (0: none "
                "measured) are more than noise should be; or try more starts",
                m.noise_e, m.noise_time);
     if (m.surpassed)
-        remark(result, RESTITUTE_FIT_MISFIT,
+        remark(result, RESTITUTE_FIT_FLAG_MISFIT,
                "the data do not follow the model: residuals are %.3g times the given standard deviations",
                sqrt(s->sum / (double)c->dof));
     return RESTITUTE_OK;
@@ -165,16 +165,16 @@ static int remark_limits(struct rst_fit_search *s, restitute_fit_result *result)
             if (results[i].flags & bits[b])
                 count++, worst = fmax(worst, b ? results[i].radius_ratio : results[i].speed_ratio);
         if (count)
-            remark(result, RESTITUTE_FIT_LIMITS, "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s",
+            remark(result, RESTITUTE_FIT_FLAG_LIMITS, "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s",
                    count, s->data->n, ratios[b], worst, restitute_flag_text(bits[b]));
     }
     free(results);
     return status;
 }
 
-int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_certainty *c, restitute_fit_result *result)
+int rst_fit_remarks(struct rst_fit_search *s, const struct rst_fit_intervals *c, restitute_fit_result *result)
 {
-    if (!s->converged) remark(result, RESTITUTE_FIT_UNFINISHED, "the iteration did not converge; try more starts");
+    if (!s->converged) remark(result, RESTITUTE_FIT_FLAG_UNFINISHED, "the iteration did not converge; try more starts");
     remark_directions(s, c, result);
     remark_other(s, c, result);
     remark_bounds(s, c, result);
@@ -194,7 +194,7 @@ static const char *kind_text(const struct rst_fit_model *m, int ours)
     return texts[m->kind];
 }
 
-void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_certainty *c,
+void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_intervals *c,
                           const struct rst_fit_search *rival, restitute_fit_result *result)
 {
     const int simpler = rival->model.free <= s->model.free, like = rival->model.free == s->model.free;
@@ -210,13 +210,13 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_c
     const double chance =
         s->data->options.noise_known ? gsl_cdf_chisq_Q(f * more, more) : gsl_cdf_fdist_Q(f, more, left);
     if (like && chance > SIMPLER_FROM)
-        remark(result, RESTITUTE_FIT_UNDETERMINED,
+        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
                "the data do not tell this model from %s, which has as many constants (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     else if (simpler && chance > SIMPLER_FROM)
-        remark(result, RESTITUTE_FIT_SIMPLER, "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
+        remark(result, RESTITUTE_FIT_FLAG_SIMPLER, "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)
-        remark(result, RESTITUTE_FIT_MISFIT, "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
+        remark(result, RESTITUTE_FIT_FLAG_MISFIT, "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(better / rows), sqrt(worse / rows));
 }

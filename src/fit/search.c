@@ -288,8 +288,8 @@ int rst_fit_rescale(struct rst_fit_search *s)
     const struct rst_fit_model *m = &s->model;
     double logs = 0, n = 0;
     for (size_t i = 0; i < s->data->n; i++)
-        if (s->data->points[i].scene.material) return RESTITUTE_OK; /* a partner's moduli are a scale */
-    if (m->scaled || m->kind == RESTITUTE_FIT_PRONY) return RESTITUTE_OK;
+        if (s->data->scene[i].material) return RESTITUTE_OK; /* a partner's moduli are a scale */
+    if (m->scaled || m->kind == RESTITUTE_FIT_MODEL_PRONY) return RESTITUTE_OK;
     const int status = residuals(s, s->logs, s->r);
     for (size_t i = 0; i < s->data->n && status >= 0; i++) {
         const double modulus = rst_fit_elastic_modulus(s->data, i, s->values[i].of[RST_FIT_TIME]);
@@ -297,6 +297,6 @@ int rst_fit_rescale(struct rst_fit_search *s)
     }
     for (size_t k = 0; k < m->free && n > 0; k++) /* docs/fit.md: f for moduli, f^(3/5) for viscosities */
         if (m->index[k] < m->solid)
-            s->logs[k] += logs / n * (m->index[k] + 1 == m->solid && m->kind != RESTITUTE_FIT_ELASTIC ? 0.6 : 1);
+            s->logs[k] += logs / n * (m->index[k] + 1 == m->solid && m->kind != RESTITUTE_FIT_MODEL_ELASTIC ? 0.6 : 1);
     return status;
 }

@@ -47,7 +47,7 @@ int rst_fit_rescale(struct rst_fit_search *search);
 int rst_fit_linearise(struct rst_fit_search *search, double *j);
 
 /* What the linearised problem says. Directions are those of the logarithms of the fitted constants. */
-struct rst_fit_certainty {
+struct rst_fit_intervals {
     double noise;  /* standard deviation of a weighted residual; NaN: no degree of freedom is left */
     double judged; /* the same, not below what any measurement has: decides what is determined */
     size_t rank, dof;
@@ -60,10 +60,10 @@ struct rst_fit_certainty {
     int otherwise[RESTITUTE_FIT_CONSTANTS]; /* not determined, since another value fits as well */
 };
 
-int rst_fit_certainty(struct rst_fit_search *search, struct rst_fit_certainty *certainty);
+int rst_fit_intervals(struct rst_fit_search *search, struct rst_fit_intervals *intervals);
 
 /* profile.c: ends of the intervals, `quantile` standard deviations away, or infinitely far. */
-int rst_fit_profile(struct rst_fit_search *search, double quantile, struct rst_fit_certainty *certainty);
+int rst_fit_profile(struct rst_fit_search *search, double quantile, struct rst_fit_intervals *intervals);
 
 /* misfit.c: what the residuals in search->r say against the model. */
 struct rst_fit_misfit {
@@ -78,11 +78,11 @@ int rst_fit_misfit(const struct rst_fit_search *search, size_t dof, struct rst_f
 int rst_fit_reweigh(struct rst_fit_search *search, double *weight, double *change);
 
 /* Remarks: what the data leave open, a pattern in the residuals, limits of the contact model. */
-int rst_fit_remarks(struct rst_fit_search *search, const struct rst_fit_certainty *certainty,
+int rst_fit_remarks(struct rst_fit_search *search, const struct rst_fit_intervals *intervals,
                     restitute_fit_result *result);
 
 /* The model beside a rival: as good with fewer constants, or worse than one with more. */
-void rst_fit_remark_rival(const struct rst_fit_search *search, const struct rst_fit_certainty *certainty,
+void rst_fit_remark_rival(const struct rst_fit_search *search, const struct rst_fit_intervals *intervals,
                           const struct rst_fit_search *rival, restitute_fit_result *result);
 
 #endif

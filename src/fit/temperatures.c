@@ -1,6 +1,7 @@
 /* Temperatures of measurements, and by how much they shift times.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/report.h"

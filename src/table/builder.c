@@ -1,35 +1,27 @@
-/* The build of a table from first columns to last check (builder.h).
+/* The build of a table, from the first columns to the last check (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 
 #include <stdlib.h>
 
-enum { most_rounds = 6 };
-
-/* Cells of psi to begin with, at 1e-5: cubics miss 3e-6 then unless e_x has a fold. */
-static const double first_stick = 12, first_slip = 44;
-
-void restitute_table_options_init(restitute_table_options *options)
+void restitute_table_options_init_sized(restitute_table_options *options, size_t size)
 {
-    if (!options) return;
     restitute_options core;
     restitute_options_init(&core);
-    *options = (restitute_table_options){.struct_size = sizeof *options,
-                                         .speed = {1e-4, 100},
-                                         .tolerance = 1e-5,
-                                         .threads = 1,
-                                         .max_impacts = 12000,
-                                         .time_limit = 20,
-                                         .speed_limit = core.speed_limit,
-                                         .radius_limit = core.radius_limit,
-                                         .displacement_limit = core.displacement_limit};
+    const restitute_table_options defaults = {.speed = {1e-4, 100},
+                                              .tolerance = 1e-5,
+                                              .threads = 1,
+                                              .max_impacts = 12000,
+                                              .time_limit = 20,
+                                              .speed_limit = core.speed_limit,
+                                              .radius_limit = core.radius_limit,
+                                              .displacement_limit = core.displacement_limit};
+    rst_init(options, size, &defaults, sizeof defaults);
 }
 
-int rst_check_options(const restitute_table_options *o, restitute_error *error)
+static int check_options(const restitute_table_options *o, restitute_error *error)
 {
     const double most_speed = 1e12, most_ratio = 1e15;
-    int status = rst_check_size(o->struct_size, sizeof *o, "restitute_table_options", error);
-    if (status) return status;
     if (!(o->speed[0] >= rst_sizes.low && o->speed[1] <= most_speed && o->speed[0] <= o->speed[1]))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise within %g to %g",
                           o->speed[0], o->speed[1], rst_sizes.low, most_speed);
@@ -43,15 +35,24 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
     if (!(o->time_limit > 0))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "time_limit (s) = %g: must be > 0", o->time_limit);
-    status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
+    int status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
     if (!status) status = rst_check_range(o->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(o->radius_limit, 0, INFINITY, "radius_limit", error);
     return status ? status : rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
 }
 
+int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
+{
+    const int status = theirs ? RST_CHECK(table_options, theirs, error) : RESTITUTE_OK;
+    if (status) return status;
+    restitute_table_options_init(ours);
+    if (theirs) rst_copy(ours, sizeof *ours, theirs);
+    return check_options(ours, error);
+}
+
 /* ---- start */
 
-/* Even columns. A solid without times needs those of the ends alone. */
+/* Even columns. A solid without relaxation times needs only the first and the last. */
 static int start(struct rst_builder *b, restitute_error *error)
 {
     enum { fewest = 5, most = 14 }; /* up to 50 octaves */
@@ -79,8 +80,9 @@ static int start(struct rst_builder *b, restitute_error *error)
 
 /* ---- seams */
 
-/* Where rebound begins between two columns of which the lower one sinks: two columns there, both with e_z = 0 and, as
- * the contact lasts ever longer towards it, e_x = 0. Above it are speeds whose rebound the solver does not find. */
+/* Find where rebound begins between two columns, the lower of which sinks. Put two columns there,
+ * both with e_z = 0. They also have e_x = 0, since the contact time grows without bound towards
+ * this speed. Just above it there are speeds whose rebound the solver does not find. */
 static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
 {
     const double fine = 1e-6; /* of s */
@@ -127,7 +129,7 @@ static int run(struct rst_builder *b, restitute_table **table, restitute_error *
 {
     int status = start(b, error), missed = 1;
     if (!status) status = add_seams(b, error);
-    for (int round = 0; round < most_rounds && missed && !status; round++) {
+    for (int round = 0; round < rst_rounds && missed && !status; round++) {
         const int64_t before = b->impacts;
         restitute_table *draft = NULL;
         status = rst_refine(b, error);
@@ -146,7 +148,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
     *b = (struct rst_builder){
         .options = *options,
         .began = rst_table_clock(),
-        .first = {(int64_t)fmax(8, ceil(first_stick * finer)), (int64_t)fmax(16, ceil(first_slip * finer))}};
+        .first = {(int64_t)fmax(8, ceil(rst_first_stick * finer)), (int64_t)fmax(16, ceil(rst_first_slip * finer))}};
     int status = rst_contact_set(scene, &b->contact, error);
     const double chi = b->contact.numbers.chi;
     if (!status && !(chi >= rst_chi_range[0] && chi <= rst_chi_range[1]))
@@ -159,9 +161,9 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
     b->threads = rst_table_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");
-    for (int i = 0; i < b->threads && !status; i++)
-        status = rst_column_solver_create(&b->contact, rst_part_for_nodes * options->tolerance, &b->solver[i], error);
-    return status;
+    for (int i = 0; i < b->threads; i++)
+        rst_column_solver_init(&b->contact, rst_part_for_nodes * options->tolerance, &b->solver[i]);
+    return RESTITUTE_OK;
 }
 
 static void destroy(struct rst_builder *b)
@@ -169,7 +171,7 @@ static void destroy(struct rst_builder *b)
     for (int64_t i = 0; i < b->columns; i++)
         rst_column_destroy(&b->column[i]);
     for (int i = 0; b->solver && i < b->threads; i++)
-        rst_column_solver_destroy(&b->solver[i]);
+        restitute_plan_destroy(b->solver[i].plan);
     free(b->column);
     free(b->solver);
 }
@@ -185,7 +187,7 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
     destroy(&b);
     if (status) return status;
     *table = made;
-    const struct rst_table_data *d = restitute_private_table_data(made);
+    const restitute_table_data *d = &made->d;
     if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
@@ -196,10 +198,8 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
 int restitute_table_build(const restitute_scene *scene, const restitute_table_options *options, restitute_table **table,
                           restitute_error *error)
 {
-    restitute_table_options defaults;
-    restitute_table_options_init(&defaults);
-    if (!options) options = &defaults;
+    restitute_table_options own;
     if (!scene || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "table" : "scene");
-    const int status = rst_check_options(options, error);
-    return status ? status : rst_build(scene, options, options->threads, table, error);
+    const int status = rst_table_take_options(options, &own, error);
+    return status ? status : rst_build(scene, &own, own.threads, table, error);
 }

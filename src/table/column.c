@@ -3,9 +3,10 @@
 #include "table/column.h"
 
 #include <math.h>
-/* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated
- * error that it was not finished. */
-static const int64_t most_updates = 10000000;
+
+/* Ten times the work of an impact whose slip needs elements. One that hardly rebounds may need
+ * more. Then its estimated error is above the tolerance. */
+static const double most_work = 0.01; /* nominal seconds */
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
                         restitute_error *error)
@@ -17,28 +18,29 @@ static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, res
     return restitute_scene_numbers(unit, numbers, error);
 }
 
-/* A spring alone, or a dashpot alone, gives the same pair at any speed. */
+/* A solid of a spring alone or a dashpot alone has the same pair at any speed. */
 static int without_time(const restitute_material *material)
 {
     double g_inf, eta;
-    restitute_material_series(material, &g_inf, &eta, NULL, NULL);
+    restitute_material_series(material, &g_inf, &eta, NULL, NULL, NULL);
     return restitute_material_terms(material) == 0 && (g_inf <= 0 || eta <= 0);
 }
 
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error)
 {
-    int status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    restitute_scene plain;
+    int status = RST_CHECK(scene, scene, error);
     if (status) return status;
-    restitute_scene plain = *scene;
+    RST_TAKE(scene, &plain, scene);
     plain.normal_speed = 1;
     plain.tangential_speed = plain.spin1 = plain.spin2 = 0;
     restitute_numbers_init(&contact->numbers);
     status = restitute_scene_numbers(&plain, &contact->numbers, error); /* refuses what is wrong with it */
     if (!status) status = unit_numbers(&plain, &contact->scene, &contact->numbers, error);
     if (status) return status;
-    contact->friction = scene->friction;
-    if (!rst_has_psi(contact)) contact->scene.friction = scene->friction;
-    contact->timeless = without_time(scene->material);
+    contact->friction = plain.friction;
+    if (!rst_has_psi(contact)) contact->scene.friction = plain.friction;
+    contact->timeless = without_time(plain.material);
     return RESTITUTE_OK;
 }
 
@@ -47,26 +49,17 @@ double rst_psi_factor(const struct rst_contact *c)
     return c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
 }
 
-int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
-                             restitute_error *error)
+void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s)
 {
+    *s = (struct rst_column_solver){.contact = contact};
     restitute_options_init(&s->options);
     s->options.method = restitute_method_sync();
     s->options.tolerance = fmax(1e-8, tolerance);
-    s->options.max_updates = most_updates;
+    s->options.max_work = most_work;
     s->options.time_limit = INFINITY; /* a clock would make tables differ */
-    s->contact = contact;
-    s->plan = NULL;
-    return rst_done(error);
 }
 
-void rst_column_solver_destroy(struct rst_column_solver *s)
-{
-    restitute_plan_destroy(s->plan);
-    s->plan = NULL;
-}
-
-/* A status < 0 with the place of the column that it is about. */
+/* A status < 0, with the speed of the column in the message. */
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
     if (rst_column_is_too_hard(why->status))
@@ -83,7 +76,7 @@ int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error 
     restitute_error why;
     restitute_plan *plan;
     scene.normal_speed = speed;
-    const int status = restitute_plan_create_scene(&s->options, &scene, &plan, &why);
+    const int status = restitute_plan_create_scene(&scene, &s->options, &plan, &why);
     if (status < 0) return name_place(speed, 0, &why, error);
     restitute_plan_destroy(s->plan);
     s->plan = plan;

@@ -1,4 +1,5 @@
-/* Impacts of one contact at one speed: a column of a table. All that the builder knows of the solver is here.
+/* Impacts of one contact at one speed: a column of a table. The only interface between builder and
+ * solver.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_COLUMN_H
 #define RST_TABLE_COLUMN_H
@@ -13,7 +14,7 @@ struct rst_contact {
     int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
 };
 
-/* Check a scene and take what is needed. The material stays the caller's. */
+/* Check a scene and copy the needed values. The caller keeps the material. */
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error);
 
 /* Whether e_x changes with psi: neither without friction nor without slip. */
@@ -33,11 +34,10 @@ struct rst_column_solver {
     double speed;         /* of the column, m/s */
 };
 
-int rst_column_solver_create(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s,
-                             restitute_error *error);
-void rst_column_solver_destroy(struct rst_column_solver *s);
+/* Its plan is to be destroyed. */
+void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s);
 
-/* What is the same at all psi. */
+/* Values that do not depend on psi. */
 struct rst_column_normal {
     double ez, error;
     double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */

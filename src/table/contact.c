@@ -1,4 +1,4 @@
-/* Other contacts that a table serves.
+/* Other contacts that a table covers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/column.h"
 
@@ -11,20 +11,20 @@ static int alike(double a, double b)
     return a == b || fabs(a - b) <= rounding * fmax(fabs(a), fabs(b));
 }
 
-/* How much longer and stiffer than the table's a material is. */
+/* Ratio of the times and of the moduli of a material to those of the table. */
 struct shift {
     double time, modulus;
 };
 
 /* All moduli of `m` over the table's, and all times; 0: not one factor, -1: out of memory. */
-static int find_shift(const struct rst_table_data *d, const restitute_material *m, struct shift *shift)
+static int find_shift(const restitute_table_data *d, const restitute_material *m, struct shift *shift)
 {
     double g_inf, eta;
     const size_t n = (size_t)d->terms;
     if (n != restitute_material_terms(m) || !alike(d->poisson_ratio, restitute_material_poisson_ratio(m))) return 0;
     double *term = malloc(2 * (n + 1) * sizeof *term);
     if (!term) return -1;
-    restitute_material_series(m, &g_inf, &eta, term, term + n);
+    restitute_material_series(m, &g_inf, &eta, term, term + n, NULL);
     shift->modulus = d->equilibrium_modulus > 0 ? g_inf / d->equilibrium_modulus : n > 0 ? term[n] / d->modulus[0] : 1;
     shift->time = n > 0 ? term[0] / d->relaxation_time[0]
                   : d->parallel_viscosity > 0 ? eta / d->parallel_viscosity / shift->modulus
@@ -37,13 +37,14 @@ static int find_shift(const struct rst_table_data *d, const restitute_material *
     return same;
 }
 
-/* The solid sees its own times over T, and T goes with v^(-1/5): a contact that is longer by f is one at f^-5 of the
- * speed. A solid whose times are longer by f sees a contact that is shorter by f. */
+/* The result depends on the relaxation times over T, and T is proportional to v^(-1/5). So a
+ * contact that is f times as long is that at f^-5 times the speed. Relaxation times that are f
+ * times as long have the same effect as a contact time shorter by f. */
 static int bind(const restitute_table *t, const struct rst_contact *c, restitute_table_contact *found,
                 restitute_error *error)
 {
     const double largest_factor = 1e200, smallest_factor = 1e-200; /* times a speed neither overflows nor vanishes */
-    const struct rst_table_data *d = &t->d;
+    const restitute_table_data *d = &t->d;
     struct shift shift;
     const int same = find_shift(d, c->scene.material, &shift);
     if (same < 0) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
@@ -70,18 +71,19 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
     return RESTITUTE_OK;
 }
 
-int restitute_table_contact_of(const restitute_table *table, const restitute_scene *scene,
-                               restitute_table_contact *contact, restitute_error *error)
+int restitute_table_contact_set(const restitute_table *table, const restitute_scene *scene,
+                                restitute_table_contact *contact, restitute_error *error)
 {
     struct rst_contact c;
+    restitute_table_contact found;
     if (!table || !scene || !contact)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
-    int status = rst_check_size(contact->struct_size, sizeof *contact, "restitute_table_contact", error);
+    int status = RST_CHECK(table_contact, contact, error);
     if (!status) status = rst_contact_set(scene, &c, error);
     if (status) return status;
-    restitute_table_contact found = *contact;
+    RST_TAKE(table_contact, &found, contact);
     status = bind(table, &c, &found, error);
     if (status) return status;
-    *contact = found;
+    RST_GIVE(&found, contact);
     return rst_done(error);
 }

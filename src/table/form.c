@@ -6,48 +6,56 @@
 
 static const int64_t most_terms = 1000000;
 
-static int refuse(restitute_error *error, const char *name)
+static int check_count(int64_t count, int64_t low, int64_t high, const char *name, restitute_error *error)
 {
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s: a value that no table has", name);
+    if (count >= low && count <= high) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %lld: must be in [%lld, %lld]", name, (long long)count,
+                      (long long)low, (long long)high);
 }
 
-static int in_range(const double *value, int64_t n, double low, double high)
+static int check_counts(const restitute_table_data *d, restitute_error *error)
 {
-    for (int64_t i = 0; i < n; i++)
-        if (!(value[i] >= low && value[i] <= high)) return 0;
-    return 1;
+    int status = check_count(d->speeds, 2, rst_most_speeds, "speeds", error);
+    if (!status) status = check_count(d->stick_cells, 1, rst_most_cells, "stick_cells", error);
+    if (!status) status = check_count(d->slip_cells, 1, rst_most_cells, "slip_cells", error);
+    if (!status) status = check_count(d->terms, 0, most_terms, "terms", error);
+    if (!status) status = rst_check_range(d->chi, rst_chi_range[0], rst_chi_range[1], "chi", error);
+    if (!status) status = rst_check_range(d->psi_factor, 0, INFINITY, "psi_factor", error);
+    if (!status) status = rst_check_range(d->low, rst_sizes.low, rst_largest_speed, "low", error);
+    return status ? status : rst_check_range(d->high, d->low, rst_largest_speed, "high", error);
 }
 
-static int check_counts(const struct rst_table_data *d, restitute_error *error)
+static int check_array(const double *value, int64_t n, double low, double high, const char *name, restitute_error *error)
 {
-    if (d->speeds < 2 || d->speeds > rst_most_speeds) return refuse(error, "speeds");
-    if (d->stick_cells < 1 || d->stick_cells > rst_most_cells) return refuse(error, "stick_cells");
-    if (d->slip_cells < 1 || d->slip_cells > rst_most_cells) return refuse(error, "slip_cells");
-    if (d->terms < 0 || d->terms > most_terms) return refuse(error, "terms");
-    if (!(d->chi >= rst_chi_range[0] && d->chi <= rst_chi_range[1])) return refuse(error, "chi");
-    if (!(d->psi_factor >= 0)) return refuse(error, "psi_factor");
-    if (!(d->low >= rst_sizes.low && d->high <= rst_largest_speed && d->low <= d->high)) return refuse(error, "range");
+    char place[48];
+    for (int64_t i = 0; i < n; i++) {
+        if (value[i] >= low && value[i] <= high) continue;
+        rst_print(place, sizeof place, "%s[%lld]", name, (long long)i);
+        return rst_check_range(value[i], low, high, place, error);
+    }
     return RESTITUTE_OK;
 }
 
 /* Slopes may be steep, but nothing may overflow or be NaN. */
-static int check_values(const struct rst_table_data *d, restitute_error *error)
+static int check_values(const restitute_table_data *d, restitute_error *error)
 {
-    const double steep = 1e6;
+    const double steep = 1e6, *speed = d->speed;
     const int64_t n = d->speeds;
-    if (!in_range(d->speed, n, rst_sizes.low, rst_largest_speed)) return refuse(error, "speed");
-    for (int64_t i = 0; i + 1 < n; i++)
-        if (d->speed[i] > d->speed[i + 1]) return refuse(error, "speed");
-    if (d->speed[0] > d->low || d->speed[n - 1] < d->high || !(d->speed[0] < d->speed[n - 1]))
-        return refuse(error, "speed");
-    if (!in_range(d->ez, 2 * n, -steep, steep)) return refuse(error, "ez");
-    if (!in_range(d->ex, 4 * n * rst_places(d), -steep, steep)) return refuse(error, "ex");
-    if (!in_range(d->strain, 3 * n, 0, INFINITY)) return refuse(error, "strain");
-    return RESTITUTE_OK;
+    int status = check_array(speed, n, rst_sizes.low, rst_largest_speed, "speed", error);
+    for (int64_t i = 1; i < n && !status; i++)
+        if (speed[i] < speed[i - 1])
+            status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed[%lld] = %.17g: must be >= %.17g, the one before it",
+                                (long long)i, speed[i], speed[i - 1]);
+    if (!status && (speed[0] > d->low || speed[n - 1] < d->high || !(speed[0] < speed[n - 1])))
+        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise, and cover %g to %g",
+                            speed[0], speed[n - 1], d->low, d->high);
+    if (!status) status = check_array(d->ez, 2 * n, -steep, steep, "ez", error);
+    if (!status) status = check_array(d->ex, 4 * n * rst_places(d), -steep, steep, "ex", error);
+    return status ? status : check_array(d->strain, 3 * n, 0, INFINITY, "strain", error);
 }
 
 /* Number of bins: one for the narrowest cell, so that few have more than one edge in them. */
-static int count_bins(const struct rst_table_data *d)
+static int count_bins(const restitute_table_data *d)
 {
     const double all = rst_axis_place(d->speed[d->speeds - 1], NULL) - rst_axis_place(d->speed[0], NULL);
     double narrowest = all;
@@ -74,7 +82,8 @@ static void set_nodes(restitute_table *t)
     t->end = nextafter(t->node[n - 1].at, -INFINITY); /* the highest speed belongs to the last cell */
 }
 
-/* A bin begins a hair behind its place: edges of cells are on edges of bins, and few searches take a step. */
+/* A bin begins slightly late. Edges of cells are on edges of bins, so few searches need a further
+ * step. */
 static void set_bins(restitute_table *t, int bins)
 {
     const double hair = 1e-9, first = t->node[0].at, width = (t->end - first) / bins;
@@ -88,28 +97,28 @@ static void set_bins(restitute_table *t, int bins)
     }
 }
 
-static char *place(char **next, const void *from, size_t bytes)
+static void *place(char **next, const void *from, size_t bytes)
 {
-    char *here = *next;
+    void *here = *next;
     if (from && bytes > 0) memcpy(here, from, bytes);
     *next += (bytes + 15) / 16 * 16;
     return here;
 }
 
 /* Nodes of ex lie side by side from a boundary of 16 bytes on. */
-static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
+static void fill(restitute_table *t, const restitute_table_data *d, int bins)
 {
     const size_t n = (size_t)d->speeds, terms = (size_t)d->terms, size = sizeof(double);
     char *next = (char *)t + (sizeof *t + 15) / 16 * 16;
     t->d = *d;
-    t->d.ex = (double *)(void *)place(&next, d->ex, 4 * n * (size_t)rst_places(d) * size);
-    t->node = (struct rst_node *)(void *)place(&next, NULL, n * sizeof *t->node);
-    t->d.speed = (double *)(void *)place(&next, d->speed, n * size);
-    t->d.ez = (double *)(void *)place(&next, d->ez, 2 * n * size);
-    t->d.strain = (double *)(void *)place(&next, d->strain, 3 * n * size);
-    t->d.relaxation_time = (double *)(void *)place(&next, d->relaxation_time, terms * size);
-    t->d.modulus = (double *)(void *)place(&next, d->modulus, terms * size);
-    t->bin = (uint16_t *)(void *)place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
+    t->d.ex = place(&next, d->ex, 4 * n * (size_t)rst_places(d) * size);
+    t->node = place(&next, NULL, n * sizeof *t->node);
+    t->d.speed = place(&next, d->speed, n * size);
+    t->d.ez = place(&next, d->ez, 2 * n * size);
+    t->d.strain = place(&next, d->strain, 3 * n * size);
+    t->d.relaxation_time = place(&next, d->relaxation_time, terms * size);
+    t->d.modulus = place(&next, d->modulus, terms * size);
+    t->bin = place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
     t->bytes = (size_t)(next - (char *)t);
     t->share = rst_share(d->chi);
     t->of_stick = (double)d->stick_cells;
@@ -123,31 +132,49 @@ static void fill(restitute_table *t, const struct rst_table_data *d, int bins)
     t->own.mass = d->mass;
 }
 
-void restitute_table_contact_init(restitute_table_contact *contact)
+RST_DEFAULTS(table_contact, .speed_factor = 1, .touch_gap = 1e-6)
+
+RST_DEFAULTS(table_data, .struct_size = 0)
+
+int restitute_table_data_get(const restitute_table *table, restitute_table_data *data, restitute_error *error)
 {
-    if (!contact) return;
-    *contact = (restitute_table_contact){.struct_size = sizeof *contact, .speed_factor = 1, .touch_gap = 1e-6};
+    if (!table || !data) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "data" : "table");
+    const int status = RST_CHECK(table_data, data, error);
+    if (status) return status;
+    RST_GIVE(&table->d, data);
+    return rst_done(error);
 }
 
-int restitute_private_table_make(const struct rst_table_data *data, restitute_table **table, restitute_error *error)
+static int check_data(const restitute_table_data *d, restitute_error *error)
 {
-    int status = check_counts(data, error);
-    if (!status) status = check_values(data, error);
+    const void *const array[] = {d->speed, d->ez, d->strain, d->ex, d->relaxation_time, d->modulus};
+    static const char *const name[] = {"speed", "ez", "strain", "ex", "relaxation_time", "modulus"};
+    const int status = check_counts(d, error);
     if (status) return status;
-    const int bins = count_bins(data);
-    const size_t n = (size_t)data->speeds, places = (size_t)rst_places(data);
+    for (int i = 0; i < (d->terms > 0 ? 6 : 4); i++)
+        if (!array[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "data.%s is NULL", name[i]);
+    return check_values(d, error);
+}
+
+int restitute_table_create(const restitute_table_data *data, restitute_table **table, restitute_error *error)
+{
+    restitute_table_data d;
+    if (!data || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "table" : "data");
+    int status = RST_CHECK(table_data, data, error);
+    if (status) return status;
+    RST_TAKE(table_data, &d, data);
+    d.version[sizeof d.version - 1] = '\0';
+    status = check_data(&d, error);
+    if (status) return status;
+    const int bins = count_bins(&d);
+    const size_t n = (size_t)d.speeds, places = (size_t)rst_places(&d);
     const size_t bytes = sizeof **table + n * (4 * places * sizeof(double) + 6 * sizeof(double) + sizeof(struct rst_node)) +
-                         2 * (size_t)data->terms * sizeof(double) + ((size_t)bins + 1) * sizeof(uint16_t) + 10 * 16;
+                         2 * (size_t)d.terms * sizeof(double) + ((size_t)bins + 1) * sizeof(uint16_t) + 10 * 16;
     restitute_table *made = malloc(bytes);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
-    fill(made, data, bins);
+    fill(made, &d, bins);
     *table = made;
-    return RESTITUTE_OK;
-}
-
-const struct rst_table_data *restitute_private_table_data(const restitute_table *table)
-{
-    return &table->d;
+    return rst_done(error);
 }
 
 void restitute_table_destroy(restitute_table *table)

@@ -1,20 +1,16 @@
-/* What a table says of itself, and which limits of the model an impact passes.
+/* Information about a table, and the limits of the model that an impact exceeds.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/form.h"
 
 #include <float.h>
 
-void restitute_table_info_init(restitute_table_info *info)
-{
-    if (!info) return;
-    *info = (restitute_table_info){.struct_size = sizeof *info};
-}
+RST_DEFAULTS(table_info, .struct_size = 0)
 
 enum strain { FAST, LARGE, SLIDE };
 
-/* Lowest speed at which a ratio of the nodes passes its limit, linear in logarithms between them. Where the sphere sinks
- * ratios have no meaning. */
-static double from_speed(const struct rst_table_data *d, enum strain which, double limit, double rebound)
+/* Lowest speed at which a ratio of the nodes exceeds its limit, linear in logarithms between them.
+ * Where the sphere sinks ratios have no meaning. */
+static double from_speed(const restitute_table_data *d, enum strain which, double limit, double rebound)
 {
     for (int64_t i = 0; i < d->speeds; i++) {
         const double here = d->strain[3 * i + which];
@@ -28,7 +24,7 @@ static double from_speed(const struct rst_table_data *d, enum strain which, doub
 }
 
 /* Upper end of the lowest speeds at which e_z is 0. */
-static double rebound_speed(const struct rst_table_data *d)
+static double rebound_speed(const restitute_table_data *d)
 {
     double speed = 0;
     for (int64_t i = 0; i + 1 < d->speeds && d->ez[2 * i] <= 0 && d->ez[2 * i + 2] <= 0; i++)
@@ -39,11 +35,11 @@ static double rebound_speed(const struct rst_table_data *d)
 int restitute_table_describe(const restitute_table *table, restitute_table_info *info, restitute_error *error)
 {
     if (!table || !info) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "info" : "table");
-    const int status = rst_check_size(info->struct_size, sizeof *info, "restitute_table_info", error);
+    const int status = RST_CHECK(table_info, info, error);
     if (status) return status;
-    const struct rst_table_data *d = &table->d;
+    const restitute_table_data *d = &table->d;
     const double rebound = rebound_speed(d);
-    *info = (restitute_table_info){.struct_size = sizeof *info,
+    restitute_table_info all = {.struct_size = sizeof all,
                                    .speed = {d->low, d->high},
                                    .chi = d->chi,
                                    .gamma = d->gamma,
@@ -64,17 +60,18 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
                                    .stick_cells = d->stick_cells,
                                    .slip_cells = d->slip_cells,
                                    .bytes = table->bytes};
-    memcpy(info->version, d->version, sizeof info->version);
+    memcpy(all.version, d->version, sizeof all.version);
+    RST_GIVE(&all, info);
     return rst_done(error);
 }
 
-int restitute_table_flags(const restitute_table *table, double normal_speed, double tangential_speed)
+int restitute_table_flags(const restitute_table *table, double normal_speed, double tangential_speed, int *flags,
+                          restitute_error *error)
 {
-    if (!table) return RESTITUTE_ERROR_NULL;
-    const double sliding = fabs(tangential_speed);
-    if (!(normal_speed >= 0 && normal_speed <= rst_largest_speed && sliding <= rst_largest_speed))
-        return RESTITUTE_ERROR_DOMAIN;
-    const struct rst_table_data *d = &table->d;
+    if (!table || !flags) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "flags" : "table");
+    const int status = rst_check_speeds(normal_speed, tangential_speed, "", error);
+    if (status) return status;
+    const restitute_table_data *d = &table->d;
     const double v = fmin(fmax(normal_speed, d->low), d->high), place = rst_axis_place(v, NULL);
     int64_t i = 0;
     while (i + 2 < d->speeds && d->speed[i + 1] <= v)
@@ -85,7 +82,9 @@ int restitute_table_flags(const restitute_table *table, double normal_speed, dou
         const double low = d->strain[3 * i + k], high = d->strain[3 * i + 3 + k];
         at[k] = low > 0 && high <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high); /* nearly powers of v */
     }
-    return (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
-           (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
-           (at[SLIDE] * sliding > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0);
+    const double slide = at[SLIDE] * fabs(tangential_speed);
+    *flags = (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
+             (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
+             (slide > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0);
+    return rst_done(error);
 }

@@ -1,15 +1,19 @@
-/* The one code path of all lookups. It takes no branch on the place: on which side of psi = 1 and of psi_c it lies cannot
- * be foreseen. Nothing is written but the outputs, and nothing overflows or is invalid, for hosts that trap that.
+/* The one code path of all lookups. It does not branch on psi, since the processor cannot predict
+ * on which side of psi = 1 and of psi_c it lies. It writes only the outputs. No operation overflows
+ * or is invalid, for programs that trap this.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/form.h"
 
 #include <float.h>
 
-/* A call would pass what is found through memory. */
+/* Inline, since a call would pass the results through memory. Refusals are calls: they need not be
+ * fast, and would take registers. */
 #if defined(__GNUC__)
 #define ALWAYS_INLINE static inline __attribute__((__always_inline__))
+#define COLD static __attribute__((__noinline__, __cold__))
 #else
 #define ALWAYS_INLINE static inline
+#define COLD static
 #endif
 
 static inline double smaller(double a, double b)
@@ -22,24 +26,11 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Where a pair is along the speed. */
-struct at_speed {
-    const struct rst_node *node; /* lower end of the cell */
-    double u, weight[4];         /* place in [0, 1]; cubic weights: those of slopes are times the width, since slopes are by s */
-    double ez;
-};
-
-/* Where it is along psi. */
+/* Where a pair is along psi. */
 struct at_psi {
     double place;         /* in cells of its panel */
     double y, q;          /* y; psi, or 1/psi beyond psi = 1 */
-    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0, since a branch could not be foreseen */
-};
-
-/* Its cell. */
-struct at_cell {
-    const double *low; /* lower left node */
-    double s;          /* place in [0, 1] along psi */
+    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0 in place of unpredictable branches */
 };
 
 static inline double find_place(const restitute_table *t, double speed)
@@ -53,7 +44,7 @@ static inline double find_place(const restitute_table *t, double speed)
 static inline const struct rst_node *find_node(const restitute_table *t, double place)
 {
     const struct rst_node *node = t->node + t->bin[(int)((place - t->node->at) * t->bins_per_s)];
-    node -= node->at > place; /* a bin begins a hair late */
+    node -= node->at > place; /* a bin begins slightly late */
     while (node[1].at <= place)
         node++;
     return node;
@@ -63,20 +54,6 @@ static inline double find_ez(const struct rst_node *node, const double x[4])
 {
     const double ez = x[0] * node[0].ez + x[1] * node[0].slope + (x[2] * node[1].ez + x[3] * node[1].slope);
     return smaller(larger(ez, 0), 1);
-}
-
-static inline struct at_speed find_speed(const restitute_table *t, double place)
-{
-    struct at_speed at;
-    const struct rst_node *node = find_node(t, place);
-    const double width = node[1].at - node->at;
-    at.node = node;
-    at.u = (place - node->at) * node->inverse_width;
-    rst_hermite(at.u, at.weight);
-    at.weight[1] *= width;
-    at.weight[3] *= width;
-    at.ez = find_ez(node, at.weight);
-    return at;
 }
 
 static inline struct at_psi find_psi(const restitute_table *t, double ez, double sliding, double v_n)
@@ -92,13 +69,15 @@ static inline struct at_psi find_psi(const restitute_table *t, double ez, double
     return at;
 }
 
-static inline struct at_cell find_cell(const restitute_table *t, const struct rst_node *node, double place, int64_t slips)
+/* The lower left node of the cell of a place along psi. The place becomes the one in [0, 1] within
+ * the cell. */
+static inline const double *find_cell(const restitute_table *t, const struct rst_node *node, int64_t slips, double *place)
 {
     const int64_t sticks = t->d.stick_cells;
-    const int64_t last = sticks - 1 + slips * (t->d.slip_cells - sticks), found = (int64_t)place;
+    const int64_t last = sticks - 1 + slips * (t->d.slip_cells - sticks), found = (int64_t)*place;
     const int64_t cell = found < last ? found : last;
-    return (struct at_cell){t->d.ex + 4 * ((node - t->node) * rst_places(&t->d) + cell + slips * (sticks + 1)),
-                            place - (double)cell};
+    *place -= (double)cell;
+    return t->d.ex + 4 * ((node - t->node) * rst_places(&t->d) + cell + slips * (sticks + 1));
 }
 
 /* The sum over the four nodes of a cell. */
@@ -113,55 +92,38 @@ static inline double sum_up(const double *low, int64_t row, const double w[4], c
     return (x[0] * part[0][0] + x[1] * part[0][1]) + (x[2] * part[1][0] + x[3] * part[1][1]);
 }
 
-static inline double find_g(const restitute_table *t, const struct at_cell *at, const double of_speed[4])
-{
-    double w[4];
-    rst_hermite(at->s, w);
-    return sum_up(at->low, 4 * rst_places(&t->d), w, of_speed);
-}
-
-/* e_x before it is kept within its bounds. */
-static inline double raw_ex(const restitute_table *t, double g, double ez, const struct at_psi *at)
+static inline double find_ex(const restitute_table *t, double g, double ez, const struct at_psi *at)
 {
     const double q = at->slips * at->q + (1 - at->slips), closed = 2 * t->d.chi * (1 + ez) * q - 1; /* (27) */
-    return (1 - at->beyond) * ((g + at->slips * at->y * ez) * q) + at->beyond * closed;
-}
-
-static inline double kept(double ex)
-{
+    const double ex = (1 - at->beyond) * ((g + at->slips * at->y * ez) * q) + at->beyond * closed;
     return smaller(larger(ex, -1), 1);
 }
 
-struct spot {
-    struct at_speed speed;
-    struct at_psi psi;
-    struct at_cell cell;
-    double raw;
-};
-
-ALWAYS_INLINE struct spot find(const restitute_table *t, double speed, double sliding, double v_n)
+ALWAYS_INLINE void evaluate(const restitute_table *t, double speed, double sliding, double v_n, double *ez, double *ex)
 {
-    struct spot at;
-    at.speed = find_speed(t, find_place(t, speed));
-    at.psi = find_psi(t, at.speed.ez, sliding, v_n);
-    at.cell = find_cell(t, at.speed.node, at.psi.place, sliding > v_n);
-    at.raw = raw_ex(t, find_g(t, &at.cell, at.speed.weight), at.speed.ez, &at.psi);
-    return at;
+    double of_speed[4], of_psi[4];
+    const double place = find_place(t, speed);
+    const struct rst_node *node = find_node(t, place);
+    const double width = node[1].at - node->at;
+    rst_hermite((place - node->at) * node->inverse_width, of_speed);
+    of_speed[1] *= width; /* slopes are by s */
+    of_speed[3] *= width;
+    *ez = find_ez(node, of_speed);
+    struct at_psi psi = find_psi(t, *ez, sliding, v_n);
+    const double *low = find_cell(t, node, sliding > v_n, &psi.place);
+    rst_hermite(psi.place, of_psi);
+    *ex = find_ex(t, sum_up(low, 4 * rst_places(&t->d), of_psi, of_speed), *ez, &psi);
 }
 
-ALWAYS_INLINE void evaluate(const restitute_table *t, double speed, double sliding, double v_n, restitute_table_value *pair)
+void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n, double *ez, double *ex)
 {
-    const struct spot at = find(t, speed, sliding, v_n);
-    *pair = (restitute_table_value){at.speed.ez, kept(at.raw)};
+    evaluate(table, speed, sliding, v_n, ez, ex);
 }
 
-void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n, restitute_table_value *pair)
-{
-    evaluate(table, speed, sliding, v_n, pair);
-}
+/* ---- many places */
 
-/* Each step for so many places before the next: they do not wait for one another, and steps that read no table are done for
- * two or more at once. 8 and 32 are as fast. */
+/* Places a block. Each step is done for all places of a block before the next step. So places do
+ * not wait for each other, and steps that read no table are vectorised. 8 and 32 are as fast. */
 enum { block = 16 };
 
 /* Cubic weights at many places. */
@@ -174,6 +136,8 @@ static inline void find_weights(int n, const double *u, double weight[4][block])
     }
 }
 
+/* `evaluate` for up to `block` places, in a third of the time. For one place alone it would take
+ * 8 % longer. */
 static void evaluate_block(const restitute_table *t, int n, const double *speed, const double *sliding, const double *v_n,
                            double *ez, double *ex)
 {
@@ -201,12 +165,9 @@ static void evaluate_block(const restitute_table *t, int n, const double *speed,
         const struct at_psi psi = find_psi(t, ez[i], sliding[i], v_n[i]);
         place[i] = psi.place, y[i] = psi.y, q[i] = psi.q, slips[i] = psi.slips, beyond[i] = psi.beyond;
     }
-    for (int i = 0; i < n; i++) {
-        const struct at_cell cell = find_cell(t, node[i], place[i], sliding[i] > v_n[i]);
-        low[i] = cell.low;
-        u[i] = cell.s;
-    }
-    find_weights(n, u, of_psi);
+    for (int i = 0; i < n; i++)
+        low[i] = find_cell(t, node[i], sliding[i] > v_n[i], &place[i]);
+    find_weights(n, place, of_psi);
     for (int i = 0; i < n; i++) {
         const double w[4] = {of_psi[0][i], of_psi[1][i], of_psi[2][i], of_psi[3][i]};
         const double x[4] = {of_speed[0][i], of_speed[1][i], of_speed[2][i], of_speed[3][i]};
@@ -214,11 +175,14 @@ static void evaluate_block(const restitute_table *t, int n, const double *speed,
     }
     for (int i = 0; i < n; i++) {
         const struct at_psi psi = {place[i], y[i], q[i], slips[i], beyond[i]};
-        ex[i] = kept(raw_ex(t, ex[i], ez[i], &psi));
+        ex[i] = find_ex(t, ex[i], ez[i], &psi);
     }
 }
 
-/* psi v_n; infinite without friction. A sum: of two branches a compiler may compute both, infinity times 0 too. */
+/* ---- calls */
+
+/* psi v_n; infinite without friction. Written as a sum: of two branches a compiler may compute
+ * both, and so infinity times 0. */
 static inline double sliding_of(const restitute_table_contact *c, double v_t)
 {
     const int none = c->psi_factor > DBL_MAX;
@@ -230,32 +194,82 @@ static inline int good_speeds(double v_n, double v_t)
     return (v_n >= 0) & (v_n <= rst_largest_speed) & (fabs(v_t) <= rst_largest_speed);
 }
 
-static inline int check_contact(const restitute_table_contact *c)
+/* One test; what every caller's struct has is read in place. */
+static inline int good_contact(const restitute_table_contact *c)
 {
-    if (c->struct_size != sizeof *c) return RESTITUTE_ERROR_STRUCT_SIZE;
-    return c->psi_factor >= 0 && c->speed_factor > 0 ? RESTITUTE_OK : RESTITUTE_ERROR_DOMAIN;
+    return RST_IS_SIZED(table_contact, c) && c->psi_factor >= 0 && c->speed_factor > 0;
 }
 
-int restitute_table_pair(const restitute_table *table, double normal_speed, double tangential_speed,
-                         restitute_table_value *pair)
+int rst_check_contact(const restitute_table_contact *contact, restitute_error *error)
 {
-    if (!table || !pair) return RESTITUTE_ERROR_NULL;
-    if (!good_speeds(normal_speed, tangential_speed)) return RESTITUTE_ERROR_DOMAIN;
-    evaluate(table, normal_speed, sliding_of(&table->own, tangential_speed), normal_speed, pair);
+    const int status = RST_CHECK(table_contact, contact, error);
+    if (status || good_contact(contact)) return status;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "contact.psi_factor = %g, speed_factor = %g: must be >= 0 and > 0; restitute_table_contact_set "
+                      "fills it",
+                      contact->psi_factor, contact->speed_factor);
+}
+
+int rst_check_speeds(double normal, double tangential, const char *place, restitute_error *error)
+{
+    if (good_speeds(normal, tangential)) return RESTITUTE_OK;
+    const int at = normal >= 0 && normal <= rst_largest_speed;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s_speed%s (m/s) = %.17g: must be in [%g, %g]",
+                      at ? "tangential" : "normal", place, at ? tangential : normal, at ? -rst_largest_speed : 0,
+                      rst_largest_speed);
+}
+
+COLD int refuse(const restitute_table_contact *c, double v_n, double v_t, restitute_error *error)
+{
+    const int status = rst_check_contact(c, error);
+    return status ? status : rst_check_speeds(v_n, v_t, "", error);
+}
+
+int restitute_table_pair(const restitute_table *table, const restitute_table_contact *contact, double normal_speed,
+                         double tangential_speed, double *ez, double *ex, restitute_error *error)
+{
+    if (!table) return rst_report(error, RESTITUTE_ERROR_NULL, "table is NULL");
+    const restitute_table_contact *c = contact ? contact : &table->own;
+    if ((contact && !good_contact(contact)) || !good_speeds(normal_speed, tangential_speed))
+        return refuse(c, normal_speed, tangential_speed, error);
+    const double speed = normal_speed * c->speed_factor, sliding = sliding_of(c, tangential_speed);
+    double own_ez, own_ex;
+    evaluate(table, speed, sliding, normal_speed, &own_ez, &own_ex);
+    if (ez) *ez = own_ez;
+    if (ex) *ex = own_ex;
+    return error ? rst_done(error) : RESTITUTE_OK;
+}
+
+/* All speeds are in their ranges. The first loop has no branches; where it fails, the second one
+ * finds the place. */
+static int check_many(size_t n, const double *normal, const double *tangential, restitute_error *error)
+{
+    int good = 1;
+    char place[32];
+    for (size_t i = 0; i < n; i++)
+        good &= good_speeds(normal[i], tangential[i]);
+    for (size_t i = 0; !good; i++)
+        if (!good_speeds(normal[i], tangential[i])) {
+            rst_print(place, sizeof place, "s[%zu]", i);
+            return rst_check_speeds(normal[i], tangential[i], place, error);
+        }
     return RESTITUTE_OK;
 }
 
-int restitute_table_pairs(const restitute_table *table, const restitute_table_contact *contact, size_t n,
-                          const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex)
+int restitute_table_pair_many(const restitute_table *table, const restitute_table_contact *contact, size_t n,
+                              const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex,
+                              restitute_error *error)
 {
-    if (!table || (n > 0 && (!normal_speeds || !tangential_speeds))) return RESTITUTE_ERROR_NULL;
-    const int status = check_contact(contact ? contact : &table->own);
+    if (!table || (n > 0 && (!normal_speeds || !tangential_speeds)))
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
+                          !table           ? "table"
+                          : !normal_speeds ? "normal_speeds"
+                                           : "tangential_speeds");
+    restitute_table_contact c = table->own;
+    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    if (!status) status = check_many(n, normal_speeds, tangential_speeds, error);
     if (status) return status;
-    const restitute_table_contact c = contact ? *contact : table->own;
-    int good = 1;
-    for (size_t i = 0; i < n; i++)
-        good &= good_speeds(normal_speeds[i], tangential_speeds[i]);
-    if (!good) return RESTITUTE_ERROR_DOMAIN;
+    if (contact) RST_TAKE(table_contact, &c, contact);
     for (size_t done = 0; done < n; done += block) {
         double speed[block], sliding[block], own_ez[block], own_ex[block];
         const double *v_n = normal_speeds + done, *v_t = tangential_speeds + done;
@@ -269,74 +283,5 @@ int restitute_table_pairs(const restitute_table *table, const restitute_table_co
         if (ez) memcpy(ez + done, own_ez, (size_t)count * sizeof *ez);
         if (ex) memcpy(ex + done, own_ex, (size_t)count * sizeof *ex);
     }
-    return RESTITUTE_OK;
-}
-
-/* ---- derivatives */
-
-/* e_z by s, g by s, and g by the place in its cell of psi. */
-struct rates {
-    double ez, of_speed, of_psi;
-};
-
-static struct rates rates_at(const restitute_table *t, const struct spot *at)
-{
-    const int64_t row = 4 * rst_places(&t->d);
-    const struct rst_node *node = at->speed.node;
-    double w[4], rate_w[4], rate_x[4];
-    rst_hermite(at->cell.s, w);
-    rst_hermite_slope(at->cell.s, rate_w);
-    rst_hermite_slope(at->speed.u, rate_x);
-    rate_x[0] *= node->inverse_width;
-    rate_x[2] *= node->inverse_width;
-    return (struct rates){rate_x[0] * node[0].ez + rate_x[1] * node[0].slope + rate_x[2] * node[1].ez +
-                              rate_x[3] * node[1].slope,
-                          sum_up(at->cell.low, row, w, rate_x), sum_up(at->cell.low, row, rate_w, at->speed.weight)};
-}
-
-/* e_x by s at constant psi, and by psi. */
-static void rates_of_ex(const restitute_table *t, const struct spot *at, const struct rates *r, double *by_s,
-                        double *by_psi)
-{
-    if (at->psi.slips <= 0) {
-        *by_s = r->of_speed;
-        *by_psi = r->of_psi * (double)t->d.stick_cells;
-    } else if (at->psi.beyond > 0) {
-        *by_s = 2 * t->d.chi * r->ez * at->psi.q;
-        *by_psi = -2 * t->d.chi * (1 + at->speed.ez) * at->psi.q * at->psi.q;
-    } else {
-        const double by_y = r->of_psi * rst_panel_slope(at->psi.y) * (double)t->d.slip_cells + at->speed.ez; /* of psi e_x */
-        *by_s = (r->of_speed + at->psi.y * r->ez * (1 - by_y / (1 + at->speed.ez))) * at->psi.q;
-        *by_psi = (by_y / (t->share * (1 + at->speed.ez)) - at->raw) * at->psi.q;
-    }
-}
-
-static void find_slope(const restitute_table *t, const restitute_table_contact *c, double v_n, double v_t,
-                       restitute_table_slope *slope)
-{
-    const double v = larger(v_n, 1e-100), speed = v * c->speed_factor, sliding = sliding_of(c, v_t);
-    const struct spot at = find(t, speed, sliding, v);
-    double of_place = 0, by_s, by_psi;
-    const struct rates r = rates_at(t, &at);
-    if (speed >= t->d.low && speed <= t->d.high) rst_axis_place(speed, &of_place);
-    of_place *= c->speed_factor;
-    slope->ez_normal = r.ez * of_place;
-    slope->ex_normal = slope->ex_tangential = 0;
-    if (fabs(at.raw) > 1 || c->psi_factor > DBL_MAX) return;
-    rates_of_ex(t, &at, &r, &by_s, &by_psi);
-    slope->ex_normal = by_s * of_place - by_psi * (sliding / v) / v;
-    slope->ex_tangential = by_psi * (c->psi_factor / v);
-}
-
-int restitute_table_pair_of(const restitute_table *table, const restitute_table_contact *contact, double normal_speed,
-                            double tangential_speed, restitute_table_value *pair, restitute_table_slope *slope)
-{
-    if (!table || !pair) return RESTITUTE_ERROR_NULL;
-    const restitute_table_contact *c = contact ? contact : &table->own;
-    const int status = check_contact(c);
-    if (status) return status;
-    if (!good_speeds(normal_speed, tangential_speed)) return RESTITUTE_ERROR_DOMAIN;
-    evaluate(table, normal_speed * c->speed_factor, sliding_of(c, tangential_speed), normal_speed, pair);
-    if (slope) find_slope(table, c, normal_speed, tangential_speed, slope);
-    return RESTITUTE_OK;
+    return rst_done(error);
 }

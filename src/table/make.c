@@ -4,25 +4,31 @@
 
 #include <stdlib.h>
 
-/* One block for the arrays that the numbers of a table point to; NULL: out of memory. */
-static double *allocate(struct rst_table_data *d)
+/* What the arrays of a table's numbers point to, in one block. */
+struct arrays {
+    double *block, *speed, *ez, *strain, *ex, *relaxation_time, *modulus;
+};
+
+static int allocate(restitute_table_data *d, struct arrays *a)
 {
-    const int64_t size[] = {d->speeds, 2 * d->speeds, 3 * d->speeds, 4 * d->speeds * rst_places(d), d->terms, d->terms};
-    double **const array[] = {&d->speed, &d->ez, &d->strain, &d->ex, &d->relaxation_time, &d->modulus};
-    int64_t all = 0;
-    for (int i = 0; i < 6; i++)
-        all += size[i];
-    double *const block = malloc((size_t)all * sizeof *block), *next = block;
-    for (int i = 0; i < 6 && block; next += size[i++])
-        *array[i] = next;
-    return block;
+    const int64_t n = d->speeds, ex = 4 * n * rst_places(d);
+    a->block = malloc((size_t)(6 * n + ex + 2 * d->terms) * sizeof *a->block);
+    if (!a->block) return RESTITUTE_ERROR_MEMORY;
+    d->speed = a->speed = a->block;
+    d->ez = a->ez = a->speed + n;
+    d->strain = a->strain = a->ez + 2 * n;
+    d->ex = a->ex = a->strain + 3 * n;
+    d->relaxation_time = a->relaxation_time = a->ex + ex;
+    d->modulus = a->modulus = a->relaxation_time + d->terms;
+    return RESTITUTE_OK;
 }
 
-static void describe(const struct rst_builder *b, struct rst_table_data *d)
+static void describe(const struct rst_builder *b, restitute_table_data *d)
 {
     const struct rst_contact *c = &b->contact;
     const restitute_material *m = c->scene.material;
-    *d = (struct rst_table_data){.low = b->options.speed[0],
+    *d = (restitute_table_data){.struct_size = sizeof *d,
+                                 .low = b->options.speed[0],
                                  .high = b->options.speed[1],
                                  .tolerance = b->options.tolerance,
                                  .error_ez = b->error_ez,
@@ -45,24 +51,23 @@ static void describe(const struct rst_builder *b, struct rst_table_data *d)
                                  .stick_cells = b->cells[0],
                                  .slip_cells = b->cells[1]};
     d->psi_factor = rst_psi_factor(c);
-    restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL);
-    snprintf(d->version, sizeof d->version, "%s", restitute_version());
+    restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL, NULL);
+    rst_print(d->version, sizeof d->version, "%s", restitute_version());
 }
 
 /* Slopes by s of a column, of e_z and of g and its slopes by psi, which the nodes have. */
-static void slopes_by_speed(const struct rst_builder *b, int64_t i, struct rst_table_data *d)
+static void slopes_by_speed(const struct rst_builder *b, int64_t i, int64_t places, const struct arrays *a)
 {
     struct rst_stencil s;
-    const int64_t places = rst_places(d);
     rst_column_stencil(b, i, &s);
-    d->ez[2 * i + 1] = 0;
+    a->ez[2 * i + 1] = 0;
     for (int k = 0; k < s.n; k++)
-        d->ez[2 * i + 1] += s.w[k] * b->column[s.first + k].normal.ez;
+        a->ez[2 * i + 1] += s.w[k] * b->column[s.first + k].normal.ez;
     for (int64_t j = 0; j < places; j++) {
-        double *node = d->ex + 4 * (i * places + j);
+        double *node = a->ex + 4 * (i * places + j);
         node[1] = node[3] = 0;
         for (int k = 0; k < s.n; k++) {
-            const double *other = d->ex + 4 * ((s.first + k) * places + j);
+            const double *other = a->ex + 4 * ((s.first + k) * places + j);
             node[1] += s.w[k] * other[0];
             node[3] += s.w[k] * other[2];
         }
@@ -78,30 +83,29 @@ static void slopes_by_psi(const double *g, int64_t cells, double *node)
     }
 }
 
-static void fill(const struct rst_builder *b, struct rst_table_data *d)
+static void fill(const struct rst_builder *b, int64_t places, const struct arrays *a)
 {
-    const int64_t places = rst_places(d);
-    restitute_material_series(b->contact.scene.material, NULL, NULL, d->relaxation_time, d->modulus);
+    restitute_material_series(b->contact.scene.material, NULL, NULL, a->relaxation_time, a->modulus, NULL);
     for (int64_t i = 0; i < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
-        d->speed[i] = c->speed;
-        d->ez[2 * i] = c->normal.ez;
-        memcpy(d->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
-        slopes_by_psi(c->g[0], b->cells[0], d->ex + 4 * i * places);
-        slopes_by_psi(c->g[1], b->cells[1], d->ex + 4 * (i * places + b->cells[0] + 1));
+        a->speed[i] = c->speed;
+        a->ez[2 * i] = c->normal.ez;
+        memcpy(a->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
+        slopes_by_psi(c->g[0], b->cells[0], a->ex + 4 * i * places);
+        slopes_by_psi(c->g[1], b->cells[1], a->ex + 4 * (i * places + b->cells[0] + 1));
     }
     for (int64_t i = 0; i < b->columns; i++)
-        slopes_by_speed(b, i, d);
+        slopes_by_speed(b, i, places, a);
 }
 
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error)
 {
-    struct rst_table_data d;
+    restitute_table_data d;
+    struct arrays a;
     describe(b, &d);
-    double *block = allocate(&d);
-    if (!block) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
-    fill(b, &d);
-    const int status = restitute_private_table_make(&d, table, error);
-    free(block);
+    if (allocate(&d, &a)) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");
+    fill(b, rst_places(&d), &a);
+    const int status = restitute_table_create(&d, table, error);
+    free(a.block);
     return status;
 }

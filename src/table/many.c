@@ -35,7 +35,8 @@ static void pair_of(size_t k, size_t *i, size_t *j)
     *i = k - *j * (*j + 1) / 2;
 }
 
-/* After a failure tables before it are still built, so that the first failure is the same for any number of threads. */
+/* After a failure tables before it are still built, so that the first failure is the same for any
+ * number of threads. */
 static void ask(void *of)
 {
     struct job *job = of;
@@ -67,7 +68,7 @@ static void turn(void *of, int thread, int64_t k)
     scene.material = w->materials[i];
     scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
     if (i != j) {
-        job->status = restitute_material_pair(w->materials[i], w->materials[j], &unlike, &job->why);
+        job->status = restitute_material_effective(w->materials[i], w->materials[j], &unlike, &job->why);
         scene.material = unlike;
         scene.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     }
@@ -97,9 +98,8 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
                                const restitute_table_options *options, restitute_table_progress progress, void *data,
                                restitute_table **tables, restitute_error *error)
 {
-    restitute_table_options defaults;
-    restitute_table_options_init(&defaults);
-    if (!options) options = &defaults;
+    restitute_table_options own;
+    restitute_scene all;
     if (!materials || !scene || !tables)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
                           !materials ? "materials"
@@ -109,14 +109,15 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "count = %zu: must be in [1, %d]", count, most_materials);
     for (size_t i = 0; i < count; i++)
         if (!materials[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "materials[%zu] is NULL", i);
-    int status = rst_check_options(options, error);
-    if (!status) status = rst_check_size(scene->struct_size, sizeof *scene, "restitute_scene", error);
+    int status = rst_table_take_options(options, &own, error);
+    if (!status) status = RST_CHECK(scene, scene, error);
     if (status) return status;
-    struct work w = {materials, scene, options, progress, data, NULL, 0, count * (count + 1) / 2, 0};
+    RST_TAKE(scene, &all, scene);
+    struct work w = {materials, &all, &own, progress, data, NULL, 0, count * (count + 1) / 2, 0};
     w.failed = w.count;
     w.job = calloc(w.count, sizeof *w.job);
     if (!w.job) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu tables", w.count);
-    rst_table_loop(options->threads, (int64_t)w.count, turn, &w);
+    rst_table_loop(own.threads, (int64_t)w.count, turn, &w);
     status = finish(&w, tables, error);
     free(w.job);
     return status;

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "table/table_data.h"
 #include "table_files/container.h"
 
 static const char title[] = "table";
@@ -16,13 +15,13 @@ static const char title[] = "table";
         X(speed_limit), X(radius_limit), X(displacement_limit), X(impacts), X(checks), X(terms), X(speeds),            \
         X(stick_cells), X(slip_cells)
 #define NAME(member) #member
-#define AT(member) offsetof(struct rst_table_data, member)
-#define IS_INTEGER(member) _Generic(((struct rst_table_data *)0)->member, int64_t : 1, double : 0)
+#define AT(member) offsetof(restitute_table_data, member)
+#define IS_INTEGER(member) _Generic(((restitute_table_data *)0)->member, int64_t : 1, double : 0)
 static const char *const field_name[] = {MEMBERS(NAME)};
 static const size_t field_at[] = {MEMBERS(AT)};
 static const int is_integer[] = {MEMBERS(IS_INTEGER)};
 enum { fields = sizeof field_at / sizeof *field_at };
-enum { version_size = sizeof((struct rst_table_data *)0)->version, numbers_size = 8 * fields + version_size };
+enum { version_size = sizeof((restitute_table_data *)0)->version, numbers_size = 8 * fields + version_size };
 
 static const char units_of_numbers[] =
     "low, high m/s; duration s (of the contact at 1 m/s); radius m; mass kg; equilibrium_modulus Pa; "
@@ -35,10 +34,10 @@ struct set {
     const char *name, *units, *description;
     int rank;
     int64_t size[3];
-    double **value;
+    const double **value;
 };
 
-static void list_sets(struct rst_table_data *d, struct set set[SETS])
+static void list_sets(restitute_table_data *d, struct set set[SETS])
 {
     const struct set all[SETS] = {
         {"speed", "m/s", "normal speeds of the nodes; two that are equal are a seam", 1, {d->speeds}, &d->speed},
@@ -49,7 +48,7 @@ static void list_sets(struct rst_table_data *d, struct set set[SETS])
          "g, dg/ds, dg/dp, d2g/ds dp at psi = p/stick_cells, then at y(t), t = p/slip_cells; g = ex for psi <= 1, "
          "beyond it psi ex - y ez",
          3,
-         {d->speeds, rst_places(d), 4},
+         {d->speeds, d->stick_cells + d->slip_cells + 2, 4},
          &d->ex},
         {"relaxation_time", "s", "of the material's Prony series", 1, {d->terms}, &d->relaxation_time},
         {"modulus", "Pa", "of the material's Prony series", 1, {d->terms}, &d->modulus}};
@@ -72,7 +71,7 @@ static void put_little(uint64_t value, unsigned char *bytes)
         bytes[i] = (unsigned char)(value >> 8 * i);
 }
 
-static void pack_numbers(const struct rst_table_data *d, unsigned char *bytes)
+static void pack_numbers(const restitute_table_data *d, unsigned char *bytes)
 {
     for (int i = 0; i < fields; i++) {
         uint64_t bits;
@@ -96,7 +95,7 @@ static hid_t type_of_numbers(void)
     return -1;
 }
 
-static int put_numbers(hid_t f, const struct rst_table_data *d, uint64_t *place)
+static int put_numbers(hid_t f, const restitute_table_data *d, uint64_t *place)
 {
     unsigned char bytes[numbers_size];
     const hid_t type = type_of_numbers();
@@ -108,12 +107,11 @@ static int put_numbers(hid_t f, const struct rst_table_data *d, uint64_t *place)
     return failed;
 }
 
-static int put_table(hid_t f, const struct rst_table_data *d, uint64_t place[rst_sets])
+static int put_table(hid_t f, restitute_table_data *d, uint64_t place[rst_sets])
 {
-    struct rst_table_data copy = *d;
     struct set set[SETS];
     int failed = put_numbers(f, d, &place[SET_NUMBERS]);
-    list_sets(&copy, set);
+    list_sets(d, set);
     for (int i = 0; i < SETS && !failed; i++)
         if (count_of(&set[i]) > 0)
             failed = rst_put_values(f, set[i].name, set[i].rank, set[i].size, *set[i].value, set[i].units,
@@ -124,12 +122,15 @@ static int put_table(hid_t f, const struct rst_table_data *d, uint64_t place[rst
 int restitute_table_write(const restitute_table *table, const char *path, restitute_error *error)
 {
     if (!table || !path) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "path" : "table");
-    int status;
+    restitute_table_data d;
+    restitute_table_data_init(&d);
+    int status = restitute_table_data_get(table, &d, error);
+    if (status) return status;
     uint64_t place[rst_sets] = {0};
     H5E_BEGIN_TRY
     { /* HDF5 does not print errors */
         const hid_t file = rst_container_begin();
-        const int good = file >= 0 && !put_table(file, restitute_private_table_data(table), place);
+        const int good = file >= 0 && !put_table(file, &d, place);
         status = rst_container_end(file, good ? place : NULL, title, path, error);
     }
     H5E_END_TRY
@@ -153,10 +154,10 @@ static const unsigned char *find(const struct rst_old_file *file, int set, uint6
     return place <= file->size && size <= file->size - place ? file->bytes + place : NULL;
 }
 
-static int get_numbers(const struct rst_old_file *file, struct rst_table_data *d)
+static int get_numbers(const struct rst_old_file *file, restitute_table_data *d)
 {
     const unsigned char *bytes = find(file, SET_NUMBERS, numbers_size);
-    if (!bytes) return 1;
+    if (!bytes) return RESTITUTE_ERROR_FORMAT;
     for (int i = 0; i < fields; i++) {
         const uint64_t bits = little(bytes + 8 * i);
         memcpy((char *)d + field_at[i], &bits, 8);
@@ -165,40 +166,50 @@ static int get_numbers(const struct rst_old_file *file, struct rst_table_data *d
     d->version[version_size - 1] = '\0';
     /* sizes that multiply without overflow; what a table may have is asked later */
     const int64_t most = 1 << 20;
-    return d->speeds < 0 || d->speeds > most || d->stick_cells < 0 || d->stick_cells > most || d->slip_cells < 0 ||
-           d->slip_cells > most || d->terms < 0 || d->terms > most;
+    const int64_t count[] = {d->speeds, d->stick_cells, d->slip_cells, d->terms};
+    for (int i = 0; i < 4; i++)
+        if (count[i] < 0 || count[i] > most) return RESTITUTE_ERROR_FORMAT;
+    return RESTITUTE_OK;
 }
 
-/* Room is made for what the file holds. */
-static int get_set(const struct rst_old_file *file, int i, struct set *set, restitute_error *why)
+/* Room is made for what the file holds; the arrays lie in it. */
+static int get_sets(const struct rst_old_file *file, struct set set[SETS], double **room)
 {
-    const int64_t count = count_of(set);
-    if (count == 0) return 0;
-    const unsigned char *bytes = find(file, i, 8 * (uint64_t)count);
-    if (!bytes) return 1;
-    *set->value = malloc((size_t)count * sizeof **set->value);
-    if (!*set->value) why->status = RESTITUTE_ERROR_MEMORY;
-    for (int64_t k = 0; k < count && *set->value; k++) {
-        const uint64_t bits = little(bytes + 8 * k);
-        memcpy(&(*set->value)[k], &bits, 8);
+    const unsigned char *bytes[SETS];
+    int64_t all = 0;
+    for (int i = 0; i < SETS; i++) {
+        bytes[i] = find(file, i, 8 * (uint64_t)count_of(&set[i]));
+        if (!bytes[i]) return RESTITUTE_ERROR_FORMAT;
+        all += count_of(&set[i]);
     }
-    return !*set->value;
+    double *next = *room = malloc((size_t)all * sizeof **room + 1);
+    if (!next) return RESTITUTE_ERROR_MEMORY;
+    for (int i = 0; i < SETS; i++) {
+        const int64_t count = count_of(&set[i]);
+        *set[i].value = next;
+        for (int64_t k = 0; k < count; k++, next++) {
+            const uint64_t bits = little(bytes[i] + 8 * k);
+            memcpy(next, &bits, 8);
+        }
+    }
+    return RESTITUTE_OK;
 }
 
 static int read_table(const char *path, const struct rst_old_file *file, restitute_table **table,
                       restitute_error *error)
 {
-    struct rst_table_data d = {0};
+    restitute_table_data d;
     struct set set[SETS];
-    restitute_error why = {.status = RESTITUTE_ERROR_FORMAT, .message = "parts are missing"};
-    int failed = get_numbers(file, &d);
-    if (failed) d = (struct rst_table_data){0}; /* list_sets adds and multiplies the counts */
-    list_sets(&d, set);
-    for (int i = 0; i < SETS && !failed; i++)
-        failed = get_set(file, i, &set[i], &why);
-    const int status = failed ? why.status : restitute_private_table_make(&d, table, &why);
-    for (int i = 0; i < SETS; i++)
-        free(*set[i].value);
+    double *room = NULL;
+    restitute_error why = {.message = "parts are missing"};
+    restitute_table_data_init(&d);
+    int status = get_numbers(file, &d);
+    if (!status) {
+        list_sets(&d, set);
+        status = get_sets(file, set, &room);
+    }
+    if (!status) status = restitute_table_create(&d, table, &why);
+    free(room);
     if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%.120s: out of memory", path);
     if (status) return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: holds no table: %.100s", path, why.message);
     return RESTITUTE_OK;

@@ -4,6 +4,7 @@
 
 #include "../support/drive.h"
 #include "../support/random.h"
+#include "../support/sized.h"
 
 static restitute_contact_law *standard_law(double poisson_ratio)
 {
@@ -277,6 +278,31 @@ static void many_steps_are_single_steps(void **unused)
     restitute_contact_law_destroy(law);
 }
 
+/* In an array the size of the first is the distance to the next: it is not a matter of one contact. */
+static void structs_of_other_sizes_are_refused(void **unused)
+{
+    static _Alignas(double) unsigned char place[guarded_bytes];
+    const void *given = place;
+    restitute_contact_law *law = standard_law(0.5), *none = NULL;
+    restitute_material *material = solid_of(1, 0, 0, NULL, NULL);
+    struct drive d = loaded(law), before = d;
+    int statuses[2] = {7, 7};
+    restitute_error e;
+    (void)unused;
+    CHECK_SIZES(contact_law_options, energies, place, &e, restitute_contact_law_create(material, given, &none, &e));
+    assert_null(none);
+    CHECK_SIZES(contact_rates, values, place, &e, restitute_contact_rates_set(law, 1e-2, (void *)place, &e));
+    CHECK_SIZES(contact_rates, values, place, &e, restitute_contact_step(law, given, &d.motion, d.state, &d.force, &e));
+    CHECK_SIZES(contact_motion, friction, place, &e, restitute_contact_step(law, &d.rates, given, d.state, &d.force, &e));
+    CHECK_SIZES(contact_motion, friction, place, &e,
+                restitute_contact_step_many(law, &d.rates, 2, given, d.state, 48, &d.force, statuses, &e));
+    CHECK_SIZES(contact_energies, viscous, place, &e,
+                restitute_contact_energies_get(law, 1, d.state, (void *)place, &e));
+    CHECK(statuses[0] == 7 && statuses[1] == 7 && memcmp(&d, &before, sizeof d) == 0, "a refused call has written");
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+}
+
 /* Any bits for any number: a status or finite forces, and then a finite state. */
 static void no_input_makes_what_is_not_a_number(void **unused)
 {
@@ -321,6 +347,7 @@ int main(void)
         cmocka_unit_test(bodies_apart_are_no_contact),
         cmocka_unit_test(least_overlap_spoils_nothing),
         cmocka_unit_test(many_steps_are_single_steps),
+        cmocka_unit_test(structs_of_other_sizes_are_refused),
         cmocka_unit_test(no_input_makes_what_is_not_a_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

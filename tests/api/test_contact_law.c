@@ -20,7 +20,7 @@ static restitute_material *material_of(restitute_contact_law *law, double *bound
 {
     double tau[8], g[8], g_inf, eta;
     size_t n;
-    assert_int_equal(restitute_contact_law_series(law, &g_inf, &eta, &n, tau, g, bound), 0);
+    assert_int_equal(restitute_contact_law_series(law, &g_inf, &eta, &n, tau, g, bound, NULL), 0);
     restitute_contact_law_destroy(law);
     return solid_of(g_inf, eta, n, tau, g);
 }
@@ -135,7 +135,8 @@ static void poor_reductions_are_named(void **unused)
     restitute_material_destroy(pib);
 }
 
-/* What contact.h says: up to a third of the bound. For impacts whose contact time, and a fiftieth of it, lie in the window. */
+/* What contact.h says: up to a third of the bound. For impacts whose contact time, and a fiftieth
+ * of it, lie in the window. */
 static void ez_errs_by_a_part_of_the_bound(void **unused)
 {
     (void)unused;
@@ -218,6 +219,7 @@ static int draw_law(uint64_t *random, int number, restitute_contact_law **law)
     CHECK(restitute_material_prony(flows ? 0 : g_inf, creeps ? eta : 0, (size_t)n, tau, g, 0.3, &material, &error) == 0,
           "%s", error.message);
     restitute_contact_law_options_init(&o);
+    o.deformable = number % 2 ? RESTITUTE_ONE_BODY_DEFORMS : RESTITUTE_BOTH_BODIES_DEFORM;
     o.terms = 1 + random_below(random, 8);
     o.shortest = draw_any(random, window);
     o.longest = random_below(random, 2) ? draw_any(random, window) : 1e3 * o.shortest;
@@ -228,7 +230,8 @@ static int draw_law(uint64_t *random, int number, restitute_contact_law **law)
     return status;
 }
 
-/* Finite forces within Coulomb's law, whose bound is rounded like the force itself: 4 rounding errors of each. */
+/* Finite forces within Coulomb's law, whose bound is rounded like the force itself: 4 rounding
+ * errors of each. */
 static void check_force(const restitute_contact_force *f, double friction, int number)
 {
     const double *t = f->tangential, size = hypot(hypot(t[0], t[1]), t[2]), limit = friction * f->normal;
@@ -248,6 +251,8 @@ static void press_and_rub(uint64_t *random, const restitute_contact_law *law, in
     double state[most_state] = {0};
     const double step = draw_any(random, 1e60);
     int status;
+    restitute_contact_rates_init(&rates);
+    restitute_contact_energies_init(&energies);
     NEVER_TRAPS(status, restitute_contact_rates_set(law, step, &rates, NULL), number);
     assert_int_equal(status, 0);
     restitute_contact_motion_init(&m);
@@ -266,7 +271,7 @@ static void press_and_rub(uint64_t *random, const restitute_contact_law *law, in
         NEVER_TRAPS(status, restitute_contact_step(law, &rates, &m, state, &force, NULL), number);
         if (status) return; /* a step too long */
         check_force(&force, m.friction, number);
-        NEVER_TRAPS(status, restitute_contact_energies_of(law, m.radius, state, &energies, NULL), number);
+        NEVER_TRAPS(status, restitute_contact_energies_get(law, m.radius, state, &energies, NULL), number);
         CHECK(status || (isfinite(energies.stored) && isfinite(energies.viscous)), "case %d: %g J", number,
               energies.stored);
     }

@@ -18,7 +18,7 @@ static int fit_with(size_t n, int model, int loss, struct given *given)
     int status;
     drops(n, 0.1, 0.4, points);
     for (size_t i = 0; i < n; i++)
-        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
+        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_MODEL_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
     restitute_fit_result_init(&r);
     options.starts = 1, options.loss = loss;
     r.rms = 77;
@@ -35,17 +35,17 @@ static int fit_with(size_t n, int model, int loss, struct given *given)
 
 static int elastic(struct given *given)
 {
-    return fit_with(N, RESTITUTE_FIT_ELASTIC, RESTITUTE_FIT_SQUARES, given);
+    return fit_with(N, RESTITUTE_FIT_MODEL_ELASTIC, RESTITUTE_FIT_LOSS_SQUARES, given);
 }
 
 static int damped(struct given *given)
 {
-    return fit_with(N, RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_HUBER, given);
+    return fit_with(N, RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_LOSS_HUBER, given);
 }
 
 static int plain(struct given *given)
 {
-    return fit_with(2, RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_SQUARES, given);
+    return fit_with(2, RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_LOSS_SQUARES, given);
 }
 
 static int curve(struct given *given)

@@ -14,7 +14,7 @@ static void round_trip_without_noise(void **state)
     (void)state;
     drops(N, 1e-3, 1, points);
     measure(solid, N, points, 0, 1, 0, 1);
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
     assert_int_equal(r.constants, 3);
     assert_string_equal(r.name[0], "modulus1_pa");
@@ -24,7 +24,7 @@ static void round_trip_without_noise(void **state)
         CHECK(r.low[i] <= truth[i] && truth[i] <= r.high[i], "%s in [%g, %g]", r.name[i], r.low[i], r.high[i]);
     }
     assert_int_equal(r.rank, 3);
-    assert_int_equal(r.flags & ~RESTITUTE_FIT_LIMITS, 0);
+    assert_int_equal(r.flags & ~RESTITUTE_FIT_FLAG_LIMITS, 0);
     CHECK_NEAR(restitute_material_modulus(r.material, 1e-4), restitute_material_modulus(solid, 1e-4), 400,
                "the solid itself");
     restitute_material_destroy(r.material);
@@ -43,7 +43,7 @@ static void intervals_hold_the_truth(void **state)
         restitute_fit_point points[N];
         drops(N, 0.01, 1, points);
         measure(solid, N, points, draw % 2 ? 0.05 : 0.01, 1, 0, 1000 + draw);
-        const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+        const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
         restitute_fit_result r = fitted(N, points, &options);
         held[0] += r.low[0] <= 1e6 && 1e6 <= r.high[0];
         held[1] += r.low[1] <= 100 && 100 <= r.high[1];
@@ -62,7 +62,7 @@ static void equal_input_gives_equal_bits(void **state)
     (void)state;
     drops(N, 1e-3, 1, points);
     measure(solid, N, points, 0.01, 1, 0, 7);
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result first = fitted(N, points, &options);
     options.threads = 2;
     restitute_fit_result second = fitted(N, points, &options);
@@ -82,9 +82,9 @@ static void restitution_alone_gives_no_modulus(void **state)
     (void)state;
     drops(N, 0.01, 10, points);
     measure(solid, N, points, 0, 0, 0, 1);
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
-    assert_true(r.flags & RESTITUTE_FIT_UNDETERMINED);
+    assert_true(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED);
     assert_int_equal(r.rank, 2);
     for (int i = 0; i < 3; i++)
         assert_true(r.low[i] == 0 && isinf(r.high[i]));
@@ -134,9 +134,9 @@ static void ambiguous_data_are_recognised(void **state)
     (void)state;
     drops(N, 0.01, 1, points);
     measure(damped, N, points, 0.01, 1, 0, 3);
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_SIMPLER, "Kelvin-Voigt data by a standard solid: %s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_SIMPLER, "Kelvin-Voigt data by a standard solid: %s", r.remarks);
     assert_non_null(strstr(r.remarks, "Kelvin-Voigt"));
     CHECK(isinf(r.high[1]), "G2 up to %g", r.high[1]);
     CHECK_NEAR(r.value[0], 1e6, 5e4, "G1 is found all the same, within four standard deviations");
@@ -145,18 +145,18 @@ static void ambiguous_data_are_recognised(void **state)
     drops(N, 0.5, 0.5, points);
     measure(damped, N, points, 0.01, 0, 0, 3);
     r = fitted(N, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && r.rank == 1, "one speed alone: rank %zu", r.rank);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && r.rank == 1, "one speed alone: rank %zu", r.rank);
     restitute_material_destroy(r.material);
     restitute_material_destroy(damped);
 
     assert_int_equal(restitute_material_prony(1e6, 0, 5, tau, g, 0.5, &series, NULL), RESTITUTE_OK);
     drops(N, 0.1, 1, points);
     measure(series, N, points, 0.01, 1, 0, 3);
-    options = fit_options(RESTITUTE_FIT_PRONY);
+    options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     options.terms = 5, options.relaxation_time = tau;
     r = fitted(N, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && r.rank < 6, "five terms from one decade: rank %zu", r.rank);
-    CHECK(r.flags & RESTITUTE_FIT_SIMPLER, "%s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && r.rank < 6, "five terms from one decade: rank %zu", r.rank);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_SIMPLER, "%s", r.remarks);
     restitute_material_destroy(r.material);
     restitute_material_destroy(series);
 }
@@ -168,18 +168,18 @@ static void a_wrong_model_is_called_wrong(void **state)
     (void)state;
     drops(N, 0.01, 10, points);
     measure(solid, N, points, 0.01, 1, 0, 5);
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_fit_result r = fitted(N, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_MISFIT, "%s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_MISFIT, "%s", r.remarks);
     assert_non_null(strstr(r.remarks, "a standard solid fits better"));
-    CHECK(r.flags & RESTITUTE_FIT_LIMITS, "a/R up to 0.8: %s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_LIMITS, "a/R up to 0.8: %s", r.remarks);
     restitute_material_destroy(r.material);
     for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, where nothing is left to fit */
         const double known[] = {1e6, 3e6, wrong ? 350 : 300};
-        restitute_fit_options all = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+        restitute_fit_options all = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
         all.known = known;
         r = fitted(N, points, &all);
-        CHECK(!(r.flags & RESTITUTE_FIT_MISFIT) == !wrong, "%g: %s", known[2], r.remarks);
+        CHECK(!(r.flags & RESTITUTE_FIT_FLAG_MISFIT) == !wrong, "%g: %s", known[2], r.remarks);
         CHECK(!strstr(r.remarks, "the same model with other constants fits better") == !wrong, "%s", r.remarks);
         restitute_material_destroy(r.material);
     }
@@ -196,8 +196,8 @@ static void robust_losses_bear_outliers(void **state)
     drops(N, 0.01, 1, points);
     measure(solid, N, points, 0.01, 1, 0, 11);
     points[3].ez -= 0.3, points[9].ez -= 0.3, points[16].ez -= 0.3;
-    for (int loss = RESTITUTE_FIT_SQUARES; loss <= RESTITUTE_FIT_CAUCHY; loss++) {
-        restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    for (int loss = RESTITUTE_FIT_LOSS_SQUARES; loss <= RESTITUTE_FIT_LOSS_CAUCHY; loss++) {
+        restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
         options.loss = loss;
         restitute_fit_result r = fitted(N, points, &options);
         off[loss] = fabs(log(r.value[1] / 100));
@@ -224,15 +224,15 @@ static void many_points_are_interpolated(void **state)
     static const double tau[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
     static restitute_fit_point points[MANY];
     (void)state;
-    for (int model = RESTITUTE_FIT_KELVIN_VOIGT; model <= RESTITUTE_FIT_PRONY; model++) {
+    for (int model = RESTITUTE_FIT_MODEL_KELVIN_VOIGT; model <= RESTITUTE_FIT_MODEL_PRONY; model++) {
         restitute_material *solid = NULL;
         restitute_fit_options options = fit_options(model);
         options.terms = 5, options.relaxation_time = tau, options.known = known[model];
         const double *c = known[model];
-        if (model == RESTITUTE_FIT_KELVIN_VOIGT) solid = kelvin_voigt(c[0], c[1]);
-        if (model == RESTITUTE_FIT_STANDARD_SOLID) solid = standard_solid(c[0], c[1], c[2]);
-        if (model == RESTITUTE_FIT_MAXWELL) restitute_material_maxwell(c[0], c[1], 0.5, &solid, NULL);
-        if (model == RESTITUTE_FIT_PRONY) restitute_material_prony(c[0], 0, 5, tau, c + 1, 0.5, &solid, NULL);
+        if (model == RESTITUTE_FIT_MODEL_KELVIN_VOIGT) solid = kelvin_voigt(c[0], c[1]);
+        if (model == RESTITUTE_FIT_MODEL_STANDARD_SOLID) solid = standard_solid(c[0], c[1], c[2]);
+        if (model == RESTITUTE_FIT_MODEL_MAXWELL) restitute_material_maxwell(c[0], c[1], 0.5, &solid, NULL);
+        if (model == RESTITUTE_FIT_MODEL_PRONY) restitute_material_prony(c[0], 0, 5, tau, c + 1, 0.5, &solid, NULL);
         drops(MANY, 1e-4, 10, points);
         for (size_t i = 0; i < MANY; i++) {
             if (i % 3) points[i].scene.radius1 *= (double)(1 + i % 3), points[i].scene.mass1 *= 10;
@@ -256,7 +256,7 @@ static void another_valley_is_named(void **state)
     static const double tau[] = {3e-5, 3e-3}, g[] = {1e6, 1e6}, known[] = {1e6, NAN, NAN};
     restitute_material *solid = NULL;
     restitute_fit_point points[DROPS];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_PRONY);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
     options.terms = 2, options.relaxation_time = tau, options.known = known, options.noise_known = 1;
     restitute_material_prony(1e6, 0, 2, tau, g, 0.5, &solid, NULL);
@@ -269,7 +269,7 @@ static void another_valley_is_named(void **state)
             if (which == 2) points[i].sigma_contact_time = sigma * points[i].contact_time;
         }
         restitute_fit_result r = fitted(DROPS, points, &options);
-        CHECK(!(r.flags & RESTITUTE_FIT_UNDETERMINED) == (which > 0), "%d: flags %d", which, r.flags);
+        CHECK(!(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED) == (which > 0), "%d: flags %d", which, r.flags);
         CHECK(!strstr(r.remarks, "other constants fit as well") == (which > 0), "%d: %s", which, r.remarks);
         CHECK(isinf(r.high[1]) == (which == 0), "%d: up to %g", which, r.high[1]);
         restitute_material_destroy(r.material);
@@ -283,7 +283,7 @@ static void many_angles(void **state)
     enum { MANY = 200 };
     static restitute_fit_point points[MANY];
     restitute_material *solid = standard_solid(1e6, 3e6, 300);
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     (void)state;
     for (size_t k = 0; k < 4; k++)
         drops(MANY / 4, 0.01, 1, points + k * MANY / 4);
@@ -307,7 +307,7 @@ static void times_of_slow_rebounds_are_not_interpolated(void **state)
     static const double known[] = {1e6, 300};
     static restitute_fit_point points[MANY];
     restitute_material *solid = NULL;
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_MAXWELL);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_MAXWELL);
     (void)state;
     options.known = known;
     restitute_material_maxwell(known[0], known[1], 0.5, &solid, NULL);
@@ -335,7 +335,7 @@ static void spheres_partners_and_friction(void **state)
         if (i % 3 == 0) points[i].scene.material = partner;
     }
     measure(solid, N, points, 0, 1, 1, 1);
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
     assert_int_equal(r.constants, 4);
     assert_string_equal(r.name[3], "friction");
@@ -358,7 +358,7 @@ static void temperatures(void **state)
     measure(cold, N, points + N, 0, 1, 0, 1);
     for (size_t i = 0; i < 2 * N; i++)
         points[i].temperature = i < N ? 20 : 0;
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(2 * N, points, &options);
     assert_string_equal(r.name[3], "shift_0");
     CHECK_NEAR(r.value[3], 3, 1e-3, "a_T");
@@ -389,12 +389,12 @@ static void temperatures_from_every_seed(void **state)
         restitute_material_destroy(solid);
     }
     for (uint64_t seed = 1; seed <= 6; seed++) {
-        restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+        restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
         options.seed = seed;
         restitute_fit_result r = fitted(SOLIDS * SPEEDS, points, &options);
         CHECK(r.rms < 0.013, "seed %d: rms %g", (int)seed, r.rms); /* 0.01; its own scatter is 0.001 for 40 values */
         CHECK(fabs(r.value[1] / 3e6 - 1) < 0.1, "seed %d: G2 = %g", (int)seed, r.value[1]);
-        CHECK(!(r.flags & RESTITUTE_FIT_MISFIT), "%s", r.remarks);
+        CHECK(!(r.flags & RESTITUTE_FIT_FLAG_MISFIT), "%s", r.remarks);
         restitute_material_destroy(r.material);
     }
 }
@@ -416,7 +416,7 @@ static void refused(size_t n, const restitute_fit_point *points, const restitute
 static void refusals(void **state)
 {
     restitute_fit_point points[4], bad[4];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     (void)state;
     drops(4, 0.1, 1, points);
     for (int i = 0; i < 4; i++)
@@ -447,7 +447,7 @@ static void refusals(void **state)
     refused(4, NULL, &options, RESTITUTE_ERROR_NULL, "points is NULL");
     options.model = 6;
     refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.model = 6");
-    options = fit_options(RESTITUTE_FIT_PRONY);
+    options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.terms = 0");
     static const double twice[] = {1e-3, 1e-3};
     options.terms = 2, options.relaxation_time = twice;
@@ -461,7 +461,7 @@ static void names_have_a_point_in_every_locale(void **state)
 {
     static const double tau[] = {1e-3};
     restitute_fit_point points[6];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_PRONY);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
     drops(6, 0.1, 10, points);
     for (int i = 0; i < 6; i++)
@@ -487,7 +487,7 @@ static void the_handle(void **state)
     (void)state;
     drops(N, 0.01, 1, points);
     measure(solid, N, points, 0, 1, 0, 1);
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     assert_int_equal(restitute_fitter_create(N, points, &options, &fitter, &error), RESTITUTE_OK);
     restitute_fit_result_init(&result);
     assert_int_equal(restitute_fitter_result(fitter, &result, &error), RESTITUTE_ERROR_DOMAIN);
@@ -510,7 +510,7 @@ static void residuals_in_order_are_a_misfit(void **state)
 {
     enum { FEW = 8, DRAWS = 20 };
     static const char text[] = "neighbours along speed, angle or temperature have like residuals";
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_material *solid = kelvin_voigt(1e6, 100);
     restitute_fit_point points[FEW];
     int alarms = 0;
@@ -520,7 +520,7 @@ static void residuals_in_order_are_a_misfit(void **state)
     for (int i = 0; i < FEW; i++)
         points[i].ez -= 0.04 * (2.0 * i / (FEW - 1) - 1);
     restitute_fit_result r = fitted(FEW, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_MISFIT && strstr(r.remarks, text), "%s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_MISFIT && strstr(r.remarks, text), "%s", r.remarks);
     restitute_material_destroy(r.material);
     for (uint64_t draw = 0; draw < DRAWS; draw++) {
         measure(solid, FEW, points, 0.03, 1, 0, 500 + draw);
@@ -536,7 +536,7 @@ static void residuals_in_order_are_a_misfit(void **state)
 static void data_that_determine_nothing_have_no_condition(void **state)
 {
     restitute_fit_point points[5];
-    const restitute_fit_options options = fit_options(RESTITUTE_FIT_ELASTIC);
+    const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_ELASTIC);
     (void)state;
     drops(5, 0.1, 4, points);
     for (int i = 0; i < 5; i++)
@@ -554,7 +554,7 @@ static void wide_intervals_reach_as_far_as_the_likelihood(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 6e6, 600);
     restitute_fit_point points[N];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     double known[] = {1e6, NAN, NAN};
     (void)state;
     options.known = known;
@@ -572,7 +572,7 @@ static void wide_intervals_reach_as_far_as_the_likelihood(void **state)
     r = fitted(N, points, &options);
     CHECK(r.low[1] > 1e6 && r.low[1] < 6e6 && isinf(r.high[1]), "from %g to %g", r.low[1], r.high[1]);
     CHECK(strstr(r.remarks, "the data give no upper bound of modulus2_pa"), "%s", r.remarks);
-    assert_true(r.flags & RESTITUTE_FIT_UNDETERMINED);
+    assert_true(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED);
     restitute_material_destroy(r.material);
     restitute_material_destroy(solid);
 }
@@ -584,7 +584,7 @@ static void a_valley_that_noise_made_the_second_is_named(void **state)
     static const double tau[] = {3e-5, 3e-3}, g[] = {4.3e5, 3.25e5}, known[] = {3.15e5, NAN, NAN};
     restitute_material *solid = NULL;
     restitute_fit_point points[N];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_PRONY);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
     options.terms = 2, options.relaxation_time = tau, options.known = known;
     restitute_material_prony(3.15e5, 0, 2, tau, g, 0.5, &solid, NULL);
@@ -608,7 +608,7 @@ static int interrupts_at(void *data)
 
 static restitute_fit_options with_callback(size_t n, restitute_fit_point *points, int *at)
 {
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_material *solid = kelvin_voigt(1e6, 100);
     drops(n, 0.01, 1, points);
     measure(solid, n, points, 0.01, 1, 0, 1);

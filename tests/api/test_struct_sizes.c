@@ -155,15 +155,21 @@ static void the_contact_law(void **state)
 {
     restitute_contact_law *law = NULL;
     restitute_contact_rates rates;
+    restitute_contact_motion motion;
     restitute_contact_force force;
     restitute_error *e = &with.error;
     double law_state[256] = {0};
     (void)state;
     REFUSED(restitute_contact_law_create(with.material, with.old, &law, e));
     assert_int_equal(restitute_contact_law_create(with.material, NULL, &law, e), RESTITUTE_OK);
+    restitute_contact_rates_init(&rates);
+    restitute_contact_motion_init(&motion);
+    REFUSED(restitute_contact_rates_set(law, 1e-6, with.old, e));
     assert_int_equal(restitute_contact_rates_set(law, 1e-6, &rates, e), RESTITUTE_OK);
+    REFUSED(restitute_contact_step(law, with.old, &motion, law_state, &force, e));
     REFUSED(restitute_contact_step(law, &rates, with.old, law_state, &force, e));
     REFUSED(restitute_contact_step_many(law, &rates, 1, with.old, law_state, 256, &force, NULL, e));
+    REFUSED(restitute_contact_energies_get(law, 1, law_state, with.old, e));
     restitute_contact_law_destroy(law);
 }
 #endif
@@ -244,8 +250,7 @@ static void tables(void **state)
     double ez, ex;
     restitute_table_options options;
     restitute_table_contact contact;
-    restitute_table_value value;
-    restitute_table *table = NULL;
+    restitute_table *table = NULL, *none = NULL;
     restitute_body sphere, plane;
     restitute_error *e = &with.error;
     (void)state;
@@ -258,14 +263,16 @@ static void tables(void **state)
     REFUSED(restitute_table_build_many(1, materials, with.old, &options, NULL, NULL, &table, e));
     REFUSED(restitute_table_build_many(1, materials, &with.scene, with.old, NULL, NULL, &table, e));
     assert_int_equal(restitute_table_build(&with.scene, &options, &table, e), RESTITUTE_OK);
-    REFUSED(restitute_table_contact_of(table, with.old, &contact, e));
-    REFUSED(restitute_table_contact_of(table, &with.scene, with.old, e));
-    REFUSED(restitute_table_pair_of(table, with.old, 1, 1, &value, NULL));
-    REFUSED(restitute_table_pairs(table, with.old, 1, &speed, &speed, &ez, &ex));
-    REFUSED(restitute_table_collide(table, with.old, &sphere, &plane, &value, e));
-    REFUSED(restitute_table_collide(table, NULL, with.old, &plane, &value, e));
-    REFUSED(restitute_table_collide(table, NULL, &sphere, with.old, &value, e));
+    REFUSED(restitute_table_contact_set(table, with.old, &contact, e));
+    REFUSED(restitute_table_contact_set(table, &with.scene, with.old, e));
+    REFUSED(restitute_table_pair(table, with.old, 1, 1, &ez, &ex, e));
+    REFUSED(restitute_table_pair_many(table, with.old, 1, &speed, &speed, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, with.old, &sphere, &plane, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, NULL, with.old, &plane, &ez, &ex, e));
+    REFUSED(restitute_table_collide(table, NULL, &sphere, with.old, &ez, &ex, e));
     REFUSED(restitute_table_describe(table, with.old, e));
+    REFUSED(restitute_table_data_get(table, with.old, e));
+    REFUSED(restitute_table_create(with.old, &none, e));
     restitute_table_destroy(table);
 }
 #endif

@@ -1,9 +1,9 @@
-/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs untouched, and the same
- * objects give the right result afterwards, bit by bit, and leave nothing behind. Lookups take no memory at all.
+/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs
+ * untouched, and the same objects give the right result afterwards, bit by bit, and leave nothing
+ * behind. Lookups take no memory at all.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
-#include "../../src/table/table_data.h"
 #include "../support/failing_allocator.h"
 #include "../support/table.h"
 
@@ -16,11 +16,12 @@ static restitute_error error;
 static char place;
 #define UNTOUCHED ((void *)&place)
 
-/* Sums of what a table holds, with weights that tell its places apart, and what it says of itself. */
+/* Sums of what a table holds, with weights that tell its places apart, and what it says of
+ * itself. */
 static void give_table(const restitute_table *of, struct given *given)
 {
-    const struct rst_table_data *d = restitute_private_table_data(of);
-    const int64_t n_ex = 4 * d->speeds * rst_places(d);
+    const restitute_table_data data = data_of(of), *d = &data;
+    const int64_t n_ex = 4 * d->speeds * places_of(d);
     double sum = 0;
     for (int64_t i = 0; i < 2 * d->speeds; i++)
         sum += d->ez[i] * (double)(i % 89 + 1);
@@ -43,7 +44,7 @@ static int give_new_table(int status, restitute_table *made, struct given *given
     return status;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- builds */
+/* ---- builds */
 
 static int build(struct given *given)
 {
@@ -76,13 +77,14 @@ static void builds(void **state)
         fail_each_allocation(&all[i]);
 }
 
-/* ------------------------------------------------------------------------------------------------- all other calls */
+/* ---- all other calls */
 
 static int from_data(struct given *given)
 {
     int status;
     restitute_table *made = UNTOUCHED;
-    ARMED(status, restitute_private_table_make(restitute_private_table_data(table), &made, &error));
+    const restitute_table_data data = data_of(table);
+    ARMED(status, restitute_table_create(&data, &made, &error));
     return give_new_table(status, made, given);
 }
 
@@ -92,7 +94,7 @@ static int contact_of(struct given *given)
     restitute_table_contact contact;
     restitute_table_contact_init(&contact);
     const restitute_table_contact fresh = contact;
-    ARMED(status, restitute_table_contact_of(table, &scene, &contact, &error));
+    ARMED(status, restitute_table_contact_set(table, &scene, &contact, &error));
     CHECK(status >= 0 || memcmp(&contact, &fresh, sizeof fresh) == 0, "contact touched");
     give(given, contact.speed_factor);
     give(given, contact.psi_factor);
@@ -125,14 +127,13 @@ static void lookups_take_no_memory(void **state)
         tangential[i] = 0.05 * i;
     }
     allocator.count = 0;
-    ARMED(status, restitute_table_pairs(table, NULL, 50, normal, tangential, ez, ex));
+    ARMED(status, restitute_table_pair_many(table, NULL, 50, normal, tangential, ez, ex, NULL));
     assert_int_equal(status, RESTITUTE_OK);
-    ARMED(status, restitute_table_collide(table, NULL, &ball, &floor, NULL, NULL));
+    ARMED(status, restitute_table_collide(table, NULL, &ball, &floor, NULL, NULL, NULL));
     assert_int_equal(status, RESTITUTE_OK);
     for (int i = 0; i < 50; i++) {
-        restitute_table_value pair;
-        restitute_table_slope slope;
-        ARMED(status, restitute_table_pair_of(table, NULL, normal[i], tangential[i], &pair, &slope));
+        struct pair pair;
+        ARMED(status, restitute_table_pair(table, NULL, normal[i], tangential[i], &pair.ez, &pair.ex, NULL));
         assert_int_equal(status, RESTITUTE_OK);
     }
     CHECK(allocator.count == 0, "%ld allocations", allocator.count);

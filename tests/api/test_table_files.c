@@ -1,4 +1,5 @@
-/* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones are refused, and silently.
+/* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones
+ * are refused, and silently.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -61,7 +62,7 @@ static int alike(const restitute_table *a, const restitute_table *b)
     for (int i = 0; i <= 40; i++)
         for (int j = 0; j <= 40; j++) {
             const double v = 0.05 * pow(30, i / 40.0), u = 0.05 * j * v;
-            const restitute_table_value p = look_up(a, v, u), q = look_up(b, v, u);
+            const struct pair p = look_up(a, v, u), q = look_up(b, v, u);
             if (p.ez != q.ez || p.ex != q.ex) return 0;
         }
     return 1;
@@ -82,7 +83,7 @@ static void what_is_written_is_read(void **state)
     CHECK(memcmp(&one, &other, sizeof one) == 0, "what the table says of itself");
     restitute_table_contact contact;
     restitute_table_contact_init(&contact);
-    CHECK(restitute_table_contact_of(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_table_contact_set(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(contact.speed_factor == 1, "%.17g: the material is known again", contact.speed_factor);
     CHECK(restitute_table_write(read, broken, &error) == RESTITUTE_OK, "%s", error.message);
     FILE *file = fopen(broken, "rb");
@@ -108,7 +109,8 @@ static void check_broken(size_t place, const char *how)
           how, status, error.message);
 }
 
-/* Every byte of the block of text and of the first structures, then every 37th, in all bits in turn. */
+/* Every byte of the block of text and of the first structures, then every 37th, in all bits in
+ * turn. */
 static void flips_are_refused(void **state)
 {
     int refused = 0, tried = 0;
@@ -204,7 +206,8 @@ static void put_with_checksum(unsigned char *content, size_t length)
     put(content, length);
 }
 
-/* The file's own words of where a set begins and how many bytes it has; `member`: of the set `numbers`. */
+/* The file's own words of where a set begins and how many bytes it has; `member`: of the set
+ * `numbers`. */
 static size_t place_of(const char *set, const char *member, size_t *length)
 {
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen2(file, set, H5P_DEFAULT);
@@ -219,7 +222,8 @@ static size_t place_of(const char *set, const char *member, size_t *length)
     return place;
 }
 
-/* HDF5 reads beyond its buffers in damaged files, so it is given none: whatever stands beside the values, the table is read. */
+/* HDF5 reads beyond its buffers in damaged files, so it is given none: whatever stands beside the
+ * values, the table is read. */
 static void hdf5_reads_nothing_of_a_file(void **state)
 {
     static const char *const sets[] = {"numbers", "speed", "ez", "strain", "ex", "relaxation_time", "modulus"};
@@ -302,7 +306,7 @@ static void damage_behind_a_right_checksum_is_bounded(void **state)
         if (restitute_table_read(broken, &read, NULL) < 0) continue;
         accepted++;
         for (double v = 0.05; v < 2; v *= 1.5) {
-            const restitute_table_value p = look_up(read, v, 0.7 * v);
+            const struct pair p = look_up(read, v, 0.7 * v);
             CHECK(p.ez >= 0 && p.ez <= 1 && p.ex >= -1 && p.ex <= 1, "case %d: %g, %g", n, p.ez, p.ex);
         }
         restitute_table_info info;
@@ -310,7 +314,7 @@ static void damage_behind_a_right_checksum_is_bounded(void **state)
         restitute_table_info_init(&info);
         restitute_table_contact_init(&contact);
         restitute_table_describe(read, &info, NULL);
-        restitute_table_contact_of(read, &scene, &contact, NULL);
+        restitute_table_contact_set(read, &scene, &contact, NULL);
         restitute_table_destroy(read);
     }
     CHECK(accepted > 50 && accepted < 500, "%d of 500 were accepted", accepted);

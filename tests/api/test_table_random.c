@@ -1,5 +1,5 @@
-/* The error that a table promises, at random places, against impacts solved by themselves. With more places and solids: the target
- * table-campaign (benchmark/table_campaign.c).
+/* The error that a table promises, at random places, against impacts solved by themselves. With
+ * more places and solids: the target table-campaign (benchmark/table_campaign.c).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/table.h"
 
@@ -34,7 +34,7 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
         const double psi = random_in(&state, 0, random_below(&state, 5) < 2 ? 1 : most_psi);
         scene.tangential_speed = psi * scene.normal_speed / psi_factor;
         CHECK(restitute_solve_scene(solver, &scene, &result, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
-        const restitute_table_value pair = look_up(table, scene.normal_speed, scene.tangential_speed);
+        const struct pair pair = look_up(table, scene.normal_speed, scene.tangential_speed);
         const double ez = fabs(pair.ez - result.ez), ex = fabs(pair.ex - result.ex);
         CHECK(ez <= info->error_ez + result.error_ez && ex <= info->error_ex + result.error_ex, "v_n = %g, psi = %g: off by %g and %g, stated %g and %g",
               scene.normal_speed, psi, ez, ex, info->error_ez, info->error_ex);
@@ -75,7 +75,8 @@ static void standard_solid(void **state)
     check_table(0.1, 1e-4);
 }
 
-/* With its mass near the centre e_x of a sphere has a fold along all speeds, much narrower than the checks lie apart. */
+/* With its mass near the centre e_x of a sphere has a fold along all speeds, much narrower than the
+ * checks lie apart. */
 static void narrow_fold(void **state)
 {
     restitute_material *material;

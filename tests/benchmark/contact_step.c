@@ -67,6 +67,7 @@ static double time_of(const restitute_contact_law *law, int many, size_t n, rest
     restitute_contact_rates rates;
     double best = 1e9;
     long done = 0;
+    restitute_contact_rates_init(&rates);
     if (law) restitute_contact_rates_set(law, h, &rates, NULL);
     memset(states, 0, n * size * sizeof *states);
     for (int repeat = 0; repeat < 7; repeat++) {

@@ -25,13 +25,13 @@ static restitute_material *draw(int model, uint64_t *state, double *c)
     const double g1 = random_log(state, 3e5, 3e6), g2 = g1 * random_log(state, 0.3, 10);
     const double tau = random_log(state, 1e-4, 1e-3);
     c[0] = g1, c[1] = g2, c[2] = g2 * tau;
-    if (model == RESTITUTE_FIT_KELVIN_VOIGT) {
+    if (model == RESTITUTE_FIT_MODEL_KELVIN_VOIGT) {
         c[1] = g1 * tau;
         restitute_material_kelvin_voigt(g1, c[1], 0.5, &material, NULL);
-    } else if (model == RESTITUTE_FIT_MAXWELL) {
+    } else if (model == RESTITUTE_FIT_MODEL_MAXWELL) {
         c[1] = g1 * tau * 30; /* below, it hardly rebounds */
         restitute_material_maxwell(g1, c[1], 0.5, &material, NULL);
-    } else if (model == RESTITUTE_FIT_PRONY) {
+    } else if (model == RESTITUTE_FIT_MODEL_PRONY) {
         c[1] = g1 * random_log(state, 0.1, 3), c[2] = g1 * random_log(state, 0.1, 3);
         restitute_material_prony(g1, 0, 2, prony_times, c + 1, 0.5, &material, NULL);
     } else
@@ -78,7 +78,7 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
         restitute_fit_options_init(&options);
         restitute_fit_result_init(&result);
         options.model = model;
-        if (model == RESTITUTE_FIT_PRONY) options.terms = 2, options.relaxation_time = prony_times;
+        if (model == RESTITUTE_FIT_MODEL_PRONY) options.terms = 2, options.relaxation_time = prony_times;
         known[0] = truth[0];
         if (!with_time) options.known = known;
         if (!measure(material, noise, with_time, solver, &seed, points)) {
@@ -109,8 +109,8 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
 
 int main(int count, char **arguments)
 {
-    static const int models[] = {RESTITUTE_FIT_KELVIN_VOIGT, RESTITUTE_FIT_STANDARD_SOLID, RESTITUTE_FIT_MAXWELL,
-                                 RESTITUTE_FIT_PRONY};
+    static const int models[] = {RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_MODEL_STANDARD_SOLID, RESTITUTE_FIT_MODEL_MAXWELL,
+                                 RESTITUTE_FIT_MODEL_PRONY};
     static const double levels[] = {0, 0.01, 0.03, 0.05};
     const int draws = count > 1 ? atoi(arguments[1]) : 200;
     const uint64_t seed = count > 2 ? (uint64_t)atoll(arguments[2]) : 2017;

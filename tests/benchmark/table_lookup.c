@@ -58,26 +58,26 @@ static double pow_chained(const struct places *p)
 static double table_free(const struct places *p)
 {
     double sum = 0;
-    restitute_table_value pair;
+    double ez, ex = 0;
     for (int i = 0; i < p->count; i++) {
-        restitute_table_pair(p->table, p->v[i], p->u[i], &pair);
-        sum += pair.ex;
+        restitute_table_pair(p->table, NULL, p->v[i], p->u[i], &ez, &ex, NULL);
+        sum += ex;
     }
     return sum;
 }
 
 static double table_chained(const struct places *p)
 {
-    restitute_table_value pair = {0, 0};
+    double ez, ex = 0;
     for (int i = 0; i < p->count; i++)
-        restitute_table_pair(p->table, p->v[i] + 1e-300 * pair.ex, p->u[i], &pair);
-    return pair.ex;
+        restitute_table_pair(p->table, NULL, p->v[i] + 1e-300 * ex, p->u[i], &ez, &ex, NULL);
+    return ex;
 }
 
 static double table_many(const struct places *p)
 {
     static double ez[n], ex[n];
-    restitute_table_pairs(p->table, NULL, (size_t)p->count, p->v, p->u, ez, ex);
+    restitute_table_pair_many(p->table, NULL, (size_t)p->count, p->v, p->u, ez, ex, NULL);
     return ex[p->count - 1];
 }
 
@@ -138,7 +138,7 @@ static void measure_contact(struct places *p, double pow_ns, double chained_ns)
     for (p->count = few; p->count <= n; p->count *= n / few) {
         printf("%d places:\n", p->count);
         report("restitute_table_pair", median_ns(table_free, p), pow_ns);
-        report("restitute_table_pairs", median_ns(table_many, p), pow_ns);
+        report("restitute_table_pair_many", median_ns(table_many, p), pow_ns);
         report("restitute_table_pair, chained", median_ns(table_chained, p), chained_ns);
     }
     restitute_table_destroy(table);

@@ -27,12 +27,12 @@ static restitute_fit_result fit_ice(int model, double from)
 static void ice(void **state)
 {
     (void)state;
-    restitute_fit_result kv = fit_ice(RESTITUTE_FIT_KELVIN_VOIGT, 0.05);
-    CHECK(kv.flags & RESTITUTE_FIT_MISFIT && kv.rms > 0.05, "rms %g: %s", kv.rms, kv.remarks);
-    restitute_fit_result solid = fit_ice(RESTITUTE_FIT_STANDARD_SOLID, 0.05);
-    CHECK(solid.flags & RESTITUTE_FIT_MISFIT, "%s", solid.remarks);
+    restitute_fit_result kv = fit_ice(RESTITUTE_FIT_MODEL_KELVIN_VOIGT, 0.05);
+    CHECK(kv.flags & RESTITUTE_FIT_FLAG_MISFIT && kv.rms > 0.05, "rms %g: %s", kv.rms, kv.remarks);
+    restitute_fit_result solid = fit_ice(RESTITUTE_FIT_MODEL_STANDARD_SOLID, 0.05);
+    CHECK(solid.flags & RESTITUTE_FIT_FLAG_MISFIT, "%s", solid.remarks);
     CHECK_NEAR(solid.rms, kv.rms, 1e-3, "the standard solid is no better");
-    restitute_fit_result upper = fit_ice(RESTITUTE_FIT_KELVIN_VOIGT, 0.8);
+    restitute_fit_result upper = fit_ice(RESTITUTE_FIT_MODEL_KELVIN_VOIGT, 0.8);
     CHECK(upper.rms < 0.015, "rms %g from 0.8 cm/s on", upper.rms);
     restitute_material_destroy(kv.material);
     restitute_material_destroy(solid.material);
@@ -54,22 +54,22 @@ static void golf_ball(void **state)
         points[i].ez = sqrt(rebound[i] / drop[i]);
         points[i].sigma_ez = 0.5 * points[i].ez * sigma[i] / rebound[i];
     }
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_KELVIN_VOIGT);
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     const double known[] = {1e8, NAN};
     options.known = known;
     restitute_fit_result r = fitted(4, points, &options);
-    CHECK(!(r.flags & (RESTITUTE_FIT_MISFIT | RESTITUTE_FIT_UNDETERMINED)), "%s", r.remarks);
+    CHECK(!(r.flags & (RESTITUTE_FIT_FLAG_MISFIT | RESTITUTE_FIT_FLAG_UNDETERMINED)), "%s", r.remarks);
     CHECK(r.high[1] < 1.15 * r.low[1], "eta in [%g, %g]", r.low[1], r.high[1]);
-    CHECK(r.flags & RESTITUTE_FIT_LIMITS, "a ball of 100 MPa is flattened: %s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_LIMITS, "a ball of 100 MPa is flattened: %s", r.remarks);
     restitute_material_destroy(r.material);
     options.noise_known = 1; /* the standard errors of the means are half of what the four values scatter */
     r = fitted(4, points, &options);
-    CHECK(r.flags & RESTITUTE_FIT_MISFIT, "%s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_MISFIT, "%s", r.remarks);
     restitute_material_destroy(r.material);
-    options = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
+    options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     options.noise_known = 1;
     r = fitted(4, points, &options);
-    CHECK(r.rank == 1 && r.flags & RESTITUTE_FIT_UNDETERMINED, "four speeds within 17 %%: %s", r.remarks);
+    CHECK(r.rank == 1 && r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED, "four speeds within 17 %%: %s", r.remarks);
     restitute_material_destroy(r.material);
 }
 
@@ -184,7 +184,7 @@ static void master_curve(void **state)
     for (size_t i = 0; i < c.n; i++) /* moduli that no shift of time explains */
         if (c.temperature[i] > 30) c.storage[i] *= 2;
     r = fit_curve(&c, c.temperature, &options);
-    CHECK(r.flags & RESTITUTE_FIT_MISFIT, "rms %g", r.rms);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_MISFIT, "rms %g", r.rms);
     restitute_material_destroy(r.material);
     struct curve gap = {0}; /* a decade each, six decades apart */
     read_series(&gap);
@@ -193,7 +193,7 @@ static void master_curve(void **state)
         add_row(&gap, pow(10, 0.2 * (i % 6)), i < 6 ? 1 : 2e6, 0, &seed);
     }
     r = fit_curve(&gap, gap.temperature, NULL);
-    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && strstr(r.remarks, "do not overlap"), "%s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && strstr(r.remarks, "do not overlap"), "%s", r.remarks);
     restitute_material_destroy(r.material);
 }
 
@@ -206,7 +206,7 @@ static void few_rows(void **state)
     restitute_dma_result_init(&r);
     assert_int_equal(restitute_dma_fit(3, f, storage, loss, NULL, NULL, &r, NULL), RESTITUTE_OK);
     CHECK(2 * r.terms + (r.equilibrium_modulus > 0) <= 6, "%zu terms", r.terms);
-    CHECK(r.flags & RESTITUTE_FIT_UNDETERMINED && strstr(r.remarks, "relaxation times"), "half a decade: %s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && strstr(r.remarks, "relaxation times"), "half a decade: %s", r.remarks);
     CHECK(r.rms < 0.03, "rms %g", r.rms); /* slopes of 0.6 and 0.5 a decade of both: two terms come near */
     restitute_material_destroy(r.material);
 }

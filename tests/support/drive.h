@@ -42,6 +42,7 @@ static inline void drive_set_step(struct drive *drive, double step)
 static inline struct drive drive_of(restitute_contact_law *law, double step, double friction)
 {
     struct drive drive = {.law = law};
+    restitute_contact_rates_init(&drive.rates);
     drive_set_step(&drive, step);
     restitute_contact_motion_init(&drive.motion);
     drive.motion.radius = 1;

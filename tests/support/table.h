@@ -8,7 +8,8 @@
 #include "random.h"
 #include "solve.h"
 
-/* A steel ball of 5 mm on a standard solid, or with gamma = 0 a Kelvin-Voigt one: delta1 = 0.05 to 0.7 over six decades of speed. */
+/* A steel ball of 5 mm on a standard solid, or with gamma = 0 a Kelvin-Voigt one: delta1 = 0.05 to
+ * 0.7 over six decades of speed. */
 static inline restitute_scene ball_on(double gamma, restitute_material **material)
 {
     restitute_scene scene;
@@ -37,11 +38,38 @@ static inline restitute_table *table_of(const restitute_scene *scene, double low
     return table;
 }
 
-static inline restitute_table_value look_up(const restitute_table *table, double v_n, double v_t)
+struct pair {
+    double ez, ex;
+};
+
+/* Of a contact; NULL: the table's own. */
+static inline struct pair look_up_for(const restitute_table *table, const restitute_table_contact *contact, double v_n,
+                                      double v_t)
 {
-    restitute_table_value pair;
-    CHECK(restitute_table_pair(table, v_n, v_t, &pair) == RESTITUTE_OK, "%g, %g", v_n, v_t);
+    struct pair pair;
+    restitute_error error;
+    CHECK(restitute_table_pair(table, contact, v_n, v_t, &pair.ez, &pair.ex, &error) == RESTITUTE_OK, "%s",
+          error.message);
     return pair;
+}
+
+static inline struct pair look_up(const restitute_table *table, double v_n, double v_t)
+{
+    return look_up_for(table, NULL, v_n, v_t);
+}
+
+static inline restitute_table_data data_of(const restitute_table *table)
+{
+    restitute_table_data data;
+    restitute_table_data_init(&data);
+    assert_int_equal(restitute_table_data_get(table, &data, NULL), RESTITUTE_OK);
+    return data;
+}
+
+/* Places of psi: both panels have their own at psi = 1. */
+static inline int64_t places_of(const restitute_table_data *d)
+{
+    return d->stick_cells + d->slip_cells + 2;
 }
 
 /* psi v_n/|v_t| of ball_on: (2 - 2 nu)/(2 - nu)/mu with nu = 1/2, mu = 0.3. */

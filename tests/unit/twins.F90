@@ -141,8 +141,9 @@ contains
                 c_loc(law%tangential), c_loc(law%g), c_loc(law%tau), c_loc(law%x), c_loc(law%y), &
                 c_loc(law%weight), c_loc(law%outwards), c_loc(law%per_cell), c_loc(law%bit)])
     case (19)
-      call put(c_sizeof(contact_rates), [c_loc(contact_rates%step), c_loc(contact_rates%compliance), &
-                c_loc(contact_rates%viscosity), c_loc(contact_rates%decay), c_loc(contact_rates%gain), &
+      call put(c_sizeof(contact_rates), [c_loc(contact_rates%struct_size), c_loc(contact_rates%step), &
+                c_loc(contact_rates%law), c_loc(contact_rates%compliance), c_loc(contact_rates%viscosity), &
+                c_loc(contact_rates%decay), c_loc(contact_rates%gain), &
                 c_loc(contact_rates%bend)])
     case (20)
       call put(c_sizeof(contact_motion), [c_loc(contact_motion%struct_size), c_loc(contact_motion%overlap), &

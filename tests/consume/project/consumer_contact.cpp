@@ -13,6 +13,7 @@ int main()
     restitute_contact_motion motion;
     restitute_contact_force force = {};
     restitute_error error = {};
+    restitute_contact_rates_init(&rates);
     restitute_contact_motion_init(&motion);
     if (restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, &error) < 0 ||
         restitute_contact_law_create(rubber, nullptr, &law, &error) < 0 ||

@@ -46,9 +46,9 @@ static double weigh(int loss, double u, double *psi, double *slope)
     const double c = u / CAUCHY;
     double w = 1;
     *slope = 1;
-    if (loss == RESTITUTE_FIT_HUBER && fabs(u) > HUBER)
+    if (loss == RESTITUTE_FIT_LOSS_HUBER && fabs(u) > HUBER)
         w = HUBER / fabs(u), *slope = 0;
-    else if (loss == RESTITUTE_FIT_CAUCHY)
+    else if (loss == RESTITUTE_FIT_LOSS_CAUCHY)
         w = 1 / (1 + c * c), *slope = (1 - c * c) * w * w;
     *psi = w * u;
     return w;
@@ -73,7 +73,7 @@ int rst_fit_reweigh(struct rst_fit_search *s, double *weight, double *change)
 }
 
 /* Variance of a residual. With a robust loss that of Huber's M-estimate: scale^2 sum psi^2/dof over mean(psi')^2. */
-static void find_noise(const struct rst_fit_search *s, struct rst_fit_certainty *c, double *sorted)
+static void find_noise(const struct rst_fit_search *s, struct rst_fit_intervals *c, double *sorted)
 {
     const struct rst_fit_data *d = s->data;
     double sum = 0, slopes = 0, psi, slope;
@@ -89,7 +89,7 @@ static void find_noise(const struct rst_fit_search *s, struct rst_fit_certainty 
 }
 
 /* Directions beyond the first `rank` are not determined, nor is a constant that has a part in them. */
-static void set_variance(const struct rst_fit_search *s, struct rst_fit_certainty *c)
+static void set_variance(const struct rst_fit_search *s, struct rst_fit_intervals *c)
 {
     const size_t p = s->model.free;
     for (size_t i = 0; i < p; i++) {
@@ -107,7 +107,7 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_certaint
 
 /* Another fit that is as good lies apart if a constant is more than three standard deviations away; of it, constants are not
  * determined that are more than one away. */
-static void look_at_other(const struct rst_fit_search *s, struct rst_fit_certainty *c)
+static void look_at_other(const struct rst_fit_search *s, struct rst_fit_intervals *c)
 {
     const size_t p = s->model.free;
     double most = 0, away[RESTITUTE_FIT_CONSTANTS];
@@ -121,11 +121,11 @@ static void look_at_other(const struct rst_fit_search *s, struct rst_fit_certain
     }
 }
 
-int rst_fit_certainty(struct rst_fit_search *s, struct rst_fit_certainty *c)
+int rst_fit_intervals(struct rst_fit_search *s, struct rst_fit_intervals *c)
 {
     const size_t rows = s->data->rows, p = s->model.free;
     double *j = malloc((rows * p + rows) * sizeof *j), *sorted = j + rows * p;
-    *c = (struct rst_fit_certainty){.rank = p};
+    *c = (struct rst_fit_intervals){.rank = p};
     int status = j ? rst_fit_linearise(s, j) : RESTITUTE_ERROR_MEMORY;
     if (status >= 0 && p) status = rst_fit_singular(rows, p, j, c->values, c->vector);
     if (status >= 0) {

@@ -34,7 +34,7 @@ static int find_times(struct rst_fit_data *d, restitute_error *error)
     int status = restitute_material_elastic(1, 0.5, &any, error);
     restitute_numbers_init(&numbers);
     for (size_t i = 0; i < d->n && status >= 0; i++) {
-        restitute_scene scene = d->points[i].scene;
+        restitute_scene scene = d->scene[i];
         scene.material = any;
         if (isnan(scene.friction)) scene.friction = 0.5;
         status = restitute_scene_numbers(&scene, &numbers, &inner);
@@ -49,7 +49,7 @@ static void add_impact(struct rst_fit_data *d, size_t point, double time, int ow
 {
     const restitute_fit_point *p = &d->points[point];
     struct rst_fit_impact *impact = &d->impact[d->needed++];
-    *impact = (struct rst_fit_impact){p->scene, d->group[point], own, time};
+    *impact = (struct rst_fit_impact){d->scene[point], d->group[point], own, time};
     impact->scene.normal_speed *= pow(time / d->place[point].time, -5); /* T ~ v^(-1/5) */
     if (isnan(p->ex)) impact->scene.friction = 0;                       /* saves the tangential problem */
 }
@@ -69,7 +69,7 @@ static void set_between(struct rst_fit_place *place, size_t first, double low)
 
 /* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds whose time was
  * measured, have their own. These come in the order of T: equal speeds at several angles share their normal motion then. */
-static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order)
+static void impacts_of_group(struct rst_fit_data *d, size_t group, const size_t *order)
 {
     const size_t first = d->needed;
     double low = INFINITY, high = 0;
@@ -93,7 +93,7 @@ static void plan_group(struct rst_fit_data *d, size_t group, const size_t *order
     }
 }
 
-int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
+int rst_fit_impacts(struct rst_fit_data *d, restitute_error *error)
 {
     d->impact = malloc(d->n * sizeof *d->impact);
     d->place = malloc(d->n * sizeof *d->place);
@@ -103,7 +103,7 @@ int rst_fit_plan(struct rst_fit_data *d, restitute_error *error)
                            : rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu points", d->n);
     if (status >= 0) gsl_sort_index(order, &d->place->time, sizeof *d->place / sizeof(double), d->n);
     for (size_t g = 0; g < d->groups && status >= 0; g++)
-        plan_group(d, g, order);
+        impacts_of_group(d, g, order);
     free(order);
     return status;
 }
