@@ -82,8 +82,8 @@ static int check_options(const restitute_options *options, restitute_error *erro
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)",
                             options->threads, most_threads);
     if (!status && !(options->max_work > 0))
-        status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g: must be > 0 (inf: no limit)",
-                            options->max_work);
+        status =
+            rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g: must be > 0 (inf: no limit)", options->max_work);
     if (!status) status = rst_check_range(options->time_limit, 0, INFINITY, "time_limit (s)", error);
     if (!status) status = rst_check_range(options->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(options->radius_limit, 0, INFINITY, "radius_limit", error);

@@ -44,7 +44,7 @@ MATERIAL(elastic, 1e6, 0.4)
 MATERIAL(standard_solid, 1e6, 2e6, 50, 0.4)
 MATERIAL(kelvin_voigt, 1e6, 50, 0.4)
 MATERIAL(maxwell, 1e6, 50, 0.4)
-MATERIAL(pair, rubber, glue)
+MATERIAL(effective, rubber, glue)
 
 static void materials(void **state)
 {
@@ -54,7 +54,7 @@ static void materials(void **state)
                                          {"standard solid", NULL, standard_solid, NULL, 0, 0},
                                          {"Kelvin-Voigt", NULL, kelvin_voigt, NULL, 0, 0},
                                          {"Maxwell", NULL, maxwell, NULL, 0, 0},
-                                         {"pair of materials", NULL, pair, NULL, 0, 0}};
+                                         {"effective solid", NULL, effective, NULL, 0, 0}};
     if (!CAN_FAIL) skip();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         fail_each_allocation(&all[i]);

@@ -48,8 +48,8 @@ static int solve(struct given *given)
     o.events.capacity = events;
     o.events.event = o.event;
     memcpy(&fresh, &o, sizeof o);
-    ARMED(status, restitute_solve(recording.solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history,
-                                  &error));
+    ARMED(status,
+          restitute_solve(recording.solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history, &error));
     CHECK(status >= 0 || memcmp(&o, &fresh, sizeof o) == 0, "outputs touched");
     if (status < 0) return status;
     CHECK(restitute_cvode_recorder_events(recording.recorder, &o.events, &error) == RESTITUTE_OK, "%s", error.message);

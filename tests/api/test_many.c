@@ -232,14 +232,14 @@ static void refused_calls_touch_nothing(void **state)
     }
     options.tolerance = 1;
     options.threads = 2;
-    CHECK(restitute_solve_many(3, impacts, &options, results, statuses, &error) == RESTITUTE_ERROR_DOMAIN,
-          "options");
+    CHECK(restitute_solve_many(3, impacts, &options, results, statuses, &error) == RESTITUTE_ERROR_DOMAIN, "options");
     CHECK(strncmp(error.message, "tolerance = 1", 13) == 0, "%s", error.message);
     impacts[0].struct_size = 0; /* not prepared, or of another version: where is impacts[1]? */
     CHECK(restitute_solve_many(3, impacts, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
     CHECK(strncmp(error.message, "restitute_impact.struct_size = 0", 32) == 0, "%s", error.message);
     scene.struct_size++;
-    CHECK(restitute_solve_scene_many(1, &scene, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE, "size");
+    CHECK(restitute_solve_scene_many(1, &scene, NULL, results, statuses, &error) == RESTITUTE_ERROR_STRUCT_SIZE,
+          "size");
     impacts[0].struct_size = sizeof impacts[0];
     for (int i = 0; i < 3; i++)
         CHECK(statuses[i] == 99 && memcmp(&results[i], &fresh, sizeof fresh) == 0, "output %d was touched", i);

@@ -56,7 +56,8 @@ static restitute_plan *plan_for(const restitute_options *options, const restitut
 {
     restitute_plan *plan;
     restitute_error error;
-    CHECK(restitute_plan_create(impact, options, &plan, &error) == RESTITUTE_OK && !*error.message, "%s", error.message);
+    CHECK(restitute_plan_create(impact, options, &plan, &error) == RESTITUTE_OK && !*error.message, "%s",
+          error.message);
     return plan;
 }
 
@@ -265,11 +266,13 @@ static void refused_plans_leave_all_untouched(void **state)
     REFUSED(restitute_plan_create(&impact, &options, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
     REFUSED(restitute_plan_create_scene(NULL, &options, &plan, &error), RESTITUTE_ERROR_NULL, "scene is NULL");
     REFUSED(restitute_plan_create_scene(&scene, &options, NULL, &error), RESTITUTE_ERROR_NULL, "plan is NULL");
-    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_NULL, "scene.material is NULL");
+    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_NULL,
+            "scene.material is NULL");
     scene.material = dashpot;
     REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_DOMAIN, "radius1");
     scene.struct_size = 0;
-    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE, "restitute_scene");
+    REFUSED(restitute_plan_create_scene(&scene, &options, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE,
+            "restitute_scene");
     wrong.struct_size++;
     REFUSED(restitute_plan_create(&wrong, &options, &plan, &error), RESTITUTE_ERROR_STRUCT_SIZE, "restitute_impact");
     wrong = impact;

@@ -91,7 +91,7 @@ static void every_field_of_a_scene_is_checked(void **state)
         {"tangential_speed", offsetof(restitute_scene, tangential_speed), {NAN, INFINITY, -INFINITY, -2e50, 2e50}, 5},
         {"spin1", offsetof(restitute_scene, spin1), {NAN, INFINITY, -INFINITY, -1e60, 2e100}, 5},
         {"spin2", offsetof(restitute_scene, spin2), {1, NAN, INFINITY}, 3},
-        {"density", offsetof(restitute_scene, density), {-1, NAN, INFINITY, 9e-101, 2e100}, 5},
+        {"wave_density", offsetof(restitute_scene, wave_density), {-1, NAN, INFINITY, 9e-101, 2e100}, 5},
     };
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
         for (int k = 0; k < fields[i].count; k++) {
@@ -130,8 +130,8 @@ static void every_field_of_an_impact_is_checked(void **state)
         double bad[5];
     } fields[] = {
         {"chi", offsetof(restitute_impact, chi), {0.33, 1001, NAN, INFINITY, -1}},
-        {"psi", offsetof(restitute_impact, psi), {-1, -1e-300, NAN, INFINITY, 1e13}},
-        {"delta1", offsetof(restitute_impact, delta1), {-1, -1e-300, NAN, INFINITY, 1e13}},
+        {"psi", offsetof(restitute_impact, psi), {-1, -1e-300, NAN, -INFINITY, 1e13}},
+        {"delta1", offsetof(restitute_impact, delta1), {-1, -1e-300, NAN, -INFINITY, 1e13}},
         {"gamma", offsetof(restitute_impact, gamma), {-1, -1e-300, NAN, -INFINITY, -2}},
     };
     for (int i = 0; i < 4; i++)
@@ -248,8 +248,16 @@ static void options_are_checked(void **state)
         CHECK(strstr(error.message, "elements"), "%s", error.message);
     }
     restitute_options options = default_options();
-    options.max_work = 0;
-    CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "max_work");
+    const double works[] = {0, -1, NAN};
+    for (int i = 0; i < 3; i++) {
+        options.max_work = works[i];
+        CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "max_work");
+        CHECK(strstr(error.message, "max_work"), "%s", error.message);
+    }
+    options = default_options();
+    options.threads = -1;
+    CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_DOMAIN, "threads");
+    CHECK(strstr(error.message, "threads = -1: must be in [0, 1024]"), "%s", error.message);
     options = default_options();
     options.method = NULL;
     CHECK(restitute_solver_create(&options, &made, &error) == RESTITUTE_ERROR_NULL, "method");

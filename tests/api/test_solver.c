@@ -156,8 +156,8 @@ static void euler_names_sync_where_it_is_slow(void **state)
         const int status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
         restitute_solver_destroy(solver);
         CHECK(status == cases[i].status && error.status == status, "%zu: %d %s", i, status, error.message);
-        CHECK(!strstr(error.message, "the method sync") == !cases[i].named, "%zu: %g nominal seconds: \"%s\"", i, result.work,
-              error.message);
+        CHECK(!strstr(error.message, "the method sync") == !cases[i].named, "%zu: %g nominal seconds: \"%s\"", i,
+              result.work, error.message);
     }
 }
 
@@ -419,7 +419,7 @@ static void threads_share_a_material(void **state)
     pthread_t threads[4];
     for (int i = 0; i < 4; i++) {
         memset(&jobs[i], 0, sizeof jobs[i]);
-        jobs[i].material = solid;
+        jobs[i].solid = solid;
         CHECK(pthread_create(&threads[i], NULL, work, &jobs[i]) == 0, "thread %d", i);
     }
     for (int i = 0; i < 4; i++)

@@ -98,17 +98,17 @@ static void many_impacts(void **state)
     restitute_plan *plan = NULL;
     restitute_error *e = &with.error;
     (void)state;
-    REFUSED(restitute_solve_many(with.old, 1, &with.impact, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_many(NULL, 1, with.old, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_many(NULL, 1, &with.impact, with.old, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(with.old, 1, &with.scene, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(NULL, 1, with.old, &with.result, NULL, 1, e));
-    REFUSED(restitute_solve_scenes(NULL, 1, &with.scene, with.old, NULL, 1, e));
-    REFUSED(restitute_plan_create(with.old, &with.impact, &plan, e));
-    REFUSED(restitute_plan_create(NULL, with.old, &plan, e));
-    REFUSED(restitute_plan_create_scene(with.old, &with.scene, &plan, e));
-    REFUSED(restitute_plan_create_scene(NULL, with.old, &plan, e));
-    assert_int_equal(restitute_plan_create(NULL, &with.impact, &plan, e), RESTITUTE_OK);
+    REFUSED(restitute_solve_many(1, &with.impact, with.old, &with.result, NULL, e));
+    REFUSED(restitute_solve_many(1, with.old, NULL, &with.result, NULL, e));
+    REFUSED(restitute_solve_many(1, &with.impact, NULL, with.old, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, &with.scene, with.old, &with.result, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, with.old, NULL, &with.result, NULL, e));
+    REFUSED(restitute_solve_scene_many(1, &with.scene, NULL, with.old, NULL, e));
+    REFUSED(restitute_plan_create(&with.impact, with.old, &plan, e));
+    REFUSED(restitute_plan_create(with.old, NULL, &plan, e));
+    REFUSED(restitute_plan_create_scene(&with.scene, with.old, &plan, e));
+    REFUSED(restitute_plan_create_scene(with.old, NULL, &plan, e));
+    assert_int_equal(restitute_plan_create(&with.impact, NULL, &plan, e), RESTITUTE_OK);
     REFUSED(restitute_plan_solve(plan, 1, with.old, NULL, NULL, e));
     REFUSED(restitute_plan_solve(plan, 1, &with.result, with.old, NULL, e));
     REFUSED(restitute_plan_solve(plan, 1, &with.result, NULL, with.old, e));
@@ -127,16 +127,16 @@ static void set_bodies(restitute_body *sphere, restitute_body *plane)
 static void bodies(void **state)
 {
     restitute_body sphere, plane;
-    restitute_contact contact;
+    restitute_collision collision;
     restitute_error *e = &with.error;
     (void)state;
     set_bodies(&sphere, &plane);
-    restitute_contact_init(&contact);
-    contact.material = with.material, contact.friction = 0.3;
+    restitute_collision_init(&collision);
+    collision.material = with.material, collision.friction = 0.3;
     REFUSED(restitute_collide(with.solver, with.old, &sphere, &plane, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, with.old, &plane, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, &sphere, with.old, NULL, e));
-    REFUSED(restitute_collide(with.solver, &contact, &sphere, &plane, with.old, e));
+    REFUSED(restitute_collide(with.solver, &collision, with.old, &plane, NULL, e));
+    REFUSED(restitute_collide(with.solver, &collision, &sphere, with.old, NULL, e));
+    REFUSED(restitute_collide(with.solver, &collision, &sphere, &plane, with.old, e));
 }
 
 #ifdef RESTITUTE_WITH_BEM
@@ -177,22 +177,20 @@ static void the_contact_law(void **state)
 #ifdef RESTITUTE_WITH_CVODE
 static void the_method_cvode(void **state)
 {
+    restitute_cvode_recorder *recorder;
     restitute_options options;
     restitute_solver *solver;
     restitute_error *e = &with.error;
     (void)state;
+    assert_int_equal(restitute_cvode_recorder_create(NULL, &recorder, e), RESTITUTE_OK);
     restitute_options_init(&options);
-    options.method = restitute_method_cvode();
+    options.method = restitute_cvode_recorder_method(recorder);
     assert_int_equal(restitute_solver_create(&options, &solver, e), RESTITUTE_OK);
-    REFUSED(restitute_cvode_solve(solver, with.old, &with.result, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, with.old, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, with.old, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, NULL, with.old, NULL, e));
-    REFUSED(restitute_cvode_solve(solver, &with.impact, &with.result, NULL, NULL, with.old, e));
-    REFUSED(restitute_cvode_solve_scene(solver, with.old, &with.result, NULL, NULL, NULL, e));
-    REFUSED(restitute_cvode_solve_scene(solver, &with.scene, &with.result, NULL, NULL, with.old, e));
-    REFUSED(restitute_cvode_last_work(solver, with.old, e));
+    assert_int_equal(restitute_solve(solver, &with.impact, NULL, NULL, NULL, e), RESTITUTE_OK);
+    REFUSED(restitute_cvode_recorder_events(recorder, with.old, e));
+    REFUSED(restitute_cvode_recorder_work(recorder, with.old, e));
     restitute_solver_destroy(solver);
+    restitute_cvode_recorder_destroy(recorder);
 }
 #endif
 

@@ -11,8 +11,8 @@ static void it_is_found_by_handle_and_named_in_the_result(void **state)
     CHECK(strcmp(restitute_method_name(restitute_method_sync()), "sync") == 0, "name");
     const struct solution s = solve_impact(sync_to(1e-3), impact_of(7.0 / 6, 2, 1, 1));
     CHECK(strcmp(s.result.method, "sync") == 0, "result: %s", s.result.method);
-    CHECK(s.result.steps == 2 * s.result.elements && s.result.work > 0, "%d elements, %d steps",
-          (int)s.result.elements, (int)s.result.steps);
+    CHECK(s.result.steps == 2 * s.result.elements && s.result.work > 0, "%d elements, %d steps", (int)s.result.elements,
+          (int)s.result.steps);
 }
 
 static void time_step_is_refused(void **state)

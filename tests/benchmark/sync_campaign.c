@@ -27,7 +27,7 @@
 enum { piece = 128, threads = 2, most_rows = 12, every = 64, explained = 20 };
 
 static const double reference_tolerance = 1e-8, rounding = 1e-15; /* of e_z and e_x: four units in the last place */
-static const double reference_work = 0.1; /* the tested method has the default */
+static const double reference_work = 0.1;                         /* the tested method has the default */
 #ifdef RESTITUTE_WITH_CVODE
 static const double cvode_work = 0.03;
 #endif

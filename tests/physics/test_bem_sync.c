@@ -194,15 +194,10 @@ static void ledger(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard),
-                                       cmocka_unit_test(prony_and_flow),
-                                       cmocka_unit_test(sinks_where_sync_does),
-                                       cmocka_unit_test(no_slip),
-                                       cmocka_unit_test(estimates_of_thin_rings),
-                                       cmocka_unit_test(explicit_steps),
-                                       cmocka_unit_test(extreme_terms),
-                                       cmocka_unit_test(ringing),
-                                       cmocka_unit_test(slip_to_the_end),
-                                       cmocka_unit_test(ledger)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_and_standard),    cmocka_unit_test(prony_and_flow),
+                                       cmocka_unit_test(sinks_where_sync_does),   cmocka_unit_test(no_slip),
+                                       cmocka_unit_test(estimates_of_thin_rings), cmocka_unit_test(explicit_steps),
+                                       cmocka_unit_test(extreme_terms),           cmocka_unit_test(ringing),
+                                       cmocka_unit_test(slip_to_the_end),         cmocka_unit_test(ledger)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

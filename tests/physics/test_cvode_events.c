@@ -31,8 +31,10 @@ static void elastic_entries_and_exits_are_those_of_hertz(void **state)
     restitute_options options = cvode_to(tolerance);
     options.elements = 64;
     solve_logged(options, impact_of(chi, 0.5, 0, 1), &log_a);
-    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY) == 64, "%d", count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY));
-    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT) == 63, "%d", count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT));
+    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY) == 64, "%d",
+          count_events(&log_a, RESTITUTE_CVODE_EVENT_ENTRY));
+    CHECK(count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT) == 63, "%d",
+          count_events(&log_a, RESTITUTE_CVODE_EVENT_EXIT));
     double last_entry = -1, last_exit = 2;
     for (size_t i = 0; i < log_a.events.count; i++) {
         const restitute_cvode_event *e = &log_a.event[i];

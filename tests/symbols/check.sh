@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh LIBRARY [PROGRAM]
-#   - it defines nothing but restitute_*
+#   - it defines nothing but restitute_*, and of these only what a header in $SOURCE_DIR/include declares
 #   - it calls nothing of a Fortran run-time library
 #   - it neither prints nor ends the program: it needs no function that does so, and no standard stream
 #   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
 #     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads;
 #     nor one whose name holds WITHOUT, if that is set
-# NM, READELF, WITH_OPENMP and WITHOUT come from the environment. Tools have lines of their own: of a pipeline the shell
+#   - the library lists one whose name holds WITH as needed, if that is set
+# NM, READELF, WITH_OPENMP, WITHOUT and WITH come from the environment. Tools have lines of their own: of a pipeline the shell
 # sees the last status alone, and a tool that fails would be taken for one that finds nothing.
 set -eu
 library=$1
@@ -24,6 +25,14 @@ defined=$(echo "$defined" | awk '{ print $NF }')
 # Names that begin with a double underscore are the sanitizers' own.
 foreign=$(echo "$defined" | grep -v -e '^restitute_' -e '^__' || true)
 [ -z "$foreign" ] || complain "$library defines other names than restitute_*:" $foreign
+
+# RESTITUTE_INIT(since, name) declares restitute_name_init_sized.
+for name in $(echo "$defined" | grep '^restitute_'); do
+    init=${name#restitute_} init=${init%_init_sized}
+    grep -qw "$name" "$SOURCE_DIR"/include/restitute/*.h ||
+        grep -q "^RESTITUTE_INIT(.*, $init)" "$SOURCE_DIR"/include/restitute/*.h ||
+        complain "$library defines what no header declares: $name"
+done
 
 undefined=$("$NM" -D --undefined-only "$library")
 undefined=$(echo "$undefined" | awk '{ print $NF }')
@@ -49,5 +58,6 @@ for file in "$@"; do
     [ -z "$banned" ] || complain "$file needs what it must do without:" $banned
     echo "$file needs:" $needed
 done
+[ -z "${WITH:-}" ] || "$READELF" --dynamic "$library" | grep -q "NEEDED.*$WITH" || complain "$library does not need $WITH"
 echo "$library defines:" $defined
 exit $wrong

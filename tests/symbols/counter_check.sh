@@ -5,8 +5,8 @@
 #   counter_check.sh LIBRARY OBJECT GOOD_LIBRARY GOOD_OBJECT...
 set -eu
 openmp=$WITH_OPENMP # the library has it only where there is one
-WITH_OPENMP=OFF WITHOUT=GFORTRAN
-export WITH_OPENMP WITHOUT
+WITH_OPENMP=OFF WITHOUT=GFORTRAN WITH=librestitute
+export WITH_OPENMP WITHOUT WITH
 if sh "$(dirname -- "$0")/check.sh" "$1" >complaints 2>&1; then
     echo "check.sh finds nothing wrong with $1" >&2
     exit 1
@@ -17,13 +17,14 @@ if sh "$(dirname -- "$0")/objects.sh" "$2" >>complaints 2>&1; then
 fi
 for complaint in "other names than rst_\* and restitute_\*: leaky_name" "$2 takes memory" \
     "other names than restitute_\*: leaky_name" "calls the Fortran run-time library: _gfortran" \
+    "defines what no header declares: restitute_undeclared" "does not need librestitute" \
     "needs a Fortran run-time library: libgfortran" "needs what it must do without: libgfortran" "prints: puts" "ends the program: abort"; do
     grep "$complaint" complaints || { cat complaints; echo "no complaint '$complaint'" >&2; exit 1; }
 done
 [ "$openmp" = OFF ] || grep "needs OpenMP in a build without it: lib" complaints || { cat complaints; exit 1; }
 
 # What is good passes, but not by a tool that fails, even if it tells all.
-WITH_OPENMP=$openmp WITHOUT=hdf5
+WITH_OPENMP=$openmp WITHOUT=hdf5 WITH=
 here=$(dirname -- "$0") nm=$NM readelf=$READELF library=$3
 shift 3
 printf '#!/bin/sh\n"%s" "$@"\nexit 1\n' "$nm" >failing_nm

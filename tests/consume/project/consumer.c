@@ -56,13 +56,16 @@ static int batch_is_solved(void)
 {
     restitute_impact impacts[BATCH];
     restitute_result results[BATCH];
+    restitute_options options;
     restitute_error error;
+    restitute_options_init(&options);
+    options.threads = 2;
     for (int i = 0; i < BATCH; i++) {
         restitute_impact_init(&impacts[i]);
         restitute_result_init(&results[i]);
         impacts[i].psi = 3.0 + i;
     }
-    if (restitute_solve_many(NULL, BATCH, impacts, results, NULL, 2, &error) != RESTITUTE_OK) {
+    if (restitute_solve_many(BATCH, impacts, &options, results, NULL, &error) != RESTITUTE_OK) {
         printf("failed: %s\n", error.message);
         return 0;
     }
@@ -75,14 +78,11 @@ static int batch_is_solved(void)
 /* Two sliding speeds of one impact. */
 static int plan_is_solved(void)
 {
-    restitute_options options;
     restitute_impact impact;
     restitute_result result[2];
     restitute_plan *plan = NULL;
-    restitute_options_init(&options);
     restitute_impact_init(&impact);
-    options.method = restitute_method_sync();
-    int good = restitute_plan_create(&options, &impact, &plan, NULL) == RESTITUTE_OK;
+    int good = restitute_plan_create(&impact, NULL, &plan, NULL) == RESTITUTE_OK;
     for (int i = 0; i < 2 && good; i++) {
         restitute_result_init(&result[i]);
         good = restitute_plan_solve(plan, i, &result[i], NULL, NULL, NULL) == RESTITUTE_OK;

@@ -15,19 +15,20 @@ struct release {
 static bool ball_leaves(restitute_solver *solver, const restitute_material *rubber)
 {
     restitute_body ball, floor;
-    restitute_contact contact;
+    restitute_collision collision;
     restitute_body_init(&ball);
     restitute_body_init(&floor);
-    restitute_contact_init(&contact);
+    restitute_collision_init(&collision);
     floor.radius = std::numeric_limits<double>::infinity();
     floor.normal[2] = 1;
     ball.radius = 0.01;
     ball.mass = 4e-3;
     ball.position[2] = 0.01;
     ball.velocity[2] = -2;
-    contact.material = rubber;
-    contact.friction = 0.3;
-    return restitute_collide(solver, &contact, &ball, &floor, nullptr, nullptr) == RESTITUTE_OK && ball.velocity[2] > 0;
+    collision.material = rubber;
+    collision.friction = 0.3;
+    return restitute_collide(solver, &collision, &ball, &floor, nullptr, nullptr) == RESTITUTE_OK &&
+           ball.velocity[2] > 0;
 }
 
 // A ball that slides faster over a rough floor turns back less of its sliding, with one plan for both.
@@ -44,7 +45,7 @@ static bool sliding_counts(const restitute_material *rubber)
     scene.mass1 = 4e-3;
     scene.friction = 0.3;
     scene.normal_speed = 1;
-    if (restitute_plan_create_scene(nullptr, &scene, &made, nullptr) != RESTITUTE_OK) return false;
+    if (restitute_plan_create_scene(&scene, nullptr, &made, nullptr) != RESTITUTE_OK) return false;
     const std::unique_ptr<restitute_plan, release> plan(made);
     return restitute_plan_solve(plan.get(), 2, &slow, nullptr, nullptr, nullptr) == RESTITUTE_OK &&
            restitute_plan_solve(plan.get(), 4, &fast, nullptr, nullptr, nullptr) == RESTITUTE_OK && fast.ex < slow.ex;
