@@ -39,7 +39,7 @@ bool touching(const Body &first, const Body &second, Contact &c)
     return true;
 }
 
-/* ------------------------------------------------------------------------------------------------------- record */
+/* ---- record */
 
 void Record::add(const Record &other)
 {
@@ -76,7 +76,7 @@ std::string Record::warning(Ratio which, long long step) const
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
-                      "spheres were put into each other, or their contact was forgotten or found late",
+                      "spheres were created with an overlap, or their contact was lost or found late",
                       step, largest[DEPTH]);
     return line;
 }
@@ -87,10 +87,11 @@ void ContactModel::note(Ratio which, double ratio)
     record.beyond[which] += ratio > limits[which];
 }
 
-/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one step of approach at
- * most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact radius of 0.003 R, covers that up to steps
- * of 0.009 R. A larger tolerance would hide forgotten contacts of hard spheres at rest.
- * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
+/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one
+ * step of approach at most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact
+ * radius of 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide forgotten
+ * contacts of hard spheres at rest. v/c_s as for one impact of the library: with the modulus at the
+ * time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
     double limit; /* a fiftieth of the contact time, which is 2.94 time scales */
@@ -103,7 +104,7 @@ void ContactModel::note_first_touch(const Contact &contact, double speed, double
     note(STEP, rates.step / limit);
 }
 
-/* ---------------------------------------------------------------------------------------------- words of a script */
+/* ---- words of a script */
 
 static double number(const std::string &word)
 {
@@ -230,7 +231,7 @@ int ContactModel::history_size() const
     return 1 + (int)restitute_contact_law_state_size(law);
 }
 
-/* ---------------------------------------------------------------------------------------------------- time steps */
+/* ---- time steps */
 
 const char *ContactModel::set_step(double step)
 {

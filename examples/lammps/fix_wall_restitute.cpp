@@ -31,7 +31,7 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     if (place == end) error->all(FLERR, "fix wall/restitute: needs xplane, yplane, zplane or zcylinder");
     shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
     const int numbers = shape == Z_CYLINDER ? 1 : 2;
-    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} lacks its place", *place);
+    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} needs a position", *place);
     const auto at = [&](int k) {
         return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere;
     };
@@ -91,7 +91,7 @@ void FixWallRestitute::reset_dt()
     if (const char *problem = model->set_step(update->dt)) error->all(FLERR, "fix {} wall/restitute: {}", id, problem);
 }
 
-/* --------------------------------------------------------------------------------------------------- a time step */
+/* ---- a time step */
 
 /* The nearest point of the wall; false: there is none. */
 bool FixWallRestitute::nearest(const double *x, double *point) const
@@ -162,7 +162,7 @@ void FixWallRestitute::post_run()
     if (comm->me == 0) utils::logmesg(lmp, "fix {} wall/restitute:\n{}", id, all.text(model->limits));
 }
 
-/* -------------------------------------------------------------------------------- states of contacts, one an atom */
+/* ---- states of contacts, one an atom */
 
 void FixWallRestitute::grow_arrays(int nmax)
 {

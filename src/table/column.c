@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated
- * error that it was not finished. */
+/* Ten times the work of an impact whose slip needs elements. One that hardly rebounds may need
+ * more. Then its estimated error is above the tolerance. */
 static const double most_work = 0.01; /* nominal seconds */
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
@@ -18,7 +18,7 @@ static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, res
     return restitute_scene_numbers(unit, numbers, error);
 }
 
-/* A spring alone, or a dashpot alone, gives the same pair at any speed. */
+/* A solid of a spring alone or a dashpot alone has the same pair at any speed. */
 static int without_time(const restitute_material *material)
 {
     double g_inf, eta;
@@ -62,7 +62,7 @@ void rst_column_solver_init(const struct rst_contact *contact, double tolerance,
     s->options.time_limit = INFINITY; /* a clock would make tables differ */
 }
 
-/* A status < 0 with the place of the column that it is about. */
+/* A status < 0, with the speed of the column in the message. */
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
     if (why->status == RESTITUTE_ERROR_TOO_MUCH_WORK)

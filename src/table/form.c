@@ -82,7 +82,8 @@ static void set_nodes(restitute_table *t)
     t->end = nextafter(t->node[n - 1].at, -INFINITY); /* the highest speed belongs to the last cell */
 }
 
-/* A bin begins a hair behind its place: edges of cells are on edges of bins, and few searches take a step. */
+/* A bin begins slightly late. Edges of cells are on edges of bins, so few searches need a further
+ * step. */
 static void set_bins(restitute_table *t, int bins)
 {
     const double hair = 1e-9, first = t->node[0].at, width = (t->end - first) / bins;

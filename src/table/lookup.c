@@ -1,11 +1,13 @@
-/* The one code path of all lookups. It takes no branch on the place: on which side of psi = 1 and of psi_c it lies cannot
- * be foreseen. Nothing is written but the outputs, and nothing overflows or is invalid, for hosts that trap that.
+/* The one code path of all lookups. It does not branch on psi, since the processor cannot predict
+ * on which side of psi = 1 and of psi_c it lies. It writes only the outputs. No operation overflows
+ * or is invalid, for programs that trap this.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/form.h"
 
 #include <float.h>
 
-/* A call would pass what is found through memory. What refuses stays out of the way. */
+/* Inline, since a call would pass the results through memory. Refusals are calls: they need not be
+ * fast, and would take registers. */
 #if defined(__GNUC__)
 #define ALWAYS_INLINE static inline __attribute__((__always_inline__))
 #define COLD static __attribute__((__noinline__, __cold__))
@@ -28,7 +30,7 @@ static inline double larger(double a, double b)
 struct at_psi {
     double place;         /* in cells of its panel */
     double y, q;          /* y; psi, or 1/psi beyond psi = 1 */
-    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0, since a branch could not be foreseen */
+    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0 in place of unpredictable branches */
 };
 
 static inline double find_place(const restitute_table *t, double speed)
@@ -42,7 +44,7 @@ static inline double find_place(const restitute_table *t, double speed)
 static inline const struct rst_node *find_node(const restitute_table *t, double place)
 {
     const struct rst_node *node = t->node + t->bin[(int)((place - t->node->at) * t->bins_per_s)];
-    node -= node->at > place; /* a bin begins a hair late */
+    node -= node->at > place; /* a bin begins slightly late */
     while (node[1].at <= place)
         node++;
     return node;
@@ -67,7 +69,8 @@ static inline struct at_psi find_psi(const restitute_table *t, double ez, double
     return at;
 }
 
-/* The lower left node of the cell of a place along psi, which becomes the one in [0, 1] within the cell. */
+/* The lower left node of the cell of a place along psi. The place becomes the one in [0, 1] within
+ * the cell. */
 static inline const double *find_cell(const restitute_table *t, const struct rst_node *node, int64_t slips, double *place)
 {
     const int64_t sticks = t->d.stick_cells;
@@ -119,8 +122,8 @@ void rst_table_evaluate(const restitute_table *table, double speed, double slidi
 
 /* ---- many places */
 
-/* Each step for so many places before the next: they do not wait for one another, and steps that read no table are done for
- * two or more at once. 8 and 32 are as fast. */
+/* Places a block. Each step is done for all places of a block before the next step. So places do
+ * not wait for each other, and steps that read no table are vectorised. 8 and 32 are as fast. */
 enum { block = 16 };
 
 /* Cubic weights at many places. */
@@ -133,7 +136,8 @@ static inline void find_weights(int n, const double *u, double weight[4][block])
     }
 }
 
-/* `evaluate` for up to `block` places, in a third of the time. It does not serve one place: that would take 8 % longer. */
+/* `evaluate` for up to `block` places, in a third of the time. For one place alone it would take
+ * 8 % longer. */
 static void evaluate_block(const restitute_table *t, int n, const double *speed, const double *sliding, const double *v_n,
                            double *ez, double *ex)
 {
@@ -177,7 +181,8 @@ static void evaluate_block(const restitute_table *t, int n, const double *speed,
 
 /* ---- calls */
 
-/* psi v_n; infinite without friction. A sum: of two branches a compiler may compute both, infinity times 0 too. */
+/* psi v_n; infinite without friction. Written as a sum: of two branches a compiler may compute
+ * both, and so infinity times 0. */
 static inline double sliding_of(const restitute_table_contact *c, double v_t)
 {
     const int none = c->psi_factor > DBL_MAX;
@@ -235,7 +240,8 @@ int restitute_table_pair(const restitute_table *table, const restitute_table_con
     return error ? rst_done(error) : RESTITUTE_OK;
 }
 
-/* All speeds are in their ranges; a loop without branches, the first that is not is looked for after it. */
+/* All speeds are in their ranges. The first loop has no branches; where it fails, the second one
+ * finds the place. */
 static int check_many(size_t n, const double *normal, const double *tangential, restitute_error *error)
 {
     int good = 1;

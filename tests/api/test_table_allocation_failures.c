@@ -1,5 +1,6 @@
-/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs untouched, and the same
- * objects give the right result afterwards, bit by bit, and leave nothing behind. Lookups take no memory at all.
+/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs
+ * untouched, and the same objects give the right result afterwards, bit by bit, and leave nothing
+ * behind. Lookups take no memory at all.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -15,7 +16,8 @@ static restitute_error error;
 static char place;
 #define UNTOUCHED ((void *)&place)
 
-/* Sums of what a table holds, with weights that tell its places apart, and what it says of itself. */
+/* Sums of what a table holds, with weights that tell its places apart, and what it says of
+ * itself. */
 static void give_table(const restitute_table *of, struct given *given)
 {
     const restitute_table_data data = data_of(of), *d = &data;
@@ -42,7 +44,7 @@ static int give_new_table(int status, restitute_table *made, struct given *given
     return status;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- builds */
+/* ---- builds */
 
 static int build(struct given *given)
 {
@@ -75,7 +77,7 @@ static void builds(void **state)
         fail_each_allocation(&all[i]);
 }
 
-/* ------------------------------------------------------------------------------------------------- all other calls */
+/* ---- all other calls */
 
 static int from_data(struct given *given)
 {

@@ -48,8 +48,8 @@ static void limits(void **state)
     CHECK_NEAR(ex_at(1, 1e-9), ex_at(1, 0), 1e-7, "psi -> 0");
 }
 
-/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair below its node. Slopes times
- * 20 ulps are rounding. */
+/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair
+ * below its node. Slopes times 20 ulps are rounding. */
 static void just_above_the_lowest(void **state)
 {
     const double low = 0.00047995159222933681;
@@ -65,7 +65,8 @@ static void just_above_the_lowest(void **state)
     restitute_table_destroy(from_low);
 }
 
-/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12 of psi changes ex by 1e-11. */
+/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12
+ * of psi changes ex by 1e-11. */
 static void continuous(void **state)
 {
     (void)state;
@@ -144,7 +145,8 @@ static void many_at_once(void **state)
     assert_int_equal(restitute_table_pair_many(table, NULL, 0, NULL, NULL, NULL, NULL, NULL), RESTITUTE_OK);
 }
 
-/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the table's tolerance. */
+/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the
+ * table's tolerance. */
 static void other_sizes(void **state)
 {
     restitute_options options = to_tolerance(1e-5);
@@ -194,7 +196,8 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
-/* The material at another temperature: the impact itself is off by its tolerance, the table by its own. */
+/* The material at another temperature: the impact itself is off by its tolerance, the table by its
+ * own. */
 static void shifted_times(void **state)
 {
     restitute_options options = to_tolerance(1e-5);
