@@ -117,8 +117,17 @@ if(RESTITUTE_FORTRAN)
   check_source_compiles(Fortran "program hello\n  print '(a)', 'hello'\nend program hello\n"
                         RESTITUTE_FORTRAN_PROGRAMS_LINK SRC_EXT f90)
 endif()
-restitute_decide(RESTITUTE_FORTRAN "the Fortran module restitute" RESTITUTE_WITH_FORTRAN #
+restitute_decide(RESTITUTE_FORTRAN "the Fortran modules" RESTITUTE_WITH_FORTRAN #
                  RESTITUTE_FORTRAN_PROGRAMS_LINK "the Fortran run-time library")
+
+# The components that have a Fortran module of their own here; table comes before table_files, which uses it.
+set(RESTITUTE_FORTRAN_COMPONENTS "")
+foreach(component IN ITEMS bem contact cvode files fit table table_files)
+  string(TOUPPER "RESTITUTE_WITH_${component}" with)
+  if(RESTITUTE_WITH_FORTRAN AND ${with})
+    list(APPEND RESTITUTE_FORTRAN_COMPONENTS ${component})
+  endif()
+endforeach()
 
 if(RESTITUTE_TESTS)
   restitute_find_pkg_config_library(CMOCKA cmocka)

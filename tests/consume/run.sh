@@ -93,15 +93,21 @@ echo "== find_package without components takes all that are installed"
 if [ "$WITH_FORTRAN" != OFF ]; then
     echo "== find_package from Fortran alone"
     "$CMAKE" -S "$SOURCE_DIR/tests/consume/project_fortran" -B user-fortran -G "$GENERATOR" \
-        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" -DCONSUMER_FIT="$WITH_FIT"
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" \
+        -DCONSUMER_COMPONENTS="$(echo "$components" | sed 's/core/fortran/; s/;/;fortran_/g')"
     "$CMAKE" --build user-fortran
-    user-fortran/consumer_fortran
-    [ "$WITH_FIT" = OFF ] || user-fortran/consumer_fitting
+    for consumer in user-fortran/consumer*; do
+        case $consumer in
+        *_table_files) "$consumer" user-fortran/table.h5 ;;
+        *_files) "$consumer" "$SOURCE_DIR/examples/materials/polyisobutylene.json" ;;
+        *) "$consumer" ;;
+        esac
+    done
 
-    echo "== the installed source of the module, for another compiler than ours"
-    (mkdir user-fortran/source && cd user-fortran/source &&
-        "$FC" -c "$prefix/share/restitute/fortran/restitute.f90" \
-            "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90")
+    echo "== the installed sources of the module, for another compiler than ours"
+    (mkdir user-fortran/source && cd user-fortran/source && sources=$prefix/share/restitute/fortran &&
+        "$FC" -c "$sources/restitute_types.f90" "$sources/restitute_texts.f90" "$sources/restitute_core.f90" \
+            "$sources/restitute.f90" "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90")
 
     echo "== the module is missed by its name where there is no Fortran"
     if "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B missing -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -146,6 +152,13 @@ if [ "$WITH_FORTRAN" != OFF ]; then
     "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \
         $(pkg-config --cflags --libs $static restitute-fortran)
     user/fortran_by_pkg_config
+    if [ "$WITH_TABLE_FILES" != OFF ]; then
+        # shellcheck disable=SC2046
+        "$FC" -o user/fortran_table_files_by_pkg_config \
+            "$SOURCE_DIR/tests/consume/project_fortran/consumer_table_files.f90" \
+            $(pkg-config --cflags --libs $static restitute-fortran_table_files)
+        user/fortran_table_files_by_pkg_config user/fortran.h5
+    fi
 fi
 if [ "$WITH_CVODE" != OFF ]; then
     # shellcheck disable=SC2046

@@ -8,13 +8,13 @@ program collide_particle
   type(restitute_material) :: rubber
   type(restitute_solver) :: solver
   type(restitute_body) :: ball, floor
-  type(restitute_contact) :: contact
+  type(restitute_collision) :: collision
   type(restitute_result) :: result
   type(restitute_error) :: error
   integer :: status, bit
 
   status = restitute_material_standard_solid(1e6_rk, 2e6_rk, 50.0_rk, 0.5_rk, rubber) ! G1, G2 (Pa), eta (Pa s), nu
-  status = restitute_solver_create(solver)
+  status = restitute_solver_create(solver=solver)
   floor = restitute_body()
   floor%radius = ieee_value(1.0_rk, ieee_positive_inf) ! a plane
   floor%normal = [0, 0, 1]
@@ -25,12 +25,11 @@ program collide_particle
   ball%position = [0.0_rk, 0.0_rk, 0.01_rk]
   ball%velocity = [1.0_rk, 0.5_rk, -2.0_rk]            ! m/s
   ball%spin = [0.0_rk, 150.0_rk, 20.0_rk]              ! rad/s; about z: a twist, which stays
-  contact = restitute_contact()
-  contact%material = rubber
-  contact%deformable = RESTITUTE_ONE_BODY_DEFORMS
-  contact%friction = 0.4_rk
+  collision = restitute_collision()
+  collision%material = rubber
+  collision%friction = 0.4_rk
   result = restitute_result()
-  status = restitute_collide(solver, contact, ball, floor, result, error)
+  status = restitute_collide(solver, collision, ball, floor, result, error)
   if (status < 0) error stop restitute_message(error)
   print "(2(a, f5.3))", "ez = ", result%ez, ", ex = ", result%ex
   print "(a, 3f8.3)", "velocity", ball%velocity
