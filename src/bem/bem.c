@@ -426,13 +426,13 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
         .time_limit = INFINITY, .updates_per_second = UPDATES_PER_SECOND, .takes_time_step = 1, .takes_all_terms = 1,  \
         .solve = bem_solve, .record = bem_record                                                                       \
     }
-static const struct bem_method standard = {.base = BASE("bem")};
+const struct bem_method rst_bem_standard = {.base = BASE("bem")};
 static const struct bem_method of_the_paper = {.base = BASE("bem-paper"),
                                                .variant = {.explicit_euler = 1, .stick_sets = 1}};
 
 const restitute_method *restitute_method_bem(void)
 {
-    return &standard.base;
+    return &rst_bem_standard.base;
 }
 
 const restitute_method *restitute_method_bem_paper(void)

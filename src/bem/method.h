@@ -13,6 +13,9 @@ struct bem_method {
     struct restitute_bem_recorder *recorder; /* NULL: keeps no fields */
 };
 
+/* The method bem without a recorder. */
+extern const struct bem_method rst_bem_standard;
+
 /* A new impact: forget the last one. */
 void rst_bem_recorder_begin(struct restitute_bem_recorder *recorder);
 

@@ -32,7 +32,7 @@ int restitute_bem_recorder_create(size_t count, restitute_bem_recorder **recorde
     restitute_bem_recorder *r = calloc(1, sizeof *r + count * sizeof *r->snapshots);
     if (!r) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a recorder");
     r->capacity = count;
-    r->method = *(const struct bem_method *)restitute_method_bem();
+    r->method = rst_bem_standard;
     r->method.recorder = r;
     *recorder = r;
     return rst_done(error);

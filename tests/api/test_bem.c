@@ -64,6 +64,13 @@ static void refusals(void **state)
     assert_non_null(strstr(error.message, "no box"));
 }
 
+static void an_infinite_psi_is_no_friction(void **state)
+{
+    const struct solution s = solve_impact(options_of(0, 1e-2), impact_of(7.0 / 6, INFINITY, 1, 1));
+    (void)state;
+    assert_true(s.result.ex == -1 && s.result.error_ex == 0);
+}
+
 static void tolerance_is_met_or_told(void **state)
 {
     const struct solution rough = solve_impact(options_of(0, 1e-2), impact_of(1, 0.5, 1, 1));
@@ -233,6 +240,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(names),
                                        cmocka_unit_test(refusals),
+                                       cmocka_unit_test(an_infinite_psi_is_no_friction),
                                        cmocka_unit_test(tolerance_is_met_or_told),
                                        cmocka_unit_test(repeats_its_bits),
                                        cmocka_unit_test(a_ledger_changes_nothing),

@@ -226,6 +226,13 @@ static void history_ends_with_the_pair(void **state)
     restitute_solver_destroy(solver);
 }
 
+static void an_infinite_psi_is_no_friction(void **state)
+{
+    (void)state;
+    const struct solution s = solve_impact(cvode_to(1e-4), impact_of(7.0 / 6, INFINITY, 1, 1));
+    CHECK(s.result.ex == -1 && s.result.error_ex == 0, "%g +- %g", s.result.ex, s.result.error_ex);
+}
+
 /* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2 chi > 1. */
 static void sinking_spheres_are_told(void **state)
 {
@@ -273,6 +280,7 @@ int main(void)
         cmocka_unit_test(events_may_be_counted_first),
         cmocka_unit_test(scenes_leave_out_what_they_do_not_need),
         cmocka_unit_test(history_ends_with_the_pair),
+        cmocka_unit_test(an_infinite_psi_is_no_friction),
         cmocka_unit_test(sinking_spheres_are_told),
         cmocka_unit_test(a_solver_keeps_nothing_of_the_last_impact),
     };

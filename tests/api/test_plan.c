@@ -252,6 +252,19 @@ static void spins_are_part_of_the_sliding_speed(void **state)
               error.message);                                                                                          \
     } while (0)
 
+static void a_plan_without_options_is_by_sync(void **state)
+{
+    const restitute_impact impact = impact_of(7.0 / 6, 1, 1, 1);
+    restitute_plan *plan = plan_for(NULL, &impact);
+    restitute_result result;
+    (void)state;
+    restitute_result_init(&result);
+    CHECK(restitute_plan_solve(plan, INFINITY, &result, NULL, NULL, NULL) == RESTITUTE_OK && result.ex == -1,
+          "no friction");
+    CHECK(strcmp(result.method, "sync") == 0, "%s", result.method);
+    restitute_plan_destroy(plan);
+}
+
 static void refused_plans_leave_all_untouched(void **state)
 {
     (void)state;
@@ -317,6 +330,7 @@ int main(void)
         cmocka_unit_test(other_methods_and_given_elements_give_the_bits_of_single_calls),
         cmocka_unit_test(scenes_give_the_bits_of_single_calls),
         cmocka_unit_test(spins_are_part_of_the_sliding_speed),
+        cmocka_unit_test(a_plan_without_options_is_by_sync),
         cmocka_unit_test(refused_plans_leave_all_untouched),
         cmocka_unit_test(refused_calls_leave_outputs_and_plan_as_they_were),
     };

@@ -440,6 +440,56 @@ static void versions_and_texts_are_there(void **state)
     CHECK(strcmp(restitute_method_name(restitute_method_euler()), "euler") == 0, "euler");
 }
 
+/* An init function asks for nothing that was not wanted. */
+static void defaults_add_nothing(void **state)
+{
+    restitute_impact impact;
+    restitute_scene scene;
+    restitute_collision collision;
+    restitute_options options;
+    (void)state;
+    restitute_impact_init(&impact);
+    restitute_scene_init(&scene);
+    restitute_collision_init(&collision);
+    restitute_options_init(&options);
+    CHECK(impact.chi == 7.0 / 6 && isinf(impact.psi) && impact.delta1 == 0 && isinf(impact.gamma) && !impact.material,
+          "impact");
+    CHECK(scene.deformable == RESTITUTE_ONE_BODY_DEFORMS && scene.friction == 0 && isinf(scene.radius2) &&
+              isinf(scene.mass2) && scene.spin1 == 0 && scene.spin2 == 0,
+          "scene");
+    CHECK(collision.deformable == RESTITUTE_ONE_BODY_DEFORMS && collision.friction == 0, "collision");
+    CHECK(options.method == restitute_method_euler() && options.threads == 1 && options.max_work == 10, "options");
+}
+
+/* As a scene without friction: the sphere slides on as it came, and there is no tangential force. */
+static void an_infinite_psi_is_no_friction(void **state)
+{
+    const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        restitute_options options = default_options();
+        restitute_impact impact = impact_of(7.0 / 6, INFINITY, 1, 1);
+        restitute_result result;
+        restitute_history h;
+        restitute_solver *solver;
+        restitute_error error;
+        double force[5], velocity[5];
+        options.method = methods[i];
+        restitute_result_init(&result);
+        restitute_history_init(&h);
+        h.capacity = 5, h.tangential_force = force, h.tangential_velocity = velocity;
+        CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+        CHECK(restitute_solve(solver, &impact, &result, NULL, &h, &error) == RESTITUTE_OK, "%s", error.message);
+        restitute_solver_destroy(solver);
+        CHECK(result.ex == -1 && result.error_ex == 0, "%s: ex = %g +- %g", result.method, result.ex, result.error_ex);
+        for (int k = 0; k < 5; k++)
+            CHECK(force[k] == 0 && velocity[k] == 1, "%s, sample %d: %g, %g", result.method, k, force[k], velocity[k]);
+        /* e_z does not know of friction: rounding, of other runs */
+        impact.psi = 1e12;
+        CHECK_NEAR(solve_impact(options, impact).result.ez, result.ez, result.error_ez, "%s", result.method);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -462,6 +512,8 @@ int main(void)
         cmocka_unit_test(a_used_solver_gives_the_bits_of_a_fresh_one),
         cmocka_unit_test(threads_share_a_material),
         cmocka_unit_test(versions_and_texts_are_there),
+        cmocka_unit_test(defaults_add_nothing),
+        cmocka_unit_test(an_infinite_psi_is_no_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
