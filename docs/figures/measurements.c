@@ -1,4 +1,4 @@
-/* Curves and tables of docs/measurements.md: what the library says to the impacts of tests/data/kharaz_oblique.csv and
+/* Curves and tables of docs/records/measurements.md: what the library says to the impacts of tests/data/kharaz_oblique.csv and
  * fem_oblique.csv.
  *
  *     measurements kharaz|fem               the curve, x,y a line, for gnuplot

@@ -1,4 +1,4 @@
-/* The Fortran procedures of the component; see fortran/bem_*.f90.
+/* The Fortran procedures of the component; see the folder fortran/bem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_KERNELS_H
 #define BEM_KERNELS_H
@@ -6,7 +6,7 @@
 #include <fftw3.h>
 #include <stdint.h>
 
-/* Kinds of fortran/bem_influence.f90. */
+/* Kinds of fortran/bem/influence.f90. */
 enum bem_kind { BEM_NORMAL = 0, BEM_SHEAR = 1, BEM_CROSS = 2 };
 
 /* Displacement along y under a traction along y, both odd in x and in y; see plane.h. */

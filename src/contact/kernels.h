@@ -1,4 +1,4 @@
-/* The Fortran procedures of the contact law; structs as in fortran/contact/contact_types.f90.
+/* The Fortran procedures of the contact law; structs as in fortran/contact/types.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CONTACT_KERNELS_H
 #define RST_CONTACT_KERNELS_H

@@ -1,4 +1,4 @@
-/* The Fortran procedures of the method cvode, and the twins of their derived types; see fortran/cvode_*.f90.
+/* The Fortran procedures of the method cvode, and the twins of their derived types; see the folder fortran/cvode.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_KERNELS_H
 #define RST_CVODE_KERNELS_H

@@ -22,7 +22,7 @@ static const double closest = 1e-13;
  * of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
-/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
+/* e_x differs from that without slip by at most this times psi (docs/records/accuracy.md), which is left out where it is a
  * small part of the tolerance. */
 static const double change_by_slip = 2, negligible_part = 0.05;
 

@@ -1,4 +1,4 @@
-/* The walk over the elements, fortran/sync/elements.f90, and the twins of its derived types.
+/* The walk over the elements, fortran/sync/walk/elements.f90, and the twins of its derived types.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_WALK_H
 #define RST_WALK_H

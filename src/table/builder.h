@@ -10,7 +10,7 @@
 
 #include "table/column.h"
 
-/* Constants of the build, measured with the target table-campaign (docs/table.md). */
+/* Constants of the build, measured with the target table-campaign (docs/records/table.md). */
 
 /* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are
  * a quarter of the estimates. */

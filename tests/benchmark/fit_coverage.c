@@ -1,6 +1,6 @@
 /* Do 95 % intervals of fitted constants hold the true ones in 95 % of the cases? Synthetic drop tests of random solids, 20 speeds over
  * three decades, Gaussian noise on ez (absolute) and on the contact time (relative):  fit_coverage DRAWS [SEED]
- * For docs/fit.md; a line a model, noise, kind of data and constant. SPDX-License-Identifier: BSD-3-Clause */
+ * For docs/records/fit.md; a line a model, noise, kind of data and constant. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -44,7 +44,7 @@ error() {
 # First order in the limit where both are doubled; the grids are coarse, so for a factor of 4 one within a third.
 awk -v a="$(error paper-euler 16 1024)" -v b="$(error paper-euler 64 4096)" 'BEGIN { exit !(a / b > 3 && a / b < 5.3) }' ||
     fail "paper-euler: errors $(error paper-euler 16 1024) with 16 elements, $(error paper-euler 64 4096) with 64"
-# Velocity Verlet goes through the same positions as Euler with positions first (docs/bench.md): the pairs differ by rounding.
+# Velocity Verlet goes through the same positions as Euler with positions first (docs/records/bench.md): the pairs differ by rounding.
 awk -F, '$7 == "paper-euler" { ez[$2, $9, $10] = $13; ex[$2, $9, $10] = $14 }
     $7 == "paper-verlet" { n++; d = ez[$2, $9, $10] - $13; e = ex[$2, $9, $10] - $14; if (d * d > 1e-20 || e * e > 1e-20) exit 1 }
     END { if (n < 20) exit 1 }' report-runs.csv || fail "paper-verlet differs from paper-euler"

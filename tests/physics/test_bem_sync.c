@@ -4,7 +4,7 @@
 
 #include "../support/sync.h"
 
-/* The difference that was aimed at; the largest of 200 impacts on this grid was 1.1e-3 (docs/bem.md). */
+/* The difference that was aimed at; the largest of 200 impacts on this grid was 1.1e-3 (docs/records/bem.md). */
 static const double limit = 0.002;
 
 static restitute_options bem_options(int64_t elements)

@@ -121,7 +121,7 @@ struct constants {
     double modulus, poisson_ratio, beta, chi, psi;
 };
 
-/* The table of constants in docs/measurements.md, made by hand from the formulas there. Half the last printed digit. */
+/* The table of constants in docs/records/measurements.md, made by hand from the formulas there. Half the last printed digit. */
 static void check_constants(const restitute_material *pair, double friction, struct constants printed)
 {
     restitute_scene scene = sphere_on_wall(pair, 2.5e-3, 4000, friction);
