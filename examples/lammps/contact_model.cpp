@@ -75,7 +75,7 @@ std::string Record::warning(Ratio which, long long step) const
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
-                      "spheres were put into each other, or their contact was forgotten or found late",
+                      "spheres were created with an overlap, or their contact was lost or found late",
                       step, largest[DEPTH]);
     return line;
 }

@@ -31,7 +31,7 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     if (place == end) error->all(FLERR, "fix wall/restitute: needs xplane, yplane, zplane or zcylinder");
     shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
     const int numbers = shape == Z_CYLINDER ? 1 : 2;
-    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} lacks its place", *place);
+    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} needs a position", *place);
     const auto at = [&](int k) {
         return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere;
     };

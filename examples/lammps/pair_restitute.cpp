@@ -52,7 +52,7 @@ PairRestitute::~PairRestitute()
 
 void PairRestitute::settings(int narg, char **)
 {
-    if (narg) error->all(FLERR, "pair_style restitute: takes no words; they belong to pair_coeff");
+    if (narg) error->all(FLERR, "pair_style restitute: takes no arguments; they belong to pair_coeff");
 }
 
 void PairRestitute::allocate()
@@ -151,7 +151,7 @@ void PairRestitute::check_tags()
             if (kept[k + 1] != 0 && std::fabs(kept[k + 1]) != atom->tag[i] + partner)
                 error->one(FLERR,
                            "pair_style restitute: atom {} had another ID when it touched its neighbors last. Contacts "
-                           "are known by IDs: do without reset_atoms id, and use delete_atoms with 'compress no'",
+                           "are identified by IDs: do not use reset_atoms id, and use delete_atoms with 'compress no'",
                            atom->tag[i]);
         }
     }

@@ -1,13 +1,16 @@
-!> Merging of relaxation times that a contact of a given length cannot feel (docs/theory.md, section 7).
+!> Merging of relaxation times that do not matter in a contact of a given duration (docs/theory.md,
+!> section 7).
 !>
-!> A term that hardly relaxes within the contact joins G_inf; one that has long relaxed joins eta at constant g tau.
-!> Costs are bounds on the energy of the change in units of the impact energy, with D' <= 1:
+!> A term that hardly relaxes within the contact is added to G_inf; one that relaxes at once is
+!> added to eta with g tau. Costs are bounds on the energy of the change in units of the impact
+!> energy, with D' <= 1:
 !>   slow: the modulus changes by at most g t/tau; over loading and unloading that is worth 2 D_max^(5/2) of it
 !>   fast: the stress changes by g tau^2 u'' and, after entry, g tau u' exp(-t/tau); together at most
 !>         (3/2) g tau^2 an element, (15/4) of it integrated over the contact radius A_max
-!> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on e_z and e_x is
-!> 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has, the tangential oscillation is so fast
-!> that u'' outgrows its normal counterpart: there the fast part counts chi/4 times.
+!> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on
+!> e_z and e_x is 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has,
+!> the tangential oscillation is so fast that u'' outgrows its normal counterpart: there the fast
+!> part counts chi/4 times.
 module rst_merging
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -16,9 +19,10 @@ module rst_merging
 
 contains
 
-  !> Merge in place, cheapest first, what costs at most `allowed` all together. Terms come in ascending order of tau; those
-  !> kept move to the front, n_terms is their number. slow_rate: bound from slow terms per unit of contact time, so
-  !> that it can be stated for the contact time found.
+  !> Merge in place, those with the smallest bound first, as long as the sum of the bounds is at
+  !> most `allowed`. Terms come in ascending order of tau; those kept move to the front, n_terms is
+  !> their number. slow_rate: bound from slow terms per unit of contact time, so that it can be
+  !> stated for the contact time found.
   pure subroutine merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
     real(dp), intent(in) :: chi, window, depth, allowed
     real(dp), intent(inout) :: g_inf, eta

@@ -1,4 +1,4 @@
-!> Energy of a contact: what is stored in its springs (docs/contact.md).
+!> Energy in the springs of a contact (docs/contact.md).
 module rst_contact_energy
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
@@ -40,7 +40,8 @@ contains
     energy = energy*state(at_width)
   end function stored_energy
 
-  !> int (1/2) p^2 dx by Simpson's rule, p linear in y between elements; a contact that ends between two elements ends at its edge.
+  !> int (1/2) p^2 dx by Simpson's rule, p linear in y between elements; a contact that ends between
+  !> two elements ends at its edge.
   pure function squared(law, edge, p) result(integral)
     type(law_type), intent(in) :: law
     real(dp), intent(in) :: edge, p(law%n)

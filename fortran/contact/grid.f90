@@ -1,5 +1,5 @@
-!> The nodes of a contact and the integral over its radius of what is linear in y = x^2 between them: exact for the elastic force,
-!> whatever the number of nodes (docs/contact.md).
+!> The nodes of a contact and the integral over its radius of what is linear in y = x^2 between
+!> them: exact for the elastic force, for any number of nodes (docs/contact.md).
 module rst_contact_grid
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, at_width, at_arrays
@@ -7,7 +7,7 @@ module rst_contact_grid
   private
   public :: place_nodes, weight, stretch
 
-  real(dp), parameter :: stretch_ratio = 1.5_dp  !! of a grid that is outgrown; twice loses more resolution, less stretches more often
+  real(dp), parameter :: stretch_ratio = 1.5_dp  !! of a wider grid: 2 loses resolution, less widens more often
 
 contains
 
@@ -19,8 +19,8 @@ contains
     if (x1 + x2 > 0) weight = abs(x2 - x1)*(2*x2 + x1)/(3*(x1 + x2))
   end function weight
 
-  !> Set the layout of the state and the grid. Nodes are half-way between evenly spaced ones and those of sin, which are dense at
-  !> the rim.
+  !> Set the layout of the state and the grid. Nodes are half-way between evenly spaced ones and
+  !> those of sin, which are dense at the rim.
   pure subroutine place_nodes(law) bind(c, name="rst_law_grid")
     type(law_type), intent(inout) :: law
     real(dp), parameter :: half_pi = acos(0.0_dp)
@@ -47,8 +47,8 @@ contains
     law%size = law%at_work + 2*law%accounts - 1
   end subroutine place_nodes
 
-  !> A contact of radius^2 `area` that outgrows its grid: the grid is widened, states are interpolated linearly in y; what lies
-  !> beyond the old width is virgin.
+  !> A contact of radius^2 `area` that outgrows its grid: the grid is widened, states are
+  !> interpolated linearly in y; elements beyond the old width are untouched.
   pure subroutine stretch(law, area, state)
     type(law_type), intent(in) :: law
     real(dp), intent(in) :: area

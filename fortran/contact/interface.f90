@@ -16,10 +16,10 @@ module rst_contact_interfaces
     real(c_double) :: normal, tangential(3)
   end type force_type
 
-  !> What contact_step says; the state is untouched but for `done`.
+  !> The result of contact_step. The state changes only if `done`.
   integer(ip), parameter :: done = 0, step_too_long = 1, normal_jumped = 2
 
-  real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the radius expected: growth costs resolution
+  real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the expected radius
   real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
   real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
   real(dp), parameter :: at_rest = 1.0e-60_dp    !! m/s, s/kg: below, energies underflow, masses overflow
@@ -60,14 +60,15 @@ contains
                  state(law%at_u), state(law%at_w), state(at_force + 1), friction)
       force%tangential = -(state(at_force + 1)*axis + state(at_force + 2)*other)
     end if
-    if (law%accounts /= 0) then ! work of the bodies by the trapezoid, as velocity Verlet has it; what friction took of it
+    if (law%accounts /= 0) then ! work of the bodies by the trapezoidal rule, as in velocity Verlet; the friction part of it
       state(law%at_work) = state(law%at_work) &
                            + 0.5_dp*dot_product([approach, displacement], before + state(at_force:at_force + 2))
       state(law%at_work + 1) = state(law%at_work + 1) + friction
     end if
   end subroutine contact_step
 
-  !> The grid of a contact that begins: for the impact at this speed, if it is one, and for what overlap there is.
+  !> The grid of a new contact: for an impact at this speed, if it approaches, and for the present
+  !> overlap.
   pure subroutine touch(law, rates, motion, state, status)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -109,8 +110,8 @@ contains
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
-  !> The first tangential axis, brought back into the tangential plane; any one for a new contact (zero). It is left as it is, and
-  !> `lost` set, if the normal has turned too far towards it for that to have a meaning.
+  !> The first tangential axis, brought back into the tangential plane; any one for a new contact
+  !> (zero). If the normal has turned too far towards it, it is unchanged and `lost` is set.
   pure subroutine follow_normal(normal, axis, lost)
     real(dp), intent(in) :: normal(3)
     real(dp), intent(inout) :: axis(3)

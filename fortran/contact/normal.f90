@@ -1,5 +1,6 @@
-!> The normal problem of a step: every element either follows the profile of the sphere or, where that would pull, its own free
-!> surface (docs/contact.md). Entry, exit and re-entry on a surface that has not relaxed are one line, without flags.
+!> The normal problem of a step: every element follows the profile of the sphere or, where its force
+!> would be tensile, its free surface (docs/contact.md). This one rule covers entry, exit and
+!> re-entry on a surface that has not relaxed.
 module rst_contact_normal
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, most_nodes, most_terms, lanes
@@ -8,16 +9,16 @@ module rst_contact_normal
   private
   public :: normal_type, press
 
-  !> What the tangential problem needs.
+  !> Input of the tangential problem.
   type :: normal_type
     integer(ip) :: last              !! outermost element in contact; 0: none
     real(dp) :: f(most_nodes)        !! force density in units of law%normal
     real(dp) :: touch(most_nodes)    !! part of the step in contact, 0 outside
     real(dp) :: decay(most_nodes, most_terms), gain(most_nodes, most_terms) !! of the arms: entered elements had less time
     real(dp) :: edge                 !! contact radius in grid widths
-    real(dp) :: inner, outer         !! weights of the last, cut cell: of the last element (beside its law%weight), of the rim
+    real(dp) :: inner, outer         !! weights in the last, cut cell: of the last element (added to law%weight), of the edge
     real(dp) :: at_rim               !! f at the rim
-    real(dp) :: rim_ratio(most_terms) !! w at the rim over that of the last element
+    real(dp) :: rim_ratio(most_terms) !! w at the edge over that of the last element
     real(dp) :: force
   end type normal_type
 
@@ -43,14 +44,15 @@ contains
     end do
     call close_rim(law, motion, motion%velocity, width, w, surface, contact)
     if (.not. rates%viscosity > 0 .or. contact%last == 0) return
-    rim = width*contact%edge ! the equilibrium spring carries what does not accelerate, such as a weight at rest
+    rim = width*contact%edge ! the equilibrium spring may carry a static load, such as a weight at rest
     carried = law%normal*law%g_inf*rim*(motion%overlap - rim**2/(3*motion%radius))
     change = -velocity_response(motion%mobility(1), law%normal*rim*rates%viscosity)*(contact%force - carried)
     call feel_end_velocity(law, rates, change, w, surface, contact)
     call close_rim(law, motion, motion%velocity + change, width, w, surface, contact)
   end subroutine press
 
-  !> Eight elements over the step. An element enters where the profile reaches its free surface, which is where its force is zero.
+  !> Eight elements over the step. An element enters where the profile reaches its free surface,
+  !> which is where its force is zero.
   pure subroutine follow_profile(law, rates, motion, overlap_before, scale, first, w, surface, contact)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -124,7 +126,8 @@ contains
     end do
   end subroutine enter
 
-  !> The viscous force at the velocity of the end of the step. An element that this would make pull springs back at once.
+  !> The viscous force at the velocity of the end of the step. An element whose force this makes
+  !> tensile leaves the contact at once.
   pure subroutine feel_end_velocity(law, rates, change, w, surface, contact)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -210,10 +213,12 @@ contains
     if (law%surface /= 0) is_virgin = is_virgin .and. .not. abs(surface(j)) > 0
   end function is_virgin
 
-  !> A contact that grows: behind the rim elongations rise within tau times the velocity, which may be less than a cell:
-  !> w ~ 1 - exp(-z), z from the rim in tau v. The value at the rim is the one whose linear interpolation has the integral of that
-  !> over the cell, 2/(1 - exp(-z)) - 2/z - 1 of w at the last element, within 0.007. Its z is known from w there, which is the part
-  !> q = (1 - exp(-z))/z of the width of the cell: so a contact that stops to grow does not forget how fast it did.
+  !> A growing contact: behind its edge elongations rise over a length of tau times the velocity,
+  !> which may be less than a cell: w ~ 1 - exp(-z), with z from the edge in units of tau v. The
+  !> value at the edge is chosen so that linear interpolation has the same integral over the cell,
+  !> 2/(1 - exp(-z)) - 2/z - 1 of w at the last element, within 0.007. Its z is known from w there,
+  !> which is the part q = (1 - exp(-z))/z of the width of the cell: so the rate of growth is not
+  !> lost when a contact stops growing.
   pure subroutine rise_at_rim(law, velocity, cell, w, contact)
     type(law_type), intent(in) :: law
     real(dp), intent(in) :: velocity, cell, w(law%n, law%n_terms)

@@ -1,4 +1,5 @@
-!> Springs and dashpots over one time step, exact for a velocity that is linear in it (docs/contact.md), and the width of a new contact.
+!> Springs and dashpots over one time step, exact for a velocity that is linear in it
+!> (docs/contact.md), and the width of a new contact.
 module rst_contact_rates
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_precision, only: dp, ip
@@ -9,8 +10,8 @@ module rst_contact_rates
 
 contains
 
-  !> One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement even over the step; by a unit
-  !> change of velocity from the mean of the step to its end.
+  !> One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement
+  !> even over the step; by a unit change of velocity from the mean of the step to its end.
   elemental subroutine arm_of(step, tau, decay, gain, bend)
     real(dp), intent(in) :: step, tau
     real(dp), intent(out) :: decay, gain, bend
@@ -48,8 +49,9 @@ contains
     rates%compliance = 1/stiffness
   end subroutine set_rates
 
-  !> Change of the velocity until the end of the step by a unit force that holds it back, with a damping of that force over
-  !> velocity. Such that a mere dashpot decays by exp(-damping dt/m) in a velocity-Verlet step, however strong it is.
+  !> Change of the velocity until the end of the step by a unit force against it; damping: force
+  !> over velocity. Corrected so that a mere dashpot of any strength decays by exp(-damping dt/m) in
+  !> a velocity-Verlet step.
   elemental function velocity_response(mobility, damping) result(response)
     real(dp), intent(in) :: mobility, damping  !! mobility: step/(2 m)
     real(dp) :: response, z, share
@@ -62,8 +64,9 @@ contains
     response = 2*mobility*share/(1 + z*share)
   end function velocity_response
 
-  !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24) with the mean modulus over
-  !> 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a parallel dashpot +-3 %, its part is fitted).
+  !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24)
+  !> with the mean modulus over 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a
+  !> parallel dashpot +-3 %, its part is fitted).
   pure function largest_overlap(law, mass, speed, radius) result(d) bind(c, name="rst_law_overlap")
     type(law_type), intent(in) :: law
     real(c_double), intent(in), value :: mass, speed, radius

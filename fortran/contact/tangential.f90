@@ -1,5 +1,6 @@
-!> The tangential problem of a step: every element sticks or is brought back radially onto its friction limit, in two dimensions
-!> (docs/contact.md). Outside the contact the limit is zero: the same line lets it relax.
+!> The tangential problem of a step: every element sticks or is returned radially to its friction
+!> limit, in two dimensions (docs/contact.md). Outside the contact the limit is zero, so the same
+!> rule relaxes it.
 module rst_contact_tangential
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, most_nodes, lanes
@@ -31,7 +32,7 @@ contains
     real(dp), intent(in) :: displacement(2), width
     type(normal_type), intent(in) :: contact
     real(dp), intent(inout) :: u(law%n, 2), w(law%n, law%n_terms, 2)
-    real(dp), intent(out) :: force(2)  !! that body 1 feels is the opposite
+    real(dp), intent(out) :: force(2)  !! the force on body 1 is the opposite
     real(dp), intent(out) :: friction  !! energy lost in the step
     type(shear_type) :: s
     real(dp) :: scale, sticking, change(2)
@@ -56,7 +57,7 @@ contains
       end do
       call slip_where_beyond(law, rates, motion%friction, displacement/rates%step + change, contact, w, s)
     end if
-    force = within(scale*s%total, motion%friction*contact%force) ! the kinks may have taken it beyond
+    force = within(scale*s%total, motion%friction*contact%force) ! kink corrections may exceed the limit
     friction = 0
     if (law%accounts /= 0 .and. last > 0) friction = scale*lost(law, rates%compliance, contact, s)
     do j = 1, law%n, lanes
@@ -91,7 +92,7 @@ contains
     end do
   end subroutine stick
 
-  !> Eight elements: what is beyond the limit springs back.
+  !> Eight elements: displacements are reduced where the force exceeds the limit.
   pure subroutine spring_back(law, rates, excess, trial, u, w)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -152,8 +153,8 @@ contains
     if (contact%last > 1) call add_kink_at_rim(law, contact, s)
   end subroutine slip_where_beyond
 
-  !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that of the last element by as much;
-  !> else the same part of the limit.
+  !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that
+  !> of the last element by as much; else the same part of the limit.
   pure subroutine hold_rim(law, rates, velocity, contact, w, s)
     type(law_type), intent(in) :: law
     type(rates_type), intent(in) :: rates
@@ -178,7 +179,8 @@ contains
     s%at_rim = q
   end subroutine hold_rim
 
-  !> What the integral lacks where stick turns to slip between two elements. `stuck` has a bit for every element that sticks.
+  !> Kink correction: the error of the integral where stick changes to slip between two elements.
+  !> `stuck` has a bit for every element that sticks.
   pure subroutine add_kinks(law, last, stuck, s)
     type(law_type), intent(in) :: law
     integer(ip), intent(in) :: last, stuck
@@ -187,7 +189,7 @@ contains
     integer(ip) :: turns, inside, outside, behind
     turns = iand(ieor(stuck, shiftr(stuck, 1)), shiftl(1_ip, last - 1) - 1)
     do while (turns /= 0)
-      inside = trailz(turns) + 1 ! the element before the turn
+      inside = trailz(turns) + 1 ! the element before the change
       turns = iand(turns, turns - 1)
       outside = inside + 1
       weight = law%outwards(inside)
@@ -203,7 +205,7 @@ contains
     end do
   end subroutine add_kinks
 
-  !> Likewise if the last elements stick and slip begins between them and the rim.
+  !> The same if the last elements stick and slip begins between them and the edge.
   pure subroutine add_kink_at_rim(law, contact, s)
     type(law_type), intent(in) :: law
     type(normal_type), intent(in) :: contact
@@ -221,9 +223,10 @@ contains
     if (more > 0) s%total = s%total + more*beyond + contact%outer*(s%limit_at_rim*beyond - s%at_rim)
   end subroutine add_kink_at_rim
 
-  !> Slip begins between `inside`, which sticks as its neighbour `behind` does, and `outside`, which slips in `direction`: there the
-  !> margin limit - q, extrapolated from the sticking side, is zero. The quadrature took it to fall to zero at y = `outside`, so
-  !> that the margin has the weight `weight_inside`.
+  !> Slip begins between `inside`, which sticks as its neighbour `behind` does, and `outside`, which
+  !> slips in `direction`: there the margin limit - q, extrapolated from the sticking side, is zero.
+  !> In the quadrature the margin falls to zero at y = `outside`, so it has the weight
+  !> `weight_inside`.
   pure function lacking(law, s, inside, behind, outside, weight_inside, direction)
     type(law_type), intent(in) :: law
     type(shear_type), intent(in) :: s

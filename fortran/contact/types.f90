@@ -1,5 +1,5 @@
-!> What the contact law works on (docs/contact.md): the law, the rates of a time step and the motion of one step. The structs are
-!> those of src/contact/kernels.h.
+!> Types of the contact law (docs/contact.md): the law, the rates of a time step and the motion of
+!> one step. The structs are those of src/contact/kernels.h.
 module rst_contact_types
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_size_t
   use rst_precision, only: ip
@@ -11,9 +11,10 @@ module rst_contact_types
   integer(ip), parameter :: most_nodes = 32, most_terms = 8
   integer(ip), parameter :: lanes = 8  !! elements come in multiples of that: loops of known length become vectors
 
-  !> Header of the state: grid width (0: virgin contact), overlap after the last step, last force (normal, two tangential
-  !> components), first tangential axis. Then the arrays: w_z(n, n_terms), u(n, 2), w(n, n_terms, 2), surface(n); then the work of
-  !> the bodies on the contact and what friction took of it.
+  !> Header of the state: grid width (0: virgin contact), overlap after the last step, last force
+  !> (normal, two tangential components), first tangential axis. Then the arrays: w_z(n, n_terms),
+  !> u(n, 2), w(n, n_terms, 2), surface(n); then the work of the bodies on the contact and its
+  !> friction part.
   integer(ip), parameter :: at_width = 1, at_overlap = 2, at_force = 3, at_axis = 6, at_arrays = 9
 
   !> An immutable law. Moduli are those of the effective solid; the grid is in units of its width.
@@ -36,7 +37,8 @@ module rst_contact_types
     real(c_double) :: bit(most_nodes)        !! 2^(j - 1)
   end type law_type
 
-  !> What depends on the time step alone: a displacement du, even over the step, makes w <- decay w + gain du.
+  !> Values that depend on the time step only: a displacement du, even over the step, makes w <-
+  !> decay w + gain du.
   type, bind(c) :: rates_type
     real(c_double) :: step
     real(c_double) :: compliance !! displacement, even over the step, by a unit force: 1/(G_inf + eta/step + sum g gain)

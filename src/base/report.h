@@ -1,4 +1,5 @@
-/* Text with numbers, and setting the optional error of a call. Every library has its own, since none exports them.
+/* Text with numbers, and setting the optional error of a call. Every library has its own, since
+ * none exports them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_REPORT_H
 #define RST_REPORT_H
@@ -18,7 +19,8 @@
 static inline int rst_vprint(char *text, size_t size, const char *format, va_list arguments) RST_PRINTF(3, 0);
 static inline int rst_print(char *text, size_t size, const char *format, ...) RST_PRINTF(3, 4);
 
-/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read names and messages. */
+/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read
+ * names and messages. */
 static inline int rst_vprint(char *text, size_t size, const char *format, va_list arguments)
 {
     const locale_t none = (locale_t)0, plain = newlocale(LC_ALL_MASK, "C", none);
@@ -57,7 +59,7 @@ static inline int rst_report(restitute_error *error, int status, const char *for
 
 static inline void rst_remark(restitute_error *error, const char *format, ...) RST_PRINTF(2, 3);
 
-/* Add a remark behind what `error` (if wanted) says already; its status stays. */
+/* Append a remark to the message in `error` (if wanted); its status stays. */
 static inline void rst_remark(restitute_error *error, const char *format, ...)
 {
     if (error) {

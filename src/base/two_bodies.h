@@ -1,5 +1,6 @@
-/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back (theory.md, 10). Shared by
- * the calls that solve an impact and those that look it up.
+/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back
+ * (docs/theory.md, section 10). For calls that solve an impact and calls that look it up in a
+ * table.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TWO_BODIES_H
 #define RST_TWO_BODIES_H
@@ -13,7 +14,7 @@ typedef struct {
     double x[3];
 } vector;
 
-static const double largest_overlap = 0.1; /* of the radii: more is no first touch of two spheres */
+static const double largest_overlap = 0.1; /* of the radii: more is not a first touch of two spheres */
 
 static inline vector from(const double x[3])
 {
@@ -99,13 +100,14 @@ static inline int check_bodies(const restitute_body *a, const restitute_body *b,
     return RESTITUTE_OK;
 }
 
-/* Frame of the impact: n from `a` into `b`, t along the sliding of a's surface on b's. `a` can move. */
+/* Frame of the impact: n from `a` into `b`, t along the sliding of a's surface on b's. `a` can
+ * move. */
 struct frame {
     vector n, t;
     double gap, reach;     /* m: distance of the surfaces, and what it is compared with */
     double approach;       /* m/s: normal speed at which they close */
     double sliding;        /* m/s: of the contact point, along t, >= 0 */
-    double translation;    /* its part from the centres, along t; the spins have the rest */
+    double translation;    /* the part from the centres, along t; the rest comes from the spins */
     double spin_a, spin_b; /* rad/s: along n x t, with the sign of restitute_scene */
 };
 
@@ -191,7 +193,7 @@ static inline void strike(restitute_body *body, double side, const struct frame 
     }
 }
 
-/* The bodies part with the pair (ez, ex). `a` can move. */
+/* Set the velocities after an impact with the pair (ez, ex). `a` can move. */
 static inline void part_with(double ez, double ex, const struct frame *f, restitute_body *a, restitute_body *b)
 {
     double inverse_mass = 1 / a->mass + (is_plane(b) ? 0 : 1 / b->mass);

@@ -1,5 +1,5 @@
-/* A whole file in memory, for every library of ours that reads one: a regular file of a bounded size, since whoever names a
- * FIFO or a device would hang the reader or fill its memory. Those who include this ask for POSIX first.
+/* Read a whole file into memory. Only regular files of a bounded size: a FIFO or a device would
+ * block the reader or fill its memory. Define _POSIX_C_SOURCE before this include.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_WHOLE_FILE_H
 #define RST_WHOLE_FILE_H
@@ -13,7 +13,8 @@
 
 #include "base/report.h"
 
-/* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its writer. */
+/* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its
+ * writer. */
 static inline int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size,
                                    restitute_error *error)
 {
@@ -35,7 +36,7 @@ static inline int rst_open_regular(const char *path, const char *name, uint64_t 
                       (unsigned long long)bytes, (unsigned long long)most);
 }
 
-/* All of it, with a NUL behind. The caller frees *bytes. */
+/* The whole content, with a NUL at its end. The caller frees *bytes. */
 static inline int rst_read_whole(const char *path, const char *name, uint64_t most, char **bytes, size_t *size,
                                  restitute_error *error)
 {
@@ -43,7 +44,7 @@ static inline int rst_read_whole(const char *path, const char *name, uint64_t mo
     size_t expected = 0, length = 0;
     const int status = rst_open_regular(path, name, most, &file, &expected, error);
     if (status != RESTITUTE_OK) return status;
-    char *text = malloc(expected + 2); /* room for one byte more shows a file that grows, and for the NUL */
+    char *text = malloc(expected + 2); /* one byte more detects a file that grows, and has room for the NUL */
     ssize_t count = text ? 1 : 0;
     while (count > 0 && length <= expected) {
         do

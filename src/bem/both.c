@@ -1,14 +1,15 @@
-/* The tangential problem with tractions along x and y. In turn: tau_x under what friction leaves of p beside tau_y,
- * then tau_y, until it changes no more. In cells that slip tau_y/p = v_y/v, v being the slip in the step: with v from
- * the turn before, v_y = (v/p) tau_y is a linear resistance, which the solver takes as an addition to the diagonal of
- * K. SPDX-License-Identifier: BSD-3-Clause */
+/* The tangential problem with tractions along x and y. The iteration alternates: tau_x with the
+ * friction limit that tau_y leaves, then tau_y, until it converges. In cells that slip tau_y/p =
+ * v_y/v, where v is the slip in the step. With v from the iteration before, v_y = (v/p) tau_y is a
+ * linear resistance. The solver adds it to the diagonal of K.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <math.h>
 
 #include "bem/plane.h"
 #include "bem/stepper.h"
 
-/* Turns end when no tau_y changes by more than this part of the largest pressure. */
+/* Iterations end when no tau_y changes by more than this share of the largest pressure. */
 static const double closeness = 1e-6, settled = 1e-4;
 enum { most_turns = 12 };
 

@@ -1,6 +1,7 @@
-/* Conjugate gradients with bounds and a spectral preconditioner. After Polonsky & Keer (1999): cells that would pass a
- * bound are held there, cells whose residual pulls them off it are let go, and the directions start anew when the set
- * of free cells changes. SPDX-License-Identifier: BSD-3-Clause */
+/* Conjugate gradients with bounds and a spectral preconditioner. After Polonsky & Keer (1999):
+ * cells that would pass a bound are fixed there. Cells whose residual points away from the bound
+ * become free. The search directions restart when the set of free cells changes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/bounded.h"
 
 #include <math.h>
@@ -15,8 +16,8 @@ static void convolve(struct bem_bounded *b, const double *x, double *u)
     b->convolutions++;
 }
 
-/* An added diagonal may be much larger than K, whose own is 0.42 and whose eigenvalues are of order 1 where fields are
- * not smooth. */
+/* An added diagonal may be much larger than K, whose own is 0.42 and whose eigenvalues are of order
+ * 1 where fields are not smooth. */
 static void precondition(struct bem_bounded *b)
 {
     rst_bem_precondition(b->transform, b->kind, b->ld, b->r, b->z);

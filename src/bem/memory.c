@@ -1,4 +1,4 @@
-/* Memory that outlives a call, so that plans are made once.
+/* Memory that is kept between calls, so that plans are made once.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/memory.h"
 
@@ -57,7 +57,7 @@ int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms,
     fields->n_terms = n_terms;
     fields->b_z = memory->block + count * cells;
     fields->b_x = fields->b_z + cells * (size_t)n_terms;
-    fields->b_y = fields->b_x + cells * (size_t)n_terms; /* there with both directions only */
+    fields->b_y = fields->b_x + cells * (size_t)n_terms; /* only with both directions */
     return 0;
 }
 

@@ -1,6 +1,7 @@
-/* Sine and cosine transforms. With X the cosine coefficients (DCT-II) of an even field, S the sine coefficients
- * (DST-II) of an odd one and k, l wave numbers: an even kernel multiplies either by its own spectrum, and the kernel x
- * y/r^3, odd in both, takes each into the other: S = kappa X, X = kappa S, kappa its sine transform (DST-I).
+/* Sine and cosine transforms. With X the cosine coefficients (DCT-II) of an even field, S the sine
+ * coefficients (DST-II) of an odd one and k, l wave numbers: an even kernel multiplies either by
+ * its own spectrum, and the kernel x y/r^3, odd in both, takes each into the other: S = kappa X, X
+ * = kappa S, kappa its sine transform (DST-I).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/plane.h"
 

@@ -1,5 +1,5 @@
-/* Convolutions of tractions and displacements in the plane, along x (even in x and y) and along y (odd in both).
- * Slower than those of transform.h: FFTW's own real transforms.
+/* Convolutions of tractions and displacements in the plane, along x (even in x and y) and along y
+ * (odd in both). Slower than those of transform.h: FFTW's own real transforms.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_PLANE_H
 #define BEM_PLANE_H

@@ -1,4 +1,4 @@
-/* A step of an impact in its parts.
+/* The parts of a time step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_STEPPER_H
 #define BEM_STEPPER_H
@@ -18,7 +18,8 @@ struct bem_stepper {
     double cell; /* weight of a value of a field in an integral: four quarters, one spacing being in the tractions */
 };
 
-/* The pressure at a depth, and what follows from it; `shift` is only for the anchors of cells that enter. */
+/* The pressure at a depth, and the gap and force that follow; `shift` is only for the anchors of
+ * cells that enter. */
 enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double shift);
 
 /* The traction at a shift, under the pressure just found. */
@@ -27,8 +28,8 @@ enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift);
 /* The same with tractions along y, which friction turns towards the slip of each cell. */
 enum bem_end rst_bem_solve_both(struct bem_stepper *s, double shift);
 
-/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. diagonal: added to K's,
- * or NULL. Nonzero: not settled. */
+/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new.
+ * diagonal: added to K's, or NULL. Nonzero: no convergence. */
 int rst_bem_solve_target(struct bem_stepper *s, enum bem_kind kind, const double *diagonal, double closeness,
                          double *x);
 

@@ -43,7 +43,8 @@ static int check_times(const restitute_contact_law_options *o, size_t n_terms, r
                       o->shortest, o->longest, least, largest, n_terms, o->terms);
 }
 
-/* Of the bound on the relative error of G(t). The error of ez is up to a third of it (docs/contact.md). */
+/* Of the bound on the relative error of G(t). The error of ez is up to a third of it
+ * (docs/contact.md). */
 static const double remarkable_error = 0.2, largest_error = 0.5;
 
 static int judge_reduction(const restitute_contact_law_options *o, size_t n_terms, double bound, restitute_error *error)
@@ -62,7 +63,7 @@ static int judge_reduction(const restitute_contact_law_options *o, size_t n_term
         o->terms, o->shortest, o->longest, n_terms, 100 * bound, poor ? "" : ", at most 50 % are allowed");
 }
 
-/* The material's series, all of it or reduced. */
+/* The series of the material, complete or reduced. */
 static int take_series(const restitute_material *material, const restitute_contact_law_options *options,
                        restitute_contact_law *law, restitute_error *error)
 {

@@ -20,8 +20,9 @@ struct rst_series {
     const double *tau, *g;
 };
 
-/* Fit at most `terms` terms to a longer series, for times from `shortest` to `longest`. Sets g_inf, eta, n_terms, tau and g of
- * the law and the bound on the relative error of G(t): infinite if nothing is left of G at `longest`, and then no law is set. */
+/* Fit at most `terms` terms to a longer series, for times from `shortest` to `longest`. Sets g_inf,
+ * eta, n_terms, tau and g of the law and the bound on the relative error of G(t): infinite if G is
+ * 0 at `longest`; then no law is set. */
 void rst_reduce_series(const struct rst_series *series, int terms, double shortest, double longest, struct rst_law *law,
                        double *error_bound);
 

@@ -1,21 +1,24 @@
-/* A long Prony series as a short one, for the times that a simulation can feel: least squares in the relative error of G(t) and
- * of its integral over the first step, with evenly spaced log(tau) and moduli >= 0, so that it stays a solid
- * (docs/contact.md). SPDX-License-Identifier: BSD-3-Clause */
+/* Replace a long Prony series by a short one, for the times of a simulation (docs/contact.md).
+ * Least squares of the relative error of G(t) and of its integral over the first step. The log(tau)
+ * are equally spaced, and moduli are >= 0, so that the result is a solid.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
 #include "contact/law.h"
 
-/* Times are sampled that often; for the bound ten times as often, since G falls between samples. */
+/* Samples in time; for the bound ten times as many, since G falls between samples. */
 enum { samples = 128, checks = 10 * samples, unknowns = rst_most_terms + 1, most_sweeps = 20000 };
 
-/* How far the times reach beyond both ends of the window: the pair with the smallest bound is taken. */
+/* Candidates for how far the relaxation times extend beyond both ends of the window. The pair with
+ * the smallest bound is taken. */
 static const double reaches[] = {1, 0.5, 0.25, 0.1, 0.03};
 enum { reach_count = sizeof reaches / sizeof reaches[0] };
 
-/* Relative change of all moduli in a sweep below which it ends: far below the errors that a few terms leave. */
+/* The iteration ends when a sweep changes all moduli by less than this, relatively. It is far below
+ * the error of a fit with a few terms. */
 static const double settled = 1e-9;
 
-/* Share of G(0) below which nothing is left to be fitted: squares of what is divided by it do not overflow. */
+/* Below this share of G(0) nothing is fitted. So squares of relative errors do not overflow. */
 static const double nothing = 1e-60;
 
 static double modulus(const struct rst_series *s, double t)
@@ -26,7 +29,7 @@ static double modulus(const struct rst_series *s, double t)
     return g;
 }
 
-/* int_0^t G: what the first step feels. */
+/* int_0^t G, which determines the force after the first step. */
 static double impulse(const struct rst_series *s, double t)
 {
     double sum = s->g_inf * t;
@@ -40,7 +43,8 @@ static double between(double first, double last, int i, int n)
     return n > 1 ? first * pow(last / first, (double)i / (n - 1)) : sqrt(first * last);
 }
 
-/* Normal equations of G(t) at the samples and, with the same weight, of the impulse; the last unknown is G_inf. */
+/* Normal equations of G(t) at the samples and, with the same weight, of the impulse; the last
+ * unknown is G_inf. */
 static void set_up(const struct rst_series *s, int n, const double *tau, double shortest, double longest,
                    double matrix[unknowns][unknowns], double *right)
 {
@@ -51,7 +55,7 @@ static void set_up(const struct rst_series *s, int n, const double *tau, double 
         double row[unknowns];
         for (int k = 0; k < n; k++)
             row[k] = (of_modulus ? exp(-t / tau[k]) : -tau[k] * expm1(-t / tau[k])) / whole;
-        row[n] = s->g_inf > 0 ? (of_modulus ? 1 : t) / whole : 0; /* what flows is to flow still */
+        row[n] = s->g_inf > 0 ? (of_modulus ? 1 : t) / whole : 0; /* a fluid must stay a fluid */
         for (int k = 0; k <= n; k++) {
             right[k] += weight * row[k];
             for (int j = 0; j <= n; j++)
@@ -78,7 +82,8 @@ static void solve_positive(int n, const double matrix[unknowns][unknowns], const
     }
 }
 
-/* Largest relative error. Both moduli fall with time, so that between two times each is between its values there. */
+/* Largest relative error. Both moduli fall with time, so that between two times each is between its
+ * values there. */
 static double bound_error(const struct rst_series *whole, const struct rst_series *few, double shortest, double longest)
 {
     const double first = impulse(whole, shortest);
@@ -112,7 +117,7 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
         law->g_inf = x[terms];
         law->n_terms = 0;
         for (int k = 0; k < terms; k++)
-            if (x[k] > 0) { /* others would cost memory and time */
+            if (x[k] > 0) { /* terms without modulus would only cost memory and time */
                 law->tau[law->n_terms] = tau[k];
                 law->g[law->n_terms++] = x[k];
             }

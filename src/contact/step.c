@@ -1,4 +1,4 @@
-/* Steps of contacts: what is refused, and the mark of the law in the state.
+/* Steps of contacts: checks of the input, and the mark of the law in the state.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <math.h>
@@ -7,7 +7,8 @@
 #include "base/report.h"
 #include "contact/law.h"
 
-/* The lowest bits of the grid width, the first number of a state, are those of the law's hash: a width needs no nine digits. */
+/* The first number of a state is the grid width. Its lowest bits are replaced by bits of the hash
+ * of the law, since a width does not need all its digits. */
 static const uint64_t mark_bits = (1u << 24) - 1;
 
 static uint64_t bits_of(double value)
@@ -33,7 +34,7 @@ static int is_unit(const double v[3])
     return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
 }
 
-/* Ranges that the arithmetic holds: radii and masses of anything. */
+/* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
 static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e30, largest_friction = 1e6;
 
 void restitute_contact_motion_init(restitute_contact_motion *motion)
@@ -73,7 +74,7 @@ static int check_unit(const double *v, const char *name, restitute_error *error)
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1], v[2]);
 }
 
-/* The first thing that is wrong with a motion that is not good. */
+/* Report the first wrong value of a motion that failed the test. */
 static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
 {
     if (m->struct_size != sizeof *m)
@@ -125,7 +126,7 @@ static int refuse_corrupt(restitute_error *error)
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
 }
 
-/* A checked step; what is refused leaves nothing behind. */
+/* A checked step. A refused step changes nothing. */
 static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                    restitute_error *error)

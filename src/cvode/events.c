@@ -1,4 +1,4 @@
-/* Solving with the log of events, in the caller's units, and what the last call cost.
+/* Solving with a log of events in the caller's units, and the work of the last call.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -31,7 +31,7 @@ const char *restitute_cvode_event_text(int kind)
     }
 }
 
-/* The memory of a solver of ours; NULL and a reason for another one. */
+/* The memory of a solver with this method; for another solver NULL and a message. */
 static struct cvode_memory *memory_of(restitute_solver *solver, restitute_error *error)
 {
     if (!solver) {
@@ -97,7 +97,8 @@ int restitute_cvode_solve(restitute_solver *solver, const restitute_impact *impa
     return status;
 }
 
-/* U' is in units of the velocity that the friction coefficient gives it; psi of it is the sliding speed. */
+/* U' is in units of the velocity that the friction coefficient gives it; psi of it is the sliding
+ * speed. */
 static int scene_units(const restitute_scene *scene, struct units *units, restitute_error *error)
 {
     restitute_numbers numbers;

@@ -1,5 +1,6 @@
-/* The energy ledger of the method cvode (theory.md, 8): the run once more, with what dissipates and what leaves added up
- * by the trapezium rule over CVODE's steps and over the elements that leave.
+/* The energy ledger of the method cvode (theory.md, 8): the run is repeated. Dissipation and the
+ * energy of elements that leave are added up by the trapezoidal rule over CVODE's steps and over
+ * the elements that leave.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
@@ -8,11 +9,11 @@
 #include "base/report.h"
 #include "cvode/solve.h"
 
-/* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
- * others. */
+/* Largest and smallest number of elements of a ledger. It is a check, and needs no more even if the
+ * pair did. */
 static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
-/* What has been added up, and what was last seen. */
+/* The sums, and the values at the last step. */
 struct bookkeeper {
     struct rst_ledger ledger;
     double rate[3], square;
@@ -34,7 +35,7 @@ static int64_t count_inside(const struct run *run)
     return n;
 }
 
-/* Elements that left in this step: what they held when the edge passed them. */
+/* Add the energy of the elements that left in this step, when the edge passed them. */
 static void post_left(const struct run *run, struct bookkeeper *keeper, int64_t inside)
 {
     const struct elements *e = &run->elements;
@@ -72,8 +73,8 @@ static void post(struct run *run, double from, double to)
     keeper->inside = inside;
 }
 
-/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
- * `velocity`. */
+/* In gross slip q = f, so friction does the work int f (U' - D'). As f is minus the acceleration,
+ * the integral is over D' from 1 to `velocity`. */
 static double gross_slip_work(double chi, double psi, double velocity)
 {
     return 4 * chi * ((psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
@@ -88,8 +89,7 @@ static void add_gross_slip(const struct run_setup *setup, double end, struct rst
         ledger->friction_x += gross_slip_work(setup->chi, setup->psi, end);
 }
 
-/* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all
- * relax. */
+/* A sphere that has sunk in: in the limit all energy is lost, since all springs relax. */
 static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
 {
     struct rst_ledger *ledger = &outcome->ledger;

@@ -1,11 +1,11 @@
-/* Solving and recording by the method cvode, whatever the family of formulas.
+/* Solving and recording by the method cvode, for any family of formulas.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_SOLVE_H
 #define RST_CVODE_SOLVE_H
 
 #include "cvode/run.h"
 
-/* What a solver keeps from call to call. */
+/* Memory that a solver keeps between calls. */
 struct cvode_memory {
     struct rst_own_memory base; /* first */
     struct trace trace;         /* of the last impact */
@@ -15,7 +15,7 @@ struct cvode_memory {
     int64_t updates;
 };
 
-/* A run without elements, as the problem wants it. */
+/* A run without elements, set up from the problem. */
 struct run_setup rst_cvode_setup(const struct rst_problem *problem, const enum integrator_family *family);
 
 /* See struct restitute_method; family NULL: chosen by the scene. */

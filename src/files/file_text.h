@@ -17,7 +17,8 @@ struct file_text {
 #define FILE_TEXT_OF_MATERIAL (UINT64_C(1) << 26)
 #define FILE_TEXT_OF_TABLE (UINT64_C(1) << 32)
 
-/* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees text->bytes. */
+/* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees
+ * text->bytes. */
 int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
 
 /* A CSV table of up to `most` bytes. */

@@ -11,7 +11,8 @@
 
 #include <restitute/files.h>
 
-/* strtod also takes leading blanks, hexadecimal and "nan(...)", none of which belongs in a table. */
+/* strtod also accepts leading blanks, hexadecimal numbers and "nan(...)", which are refused
+ * here. */
 static int only_number_characters(const char *text)
 {
     const char *digits = text + (*text == '+' || *text == '-');

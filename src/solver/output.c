@@ -22,7 +22,8 @@ void restitute_history_init(restitute_history *history)
     *history = (restitute_history){.struct_size = sizeof *history};
 }
 
-/* Dimensionless: U' is psi at first touch, and 1 without slip or friction, where psi is only a scale. */
+/* Dimensionless: U' is psi at first touch, and 1 without slip or friction, where psi is only a
+ * scale. */
 static struct rst_units own_units(const struct rst_problem *problem)
 {
     return (struct rst_units){.time = 1,
@@ -40,7 +41,8 @@ struct rst_units rst_units_of(const struct rst_problem *problem, const restitute
     if (!scene) return own_units(problem);
     double nu = restitute_material_poisson_ratio(scene->material);
     double sliding = fabs(rst_sliding_speed(scene));
-    /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is no exception */
+    /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is
+     * no exception */
     double shear_force = 2 * numbers->mass * (1 - nu) / (2 - nu) * sliding / problem->psi / numbers->time;
     return (struct rst_units){.time = numbers->time,
                               .length_z = numbers->length_z,
@@ -56,7 +58,8 @@ static double clamp(double value, double low, double high)
     return fmin(high, fmax(low, value));
 }
 
-/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (theory.md, 8); the method's error may be on the wrong side. */
+/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (docs/theory.md, section 8). The error of the
+ * method may exceed these bounds, so they are enforced. */
 void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome,
                       const struct rst_units *units, int64_t terms_merged, double merging_bound,
                       restitute_result *result)

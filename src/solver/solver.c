@@ -21,17 +21,19 @@ struct restitute_solver {
     size_t samples_size;
 };
 
-/* Merged terms may change the pair by this part of the tolerance. */
+/* Share of the tolerance by which merged terms may change the pair. */
 static const double merging_share = 0.1;
 
-/* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
+/* The bounds of merging grow with the largest indentation, whose estimate has an error of about 10
+ * %. */
 static const double depth_margin = 1.2;
 
-/* Time to the largest indentation over that indentation, elastic (half of the contact time 2.943 T). Others are checked by
- * the contact time that comes out. */
+/* Time to the largest indentation over that indentation, for an elastic solid (half of the contact
+ * time 2.943 T). For other solids the computed contact time is checked. */
 static const double elastic_compression = 1.47;
 
-/* How many compression times a contact may last before slow terms are looked at again. */
+/* Contact time in compression times up to which the merging of slow terms holds. Longer contacts
+ * are solved again. */
 static const double contact_in_compressions = 6;
 
 const restitute_method *restitute_method_euler(void)
@@ -131,7 +133,8 @@ struct merged {
     double slow_rate, fast_bound; /* bound: slow_rate * contact time + fast_bound */
 };
 
-/* Merge the terms that the contact cannot feel. `window` is how long it may last, in T. */
+/* Merge terms whose relaxation does not matter in this contact. `window`: its longest duration, in
+ * T. */
 static struct merged merge(struct rst_problem *problem, double window_factor)
 {
     struct rst_solid *s = &problem->solid;
@@ -147,14 +150,14 @@ static struct merged merge(struct rst_problem *problem, double window_factor)
     return merged;
 }
 
-/* Who prescribes the resolution has chosen what it takes. */
+/* With a prescribed resolution there is no limit of work. */
 static double time_limit(const restitute_options *o)
 {
     if (o->time_limit > 0) return o->time_limit;
     return o->elements > 0 || o->time_step > 0 ? INFINITY : o->method->time_limit;
 }
 
-/* Either kind of input, and what it needs to be turned into a problem. */
+/* One of the two kinds of input, and the workspace to make a problem from it. */
 struct input {
     const restitute_impact *impact;
     const restitute_scene *scene;
@@ -196,7 +199,8 @@ void rst_solver_keep_motion(restitute_solver *solver)
     solver->workspace.keeps_motion = 1;
 }
 
-/* Solve with merged terms; a contact that outlasts the window for slow terms is solved again with them. */
+/* Solve with merged terms. If the contact lasts longer than the window for slow terms, solve it
+ * again with these terms. */
 static int solve_merged(restitute_solver *solver, struct input *input, int keep_ledger, struct rst_problem *problem,
                         struct rst_outcome *outcome, struct merged *merged, restitute_error *error)
 {
@@ -208,7 +212,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
         status = solver->options.method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
         if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;
-        if (rst_time_left(problem) <= 0) return status; /* its estimate has the bound of what was merged */
+        if (rst_time_left(problem) <= 0) return status; /* its estimate includes the bound of the merged terms */
         window *= 8;
     }
 }
@@ -243,7 +247,8 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
     return status;
 }
 
-/* Methods aim at a part of the tolerance, merged terms add their bound: what counts is the estimate that is reported. */
+/* A method aims at a share of the tolerance, and merged terms add their bound. The status follows
+ * from the reported estimate. */
 static int judge_tolerance(const struct rst_problem *problem, const restitute_result *r, int status,
                            restitute_error *error)
 {
@@ -280,7 +285,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     if (result) *result = found;
     if (ledger) rst_write_ledger(&problem, &outcome, ledger);
     if (history) rst_write_history(&samples, &units, history);
-    if (!outcome.sunk || !problem.solid.can_sink) /* with a spring at rest the sphere comes back, however slowly */
+    if (!outcome.sunk || !problem.solid.can_sink) /* with an equilibrium modulus the sphere rebounds, however slowly */
         status = judge_tolerance(&problem, &found, status, error);
     else if (status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));

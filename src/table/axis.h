@@ -7,9 +7,10 @@
 #include <stdint.h>
 #include <string.h>
 
-/* s(v) = k + p(m - 1) for v = 2^k m, 1 <= m < 2: within 7e-7 of log2(v), and much faster. p is the polynomial of degree 7
- * with the smallest largest error for which s has two continuous derivatives. A coarser one would not do: the interpolated
- * functions get the shape of s - log2(v) within every octave. */
+/* s(v) = k + p(m - 1) for v = 2^k m, 1 <= m < 2: within 7e-7 of log2(v), and much faster. p is the
+ * polynomial of degree 7 with the smallest largest error for which s has two continuous
+ * derivatives. A coarser polynomial is not enough: s - log2(v) of every octave appears in the
+ * interpolated functions. */
 static const double rst_s[8] = {0,
                                 1.4426826110991595,
                                 -0.7207275153258296,
@@ -35,7 +36,7 @@ static inline double rst_axis_place(double v, double *slope)
         *slope = ((p[1] + 2 * p[2] * x) + x2 * (3 * p[3] + 4 * p[4] * x) +
                   x4 * ((5 * p[5] + 6 * p[6] * x) + x2 * (7 * p[7]))) *
                  inverse_power;
-    const int64_t of_exponent = bits >> 52 | INT64_C(1075) << 52; /* as 2^52 + it, which compilers do for many at once */
+    const int64_t of_exponent = bits >> 52 | INT64_C(1075) << 52; /* as 2^52 + it, which compilers vectorise */
     double exponent;
     memcpy(&exponent, &of_exponent, sizeof exponent);
     return (exponent - (0x1p52 + 1023)) +
@@ -53,9 +54,10 @@ static inline double rst_axis_speed(double s)
     return v;
 }
 
-/* t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - w^(1/4)), w = y (1 - y) + c: cells are narrow at psi = 1 and psi_c, where g goes as
- * powers like 5/3 and 3/2 of the distance. Cubics need the fewest cells so; with a square root in place of the fourth one they
- * need twice as many. c keeps slopes finite: 1e-4 and 5e-4 are as good. */
+/* t(y) = 1/2 + (y - 1/2) (1 + c^(1/4) - w^(1/4)), w = y (1 - y) + c: cells are narrow at psi = 1
+ * and psi_c, where g follows powers such as 5/3 and 3/2 of the distance. With the fourth root
+ * cubics need the fewest cells; with a square root twice as many. c keeps slopes finite: 1e-4 and
+ * 5e-4 are as good. */
 static const double rst_c = 2e-4, rst_a = 1.1189207115002722; /* 1 + c^(1/4) */
 
 static inline double rst_panel_place(double y)
@@ -69,7 +71,8 @@ static inline double rst_panel_slope(double y)
     return rst_a - root + 0.5 * off * off * (root / w);
 }
 
-/* By Newton's method: from below t(y) and y rise to them, as t bends down in the lower half; the upper one mirrors it. */
+/* By Newton's method: from below t(y) and y rise to them, as t bends down in the lower half; the
+ * upper one mirrors it. */
 static inline double rst_panel_y(double t)
 {
     const double lower = t < 0.5 ? t : 1 - t;

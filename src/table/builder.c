@@ -1,4 +1,4 @@
-/* The build of a table from first columns to last check (builder.h).
+/* The build of a table, from the first columns to the last check (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 
@@ -6,7 +6,8 @@
 
 enum { most_rounds = 6 };
 
-/* Cells of psi to begin with, at 1e-5: cubics miss 3e-6 then unless e_x has a fold. */
+/* First cells of psi at a tolerance of 1e-5. The error of the cubics is then 3e-6, unless e_x has a
+ * fold. */
 static const double first_stick = 12, first_slip = 44;
 
 void restitute_table_options_init(restitute_table_options *options)
@@ -51,7 +52,7 @@ int rst_check_options(const restitute_table_options *o, restitute_error *error)
 
 /* ---- start */
 
-/* Even columns. A solid without times needs those of the ends alone. */
+/* Even columns. A solid without relaxation times needs only the first and the last. */
 static int start(struct rst_builder *b, restitute_error *error)
 {
     enum { fewest = 5, most = 14 }; /* up to 50 octaves */
@@ -79,8 +80,9 @@ static int start(struct rst_builder *b, restitute_error *error)
 
 /* ---- seams */
 
-/* Where rebound begins between two columns of which the lower one sinks: two columns there, both with e_z = 0 and, as
- * the contact lasts ever longer towards it, e_x = 0. Above it are speeds whose rebound the solver does not find. */
+/* Find where rebound begins between two columns, the lower of which sinks. Put two columns there,
+ * both with e_z = 0. They also have e_x = 0, since the contact time grows without bound towards
+ * this speed. Just above it there are speeds whose rebound the solver does not find. */
 static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
 {
     const double fine = 1e-6; /* of s */

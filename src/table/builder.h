@@ -1,8 +1,9 @@
 /* The build of a table.
  *
  *   start     a few columns over the speeds; a seam where rebound begins
- *   refine    a new column halves every cell whose cubics miss it; each column has the places of psi that it needs
- *   verify    the table is compared with impacts at other places; where it misses, refine again
+ *   refine    where the cubics have too large an error, a new column halves a cell; each column has as
+ *             many places of psi as it needs
+ *   verify    compare the table with impacts at other places; refine again where the error is too large
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_BUILDER_H
@@ -12,32 +13,37 @@
 
 /* Constants of the build, measured with the target table-campaign (docs/records/table.md). */
 
-/* Nodes are solved to this part of the tolerance, and checks: their noise must not be taken for a shape. True errors are
- * a quarter of the estimates. */
+/* Nodes and checks are solved to this share of the tolerance, so that their errors are not taken
+ * for a shape of the function. True errors are a quarter of the estimates. */
 static const double rst_part_for_nodes = 0.3;
-/* A halved cell has this part of the error that its middle showed: smooth ones have 1/16. Of a cell that was halved
- * before what that brought is known; kinks have up to 1/2. */
+/* Expected error of a halved cell over the error found at its midpoint. A smooth function has 1/16,
+ * a kink up to 1/2. For cells that were halved before, the ratio found then is used. */
 static const double rst_gain = 0.0625, rst_least_gain = 0.03, rst_most_gain = 0.5;
-/* What speed and psi may miss each, as a part of the tolerance. The sum leaves room for the solver. */
+/* Allowed errors along the speed and along psi, as shares of the tolerance. The rest is for the
+ * solver. */
 static const double rst_part_of_axis = 0.4;
-/* Stated error over the largest difference of the checks: 10 000 random places find larger ones than the checks do. */
+/* Stated error over the largest difference of the checks, since 10 000 random places find larger
+ * differences than the checks do. */
 static const double rst_margin = 1.7;
-/* So many places of a check are those where the table's own values say that cubics fit worst. With four, a random
- * solid exceeded its stated error 1.4 times that holds it now. */
+/* Number of places of a check where the values of the table suggest the largest error of the
+ * cubics. With four, a random solid exceeded its stated error by 1.4; with six it does not. */
 enum { rst_doubtful = 6 };
-/* Then cells that miss more than this part of the worst are compared again around their worst places, in so many looks in all. */
+/* Cells with more than this share of the largest error are compared again around their worst
+ * places. The second value is the number of comparisons in all. */
 static const double rst_look_again = 0.7;
 enum { rst_looks = 3 };
 /* Cells are not narrower than this, in s. */
 static const double rst_narrowest = 0x1p-10;
-/* So many middles of cells in turn that the cubics meet are enough: two at the ends, three elsewhere. With three in all
- * folds were missed. */
+/* A column is finished when the cubics agree with this many midpoints in a row: two at the ends,
+ * three elsewhere. With three in all, folds were missed. */
 enum { rst_probes = 5 };
-/* psi has at most so many times the first cells. Folds, whose slope jumps, would take any number. */
+/* Largest number of cells of psi over the first number. A fold, where the slope jumps, would need
+ * any number. */
 enum { rst_finest = 4 };
-/* So many middles of the finest cells are solved: their largest miss is what psi leaves to the stated error. */
+/* Number of midpoints of the finest cells that are solved. Their largest difference is the
+ * remaining error along psi. */
 enum { rst_last_probes = 3 };
-/* What refinement leaves of the impacts, and of the time, for the checks. */
+/* Share of the impacts, and of the time, that is reserved for the checks. */
 static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;
@@ -54,10 +60,10 @@ struct rst_column {
     int64_t cells[2];
     double *g[2];    /* [cells + 1] */
     double solver;   /* largest estimated error of ex */
-    double by_psi;   /* what its cubics miss, if it has the most cells; else 0 */
+    double by_psi;   /* error of its cubics, if it has the largest number of cells; else 0 */
     int64_t impacts; /* that it took */
     /* of the cell above: */
-    double missed;   /* by how much its parent missed this or the next column */
+    double missed;   /* error of the cubics of its parent cell at this or the next column */
     double by_speed; /* its estimated error */
     double checked[2]; /* differences in ez and ex of the last check; negative: none yet */
     struct rst_place worst; /* of ex */
@@ -66,7 +72,7 @@ struct rst_column {
 /* A column to be solved. */
 struct rst_task {
     struct rst_column column;
-    int may_fail; /* with TOO_MUCH_WORK: its status tells */
+    int may_fail; /* with TOO_MUCH_WORK in its status */
     int status;
     restitute_error why;
 };
@@ -87,7 +93,7 @@ struct rst_builder {
 /* Solve tasks (solve.c); their columns get values. Fewer impacts are left then. */
 int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error);
 
-/* What n columns take at least, in impacts. */
+/* Least number of impacts of n columns. */
 int64_t rst_cost(const struct rst_builder *b, int64_t n);
 
 /* Put solved columns in their places; on failure they are released. */
@@ -109,7 +115,7 @@ struct rst_stencil {
 };
 void rst_find_stencil(const double *at, int64_t n, int64_t i, struct rst_stencil *s);
 
-/* That of columns, all on the side of seams that column i is on (refine.c). */
+/* The same along the columns, all on the same side of a seam as column i (refine.c). */
 void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stencil *s);
 
 /* Slope at i of cells + 1 even values, by i. */
@@ -121,14 +127,14 @@ struct rst_panel {
     struct rst_column_solver *solver;
     struct rst_task *task;
     int panel;
-    double missed; /* by the last cubics, in e_x: too much if there are the most cells */
+    double missed; /* of the last cubics, in e_x; may be too large if the number of cells is the largest */
 };
 
 /* g at x in [0, 1]. */
 int rst_panel_solve(const struct rst_panel *p, double x, double *g);
 
-/* Halve the cells until cubics meet what is solved in the middles of those that are most in doubt. Other middles are filled
- * by polynomials of degree 7. */
+/* Halve the cells until the cubics agree with the solved midpoints of the most doubtful cells.
+ * Other midpoints are filled by polynomials of degree 7. */
 int rst_panel_refine(struct rst_panel *p);
 
 /* Halve the cells once, all by polynomials. */
@@ -137,13 +143,15 @@ int rst_panel_fill(double **g, int64_t *cells);
 /* Start, seams and refinement; open cells only. OK also if impacts run out. */
 int rst_refine(struct rst_builder *b, restitute_error *error);
 
-/* What finer cells of speed cannot mend between columns i and i + 1, as a stated error. */
+/* The part of the stated error between columns i and i + 1 that finer cells of speed cannot
+ * reduce. */
 double rst_left_by_psi(const struct rst_builder *b, int64_t i);
 
 /* The table of the columns (make.c). */
 int rst_make_table(const struct rst_builder *b, restitute_table **table, restitute_error *error);
 
-/* Compare cells that were not compared yet with fresh impacts; set the errors, and what missed (verify.c). */
+/* Compare cells that were not compared yet with new impacts. Set the errors and mark cells with too
+ * large ones (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
 
 /* ---- loops whose turns do not depend on each other (parallel.c) */
@@ -157,7 +165,7 @@ void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, i
 /* Time of day, in s. */
 double rst_table_clock(void);
 
-/* Let one thread at a time through. */
+/* A lock for one thread at a time. */
 void rst_table_one_at_a_time(void (*act)(void *of), void *of);
 
 /* ---- all of it */

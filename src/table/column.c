@@ -3,8 +3,8 @@
 #include "table/column.h"
 
 #include <math.h>
-/* Ten times what an impact takes whose slip needs elements. One that hardly rebounds may need more: it says by its estimated
- * error that it was not finished. */
+/* Ten times the work of an impact whose slip needs elements. One that hardly rebounds may need
+ * more. Then its estimated error is above the tolerance. */
 static const int64_t most_updates = 10000000;
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
@@ -17,7 +17,7 @@ static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, res
     return restitute_scene_numbers(unit, numbers, error);
 }
 
-/* A spring alone, or a dashpot alone, gives the same pair at any speed. */
+/* A solid of a spring alone or a dashpot alone has the same pair at any speed. */
 static int without_time(const restitute_material *material)
 {
     double g_inf, eta;
@@ -69,7 +69,7 @@ void rst_column_solver_destroy(struct rst_column_solver *s)
     s->plan = NULL;
 }
 
-/* A status < 0 with the place of the column that it is about. */
+/* A status < 0, with the speed of the column in the message. */
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
     if (why->status == RESTITUTE_ERROR_TOO_MUCH_WORK)

@@ -1,14 +1,15 @@
-/* Impacts of one contact at one speed: a column of a table. All that the builder knows of the solver is here.
+/* Impacts of one contact at one speed: a column of a table. The only interface between builder and
+ * solver.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_COLUMN_H
 #define RST_TABLE_COLUMN_H
 
 #include "table/form.h"
 
-/* How friction acts: not at all, as usual, or without slip. */
+/* Friction: none, finite, or infinite (no slip). */
 enum rst_sliding { RST_NO_FRICTION, RST_SLIDES, RST_NEVER_SLIPS };
 
-/* What is built for: the scene at 1 m/s, with a friction of its own if it slides. */
+/* The contact of the table: the scene at 1 m/s, and its friction. */
 struct rst_contact {
     restitute_scene scene;
     restitute_numbers numbers; /* of the scene, sliding at 1 m/s with friction 1 */
@@ -17,7 +18,7 @@ struct rst_contact {
     int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
 };
 
-/* Check a scene and take what is needed. The material stays the caller's. */
+/* Check a scene and copy the needed values. The caller keeps the material. */
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error);
 
 /* psi v_n/|v_t| (22). */
@@ -35,7 +36,7 @@ int rst_column_solver_create(const struct rst_contact *contact, double tolerance
                              restitute_error *error);
 void rst_column_solver_destroy(struct rst_column_solver *s);
 
-/* What is the same at all psi. */
+/* Values that do not depend on psi. */
 struct rst_column_normal {
     double ez, error;
     double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */

@@ -1,4 +1,4 @@
-/* Other contacts that a table serves.
+/* Other contacts that a table covers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/column.h"
 
@@ -11,7 +11,7 @@ static int alike(double a, double b)
     return a == b || fabs(a - b) <= rounding * fmax(fabs(a), fabs(b));
 }
 
-/* How much longer and stiffer than the table's a material is. */
+/* Ratio of the times and of the moduli of a material to those of the table. */
 struct shift {
     double time, modulus;
 };
@@ -37,8 +37,9 @@ static int find_shift(const struct rst_table_data *d, const restitute_material *
     return same;
 }
 
-/* The solid sees its own times over T, and T goes with v^(-1/5): a contact that is longer by f is one at f^-5 of the
- * speed. A solid whose times are longer by f sees a contact that is shorter by f. */
+/* The result depends on the relaxation times over T, and T is proportional to v^(-1/5). So a
+ * contact that is f times as long is that at f^-5 times the speed. Relaxation times that are f
+ * times as long have the same effect as a contact time shorter by f. */
 static int bind(const restitute_table *t, const struct rst_contact *c, restitute_table_contact *found,
                 restitute_error *error)
 {

@@ -8,7 +8,7 @@ static const int64_t most_terms = 1000000;
 
 static int refuse(restitute_error *error, const char *name)
 {
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s: a value that no table has", name);
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s: not a valid value of a table", name);
 }
 
 static int in_range(const double *value, int64_t n, double low, double high)
@@ -74,7 +74,8 @@ static void set_nodes(restitute_table *t)
     t->end = nextafter(t->node[n - 1].at, -INFINITY); /* the highest speed belongs to the last cell */
 }
 
-/* A bin begins a hair behind its place: edges of cells are on edges of bins, and few searches take a step. */
+/* A bin begins slightly late. Edges of cells are on edges of bins, so few searches need a further
+ * step. */
 static void set_bins(restitute_table *t, int bins)
 {
     const double hair = 1e-9, first = t->node[0].at, width = (t->end - first) / bins;

@@ -1,4 +1,4 @@
-/* A table in memory: its numbers, and what finds a cell quickly.
+/* A table in memory: its numbers, and an index to find a cell quickly.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_FORM_H
 #define RST_TABLE_FORM_H
@@ -15,7 +15,7 @@ struct rst_node {
     double ez, slope;         /* e_z, de_z/ds */
 };
 
-/* Of lookups, m/s: times the factors of a contact it does not overflow. */
+/* Largest speed of lookups, m/s: its product with the factors of a contact does not overflow. */
 static const double rst_largest_speed = 1e100;
 
 /* Nothing is divided by 0, for programs that trap that. */
@@ -35,8 +35,8 @@ struct restitute_table {
 
 enum { rst_most_bins = 8192, rst_most_speeds = 32768, rst_most_cells = 1024 };
 
-/* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z. A smaller one counts as 0: the slip panel would be narrower than what rounding
- * leaves of psi - 1, and e_x changes in it by less than that. */
+/* max(0, 2 chi - 1): psi_c - 1 over 1 + e_z. A smaller one counts as 0: the slip panel would be
+ * narrower than the rounding error of psi - 1, and e_x changes by less than that in it. */
 static inline double rst_share(double chi)
 {
     const double least = 1e-9;
@@ -49,7 +49,8 @@ static inline int rst_same_chi(double a, double b)
     return fabs(a - b) <= 1e-9 * fabs(b);
 }
 
-/* The pair at `speed` on the table's axis and psi = sliding/v_n; v_n may be 0 and sliding infinite. */
+/* The pair at `speed` on the table's axis and psi = sliding/v_n; v_n may be 0 and sliding
+ * infinite. */
 void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n,
                         restitute_table_value *pair);
 

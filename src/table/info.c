@@ -1,4 +1,4 @@
-/* What a table says of itself, and which limits of the model an impact passes.
+/* Information about a table, and the limits of the model that an impact exceeds.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/form.h"
 
@@ -12,8 +12,8 @@ void restitute_table_info_init(restitute_table_info *info)
 
 enum strain { FAST, LARGE, SLIDE };
 
-/* Lowest speed at which a ratio of the nodes passes its limit, linear in logarithms between them. Where the sphere sinks
- * ratios have no meaning. */
+/* Lowest speed at which a ratio of the nodes exceeds its limit, linear in logarithms between them.
+ * Where the sphere sinks ratios have no meaning. */
 static double from_speed(const struct rst_table_data *d, enum strain which, double limit, double rebound)
 {
     for (int64_t i = 0; i < d->speeds; i++) {

@@ -1,11 +1,12 @@
-/* The one code path of all lookups. It takes no branch on the place: on which side of psi = 1 and of psi_c it lies cannot
- * be foreseen. Nothing is written but the outputs, and nothing overflows or is invalid, for hosts that trap that.
+/* The one code path of all lookups. It does not branch on psi, since the processor cannot predict
+ * on which side of psi = 1 and of psi_c it lies. It writes only the outputs. No operation overflows
+ * or is invalid, for programs that trap this.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/form.h"
 
 #include <float.h>
 
-/* A call would pass what is found through memory. */
+/* Inline, since a call would pass the results through memory. */
 #if defined(__GNUC__)
 #define ALWAYS_INLINE static inline __attribute__((__always_inline__))
 #else
@@ -33,7 +34,7 @@ struct at_speed {
 struct at_psi {
     double place;         /* in cells of its panel */
     double y, q;          /* y; psi, or 1/psi beyond psi = 1 */
-    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0, since a branch could not be foreseen */
+    double slips, beyond; /* psi > 1; psi >= psi_c: 1 or 0 in place of unpredictable branches */
 };
 
 /* Its cell. */
@@ -53,7 +54,7 @@ static inline double find_place(const restitute_table *t, double speed)
 static inline const struct rst_node *find_node(const restitute_table *t, double place)
 {
     const struct rst_node *node = t->node + t->bin[(int)((place - t->node->at) * t->bins_per_s)];
-    node -= node->at > place; /* a bin begins a hair late */
+    node -= node->at > place; /* a bin begins slightly late */
     while (node[1].at <= place)
         node++;
     return node;
@@ -160,8 +161,8 @@ void rst_table_evaluate(const restitute_table *table, double speed, double slidi
     evaluate(table, speed, sliding, v_n, pair);
 }
 
-/* Each step for so many places before the next: they do not wait for one another, and steps that read no table are done for
- * two or more at once. 8 and 32 are as fast. */
+/* Places a block. Each step is done for all places of a block before the next step. So places do
+ * not wait for each other, and steps that read no table are vectorised. 8 and 32 are as fast. */
 enum { block = 16 };
 
 /* Cubic weights at many places. */
@@ -218,7 +219,8 @@ static void evaluate_block(const restitute_table *t, int n, const double *speed,
     }
 }
 
-/* psi v_n; infinite without friction. A sum: of two branches a compiler may compute both, infinity times 0 too. */
+/* psi v_n; infinite without friction. Written as a sum: of two branches a compiler may compute
+ * both, and so infinity times 0. */
 static inline double sliding_of(const restitute_table_contact *c, double v_t)
 {
     const int none = c->psi_factor > DBL_MAX;

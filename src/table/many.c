@@ -35,7 +35,8 @@ static void pair_of(size_t k, size_t *i, size_t *j)
     *i = k - *j * (*j + 1) / 2;
 }
 
-/* After a failure tables before it are still built, so that the first failure is the same for any number of threads. */
+/* After a failure tables before it are still built, so that the first failure is the same for any
+ * number of threads. */
 static void ask(void *of)
 {
     struct job *job = of;

@@ -1,10 +1,10 @@
-/* A panel of psi in one column: even cells, as many as its cubics need (builder.h).
+/* A panel of psi in one column: equal cells, as many as its cubics need (builder.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 
 #include <stdlib.h>
 
-/* Points of the polynomials that fill in. */
+/* Points of the polynomials that fill midpoints. */
 enum { points = 8 };
 
 void rst_find_stencil(const double *at, int64_t n, int64_t i, struct rst_stencil *s)
@@ -58,7 +58,8 @@ int rst_panel_solve(const struct rst_panel *p, double x, double *g)
     return RESTITUTE_OK;
 }
 
-/* In the middle of cell i the polynomial through the eight values around it, by Neville's scheme. */
+/* In the middle of cell i the polynomial through the eight values around it, by Neville's
+ * scheme. */
 static double middle_of(const double *f, int64_t cells, int64_t i)
 {
     const int n = cells + 1 < points ? (int)cells + 1 : points;
@@ -79,19 +80,20 @@ static double cubic_of(const double *f, int64_t cells, int64_t i)
     return 0.5 * (f[i] + f[i + 1]) + 0.125 * rise;
 }
 
-/* A cell whose middle may be solved. Marks of cells beside one that misses are infinite, of those that were solved -1. */
+/* Cells whose midpoint may be solved. The mark is infinite beside a cell with too large an error,
+ * and -1 for a solved one. */
 struct middle {
     double value, mark;
-    double miss; /* of cubic or polynomial, if that is too much; else 0 */
+    double miss; /* error of cubic or polynomial, if it is too large; else 0 */
 };
 
-/* A fold was seen in cell i of n: its halves are in doubt as well. */
+/* A fold was found in cell i of n: its halves are doubtful as well. */
 static int has_fold(const struct middle *m, int64_t n, int64_t i)
 {
     return m[i].miss > 0 && (i == 0 || m[i].miss >= m[i - 1].miss) && (i == n - 1 || m[i].miss >= m[i + 1].miss);
 }
 
-/* The cell that is most in doubt. */
+/* The most doubtful cell. */
 static int64_t most_doubtful(const struct middle *m, int64_t n)
 {
     int64_t most = 0;
@@ -106,8 +108,8 @@ static double differ(const double *f, int64_t n, int64_t i)
     return fabs(middle_of(f, n, i) - cubic_of(f, n, i));
 }
 
-/* The same in cell i and beside it: with a kink in its middle they meet there, but not beside it. At the ends of a panel slopes
- * and polynomials are one-sided, and tell less of what they miss. */
+/* The same in cell i and beside it: with a kink at its midpoint both agree there, but not beside
+ * it. At the ends of a panel slopes and polynomials are one-sided, and show less of their error. */
 static double doubt(const double *f, int64_t n, int64_t i)
 {
     const double one_sided = 10;
@@ -121,7 +123,7 @@ static double weight(const struct rst_panel *p, int64_t i, int64_t n)
     return p->panel ? rst_psi_at(p->b, 1, ((double)i + 0.5) / (double)n, p->task->column.normal.ez) : 1;
 }
 
-/* Values and marks before any middle is solved; `before` are the cells that were halved, NULL: none. */
+/* Values and marks before any midpoint is solved. `before`: the cells that were halved, or NULL. */
 static void prepare(const double *f, int64_t n, const struct middle *before, const struct rst_panel *p, struct middle *m)
 {
     for (int64_t i = 0; i < n; i++) {
@@ -130,8 +132,9 @@ static void prepare(const double *f, int64_t n, const struct middle *before, con
     }
 }
 
-/* Solve middles, at most so many, until those most in doubt are met by the cubics. Of a kink cubic and polynomial miss much more
- * than they differ, so that doubt alone tells too little. */
+/* Solve a limited number of midpoints until the cubics agree with the most doubtful ones. At a
+ * kink, the error of cubic and polynomial is much larger than their difference. So the difference
+ * alone is not enough. */
 static int probe(const double *f, int64_t n, struct middle *m, int64_t most, struct rst_panel *p, int *met)
 {
     const double beside_good = 0.1; /* other folds come first */

@@ -1,4 +1,5 @@
-/* Loops by several threads (builder.h). They round as the caller does, or bits would depend on who takes a turn.
+/* Loops by several threads (builder.h). All threads use the rounding mode of the caller, so that
+ * the bits do not depend on the thread.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Impacts that refinement may still take: of max_impacts, and in the time that is left if they go on as fast as so far. */
+/* Impacts that refinement may still take: of max_impacts, and in the time left at the present
+ * rate. */
 static int64_t left(const struct rst_builder *b)
 {
     const double spent = rst_table_clock() - b->began, limit = b->options.time_limit;
@@ -27,7 +28,7 @@ void rst_column_stencil(const struct rst_builder *b, int64_t i, struct rst_stenc
         at[k - low] = c[k].at;
     rst_find_stencil(at, high - low + 1, i - low, s);
     s->first += low;
-    if (c[i].normal.ez <= 0) s->n = 0; /* e_z and e_x begin with no slope, and wildly */
+    if (c[i].normal.ez <= 0) s->n = 0; /* e_z and e_x begin with zero slope, and vary strongly */
 }
 
 /* Value of a column at place j of n cells of a panel; panel -1: e_z. */
@@ -36,7 +37,8 @@ static double value(const struct rst_column *c, int panel, int64_t n, int64_t j)
     return panel < 0 ? c->normal.ez : c->g[panel][j * (c->cells[panel] / n)];
 }
 
-/* By how much the cubics of the cell above column i miss a new column in it, at the places that all have. */
+/* Error of the cubics of the cell above column i at a new column in it, at the common places of
+ * psi. */
 static double miss(const struct rst_builder *b, int64_t i, const struct rst_column *c)
 {
     const struct rst_column *o = b->column;
@@ -65,7 +67,7 @@ double rst_left_by_psi(const struct rst_builder *b, int64_t i)
     return rst_margin * fmax(b->column[i].by_psi, b->column[i + 1].by_psi);
 }
 
-/* More columns help neither against the solver's error nor against what psi leaves. */
+/* More columns reduce neither the error of the solver nor the error along psi. */
 static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
@@ -74,7 +76,7 @@ static int can_halve(const struct rst_builder *b, int64_t i)
            c->by_speed > fmax(fmax(c->solver, c[1].solver), rst_part_of_axis * rst_left_by_psi(b, i));
 }
 
-/* What is expected of both halves of a cell. */
+/* Expected error of both halves of a cell. */
 static void judge(struct rst_column *low, struct rst_column *middle, double missed)
 {
     const double before = low->missed;
@@ -84,7 +86,7 @@ static void judge(struct rst_column *low, struct rst_column *middle, double miss
     middle->checked[0] = middle->checked[1] = -1;
 }
 
-/* A new column changes slopes, and with them the cells beside: these are compared again. */
+/* A new column changes slopes, and so the neighbouring cells. These are compared again. */
 static void forget_checks(struct rst_builder *b, int64_t i)
 {
     for (int64_t k = i > 0 ? i - 1 : 0; k < b->columns && k <= i + 1; k++)
@@ -109,7 +111,7 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
     return rst_insert(b, solved, task, error);
 }
 
-/* A cell that begins where rebound does. */
+/* A cell that begins at the onset of rebound. */
 static int is_beside_seam(const struct rst_builder *b, int64_t i)
 {
     return i > 0 && b->column[i - 1].at >= b->column[i].at;

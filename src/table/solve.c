@@ -1,4 +1,5 @@
-/* Columns of a build, by several threads. Each is solved at the first places of psi, then where its cubics miss.
+/* Columns of a build, by several threads. Each is solved at the first places of psi, then where its
+ * cubics have too large an error.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 
@@ -94,10 +95,10 @@ static int by_place(const void *a, const void *b)
 {
     const struct rst_column *x = a, *y = b;
     if (x->at < y->at || x->at > y->at) return x->at < y->at ? -1 : 1;
-    return y->normal.sunk - x->normal.sunk; /* of a seam's two the one that sinks: faster impacts rebound */
+    return y->normal.sunk - x->normal.sunk; /* of the two at a seam the one that sinks: faster impacts rebound */
 }
 
-/* All columns have the cells of the finest. */
+/* All columns get the cells of the finest column. */
 static int fill_panels(struct rst_builder *b)
 {
     int status = RESTITUTE_OK;

@@ -1,9 +1,10 @@
-/* All of a table in plain numbers: what its file holds, and what table and table_files share.
+/* The numbers of a table: the content of its file, and the interface between table and table_files.
  *
- * Nodes are products of speeds and of places of psi. The axis of speed is s(v) (axis.h), almost log2(v); cells may have
- * any width, and two equal speeds are a seam. psi has two panels of even cells: psi itself from 0 to 1, then t(y) from
- * 0 to 1, y = (psi - 1)/(psi_c - 1). At a node stand g and its derivatives: g = e_x up to psi = 1, and
- * g = psi e_x - y e_z beyond, which is 0 at psi_c.
+ * Nodes are products of speeds and of places of psi. The axis of speed is s(v) (axis.h), almost
+ * log2(v); cells may have any width, and two equal speeds are a seam. psi has two panels of even
+ * cells: psi itself from 0 to 1, then t(y) from 0 to 1, y = (psi - 1)/(psi_c - 1). At a node stand
+ * g and its derivatives: g = e_x up to psi = 1, and g = psi e_x - y e_z beyond, which is 0 at
+ * psi_c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TABLE_DATA_H
 #define RST_TABLE_DATA_H
@@ -42,7 +43,7 @@ static inline int64_t rst_places(const struct rst_table_data *d)
 /* The numbers of a table; they live as long as it does. */
 RESTITUTE_API const struct rst_table_data *restitute_private_table_data(const restitute_table *table);
 
-/* A table of such numbers, copied. ERROR_DOMAIN: no table has them. */
+/* A table of such numbers, copied. ERROR_DOMAIN: these are not the numbers of a table. */
 RESTITUTE_API int restitute_private_table_make(const struct rst_table_data *data, restitute_table **table,
                                                restitute_error *error);
 

@@ -1,4 +1,5 @@
-/* Verification: every cell of speed is compared with impacts at one other speed and at many places of psi.
+/* Verification: every cell of speed is compared with impacts at one other speed and at many places
+ * of psi.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table/builder.h"
 
@@ -12,11 +13,11 @@ static double part(double x)
     return x - floor(x);
 }
 
-/* What one speed says. */
+/* Result of the comparison at one speed. */
 struct check {
-    double speed, ez, ex; /* largest differences, with what the solver leaves open */
+    double speed, ez, ex; /* largest differences, plus the error of the solver */
     int64_t cell;         /* of speed */
-    struct rst_place doubtful[rst_doubtful], worst; /* of psi: where cubics may fit worst, and where they did */
+    struct rst_place doubtful[rst_doubtful], worst; /* of psi: most doubtful places, and the worst place found */
     int status;
     restitute_error why;
 };
@@ -29,8 +30,9 @@ struct work {
     int round;
 };
 
-/* By how much the cubic through the nodes below and above misses a node: 16 times what cubics of half its width miss where the
- * function is smooth. Values and slopes are `slope` apart, `low` and `high` are the distances of both nodes. */
+/* Error at a node of the cubic through the nodes below and above: where the function is smooth, 16
+ * times the error of cubics of half the width. Values and slopes are `slope` apart, `low` and
+ * `high` are the distances of both nodes. */
 static double miss_node(const double *below, const double *node, const double *above, int slope, double low, double high)
 {
     const double width = low + high;
@@ -39,7 +41,8 @@ static double miss_node(const double *below, const double *node, const double *a
     return fabs(w[0] * below[0] + w[2] * above[0] + width * (w[1] * below[slope] + w[3] * above[slope]) - node[0]);
 }
 
-/* The same of place j of speed i, along psi and along the speed: large at folds, wherever they lie between nodes. */
+/* The same at place j of speed i, along psi and along the speed. It is large at a fold, wherever
+ * the fold lies between the nodes. */
 static double doubt_of_node(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, int64_t j)
 {
     const int64_t row = 4 * rst_places(d), slips = j > d->stick_cells ? d->stick_cells + 1 : 0, p = j - slips;
@@ -52,7 +55,8 @@ static double doubt_of_node(const struct rst_builder *b, const struct rst_table_
     return slips ? doubt / rst_psi_at(b, 1, (double)p / (double)b->cells[1], c->normal.ez) : doubt;
 }
 
-/* The middles of the cells of psi that are most in doubt between speeds i and i + 1; not beside each other. */
+/* The midpoints of the most doubtful cells of psi between speeds i and i + 1; no two beside each
+ * other. */
 static void find_doubtful(const struct rst_builder *b, const struct rst_table_data *d, int64_t i, struct rst_place *place)
 {
     const int64_t places = rst_places(d);
@@ -77,7 +81,7 @@ static void find_doubtful(const struct rst_builder *b, const struct rst_table_da
     }
 }
 
-/* Places around the one that was worst, half a cell apart. */
+/* Places around the worst one, half a cell apart. */
 static void find_around(const struct rst_builder *b, struct rst_place worst, struct rst_place *place)
 {
     for (int k = 0; k < rst_doubtful; k++) {
@@ -86,7 +90,8 @@ static void find_around(const struct rst_builder *b, struct rst_place worst, str
     }
 }
 
-/* Some places are those in doubt, the others fill the panels evenly: a third of them the stick panel, which is smooth. */
+/* Some places are the doubtful ones. The others fill the panels uniformly, a third of them in the
+ * stick panel, which is smooth. */
 static struct rst_place place_of(const struct check *c, int64_t i, int64_t seed)
 {
     if (i < rst_doubtful) return c->doubtful[i];
@@ -94,8 +99,8 @@ static struct rst_place place_of(const struct check *c, int64_t i, int64_t seed)
     return (struct rst_place){i % 3 > 0, part(0.5 + golden * (double)i + plastic * (double)seed)};
 }
 
-/* Where there is no impact to compare with: between no rebound and the next column e_z and e_x lie between 0 and what that
- * column has at most. */
+/* Between the onset of rebound and the next column there is no impact to compare with. There e_z
+ * and e_x lie between 0 and the largest values of that column. */
 static void bound(const struct rst_builder *b, struct check *c)
 {
     const struct rst_column *above = &b->column[c->cell + 1];
@@ -139,7 +144,7 @@ static void turn(void *of, int thread, int64_t i)
     w->check[i].status = compare(w, &w->check[i], &w->b->solver[thread]);
 }
 
-/* Cells that were not compared yet; or, to look again, those that were found to miss more than `least`. */
+/* Cells that were not compared yet; or, to compare again, those with an error above `least`. */
 static int64_t plan(const struct rst_builder *b, const restitute_table *table, int round, double least,
                     struct check *check)
 {
@@ -180,7 +185,7 @@ static int look(struct rst_builder *b, const restitute_table *table, int round, 
     return status;
 }
 
-/* Largest of what cells miss. */
+/* Largest error of all cells. */
 static double worst_of(const struct rst_builder *b)
 {
     double worst = 0;

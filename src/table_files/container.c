@@ -1,8 +1,10 @@
 /* The block of text with the checksum, before HDF5 that is made in memory.
  *
- * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes <count>, values at <places of
- * the datasets>", a line for those who look into it, zeros up to 512 bytes. The checksum is FNV-1a of all bytes behind
- * the block, then of the places: a change of one of them always changes it. SPDX-License-Identifier: BSD-3-Clause */
+ * The block: a line "restitute <title>, schema <n>, checksum <16 hexadecimal digits>, bytes
+ * <count>, values at <places of the datasets>", a line for human readers, zeros up to 512 bytes.
+ * The checksum is FNV-1a of all bytes after the block, then of the places. A change of a single
+ * byte always changes it.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 
 #include "table_files/container.h"
@@ -55,7 +57,7 @@ static int read_all(const char *path, struct rst_old_file *file, restitute_error
     return status;
 }
 
-/* Says what is wrong with the block. */
+/* Report what is wrong with the block. */
 static int refuse_block(const char *path, const char *title, const struct rst_old_file *file,
                         restitute_error *error)
 {
@@ -78,7 +80,8 @@ static int refuse_block(const char *path, const char *title, const struct rst_ol
     return rst_report(error, RESTITUTE_ERROR_FORMAT, "%.120s: is damaged or cut: its checksum is wrong", path);
 }
 
-/* Places are read from the block, which is then made again with them: a block that is written otherwise is refused. */
+/* The places are read from the block. Then the block is written again with them and compared: any
+ * other form is refused. */
 static int check_block(const char *path, const char *title, struct rst_old_file *file, restitute_error *error)
 {
     char block[block_size], text[block_size + 1] = "";

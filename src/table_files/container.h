@@ -1,4 +1,5 @@
-/* Files of restitute in HDF5: a block of text with a checksum, then HDF5, which reads nothing of them. See table_files.h.
+/* Files of restitute in HDF5: a block of text with a checksum, then HDF5, which reads nothing of
+ * them. See table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CONTAINER_H
 #define RST_CONTAINER_H
@@ -16,7 +17,8 @@ enum { rst_schema = 7, rst_sets = 7 };
 /* A new file, in memory; negative: HDF5 fails. */
 hid_t rst_container_begin(void);
 
-/* Close it; write it behind the block that tells what it is and at which bytes its sets begin. NULL: HDF5 has failed. */
+/* Close it; write it behind the block that tells what it is and at which bytes its sets begin.
+ * NULL: HDF5 has failed. */
 int rst_container_end(hid_t file, const uint64_t *place, const char *title, const char *path, restitute_error *error);
 
 /* A whole file in memory, checked. */
@@ -28,8 +30,8 @@ struct rst_old_file {
 int rst_old_file_open(const char *path, const char *title, struct rst_old_file *file, restitute_error *error);
 void rst_old_file_close(struct rst_old_file *file);
 
-/* Datasets that begin at byte `place` of the file, with a text each of their units and of what they are. Negative if HDF5
- * refuses. */
+/* Datasets that begin at byte `place` of the file, with a text each of their units and of what they
+ * are. Negative if HDF5 refuses. */
 int rst_put_values(hid_t file, const char *name, int rank, const int64_t *size, const double *value, const char *units,
                    const char *description, uint64_t *place);
 

@@ -21,7 +21,8 @@ static int put_text(hid_t set, const char *name, const char *text)
     return close_all(attribute >= 0 && H5Awrite(attribute, type, text) >= 0, type, space, attribute);
 }
 
-/* In one piece, without the time of writing: the same table gives the same bytes. Closes `space`. */
+/* In one piece, without the time of writing: the same table gives the same bytes. Closes
+ * `space`. */
 static int put_set(hid_t file, const char *name, hid_t file_type, hid_t memory_type, hid_t space, const void *value,
                    const char *units, const char *description, uint64_t *place)
 {

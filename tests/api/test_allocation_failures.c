@@ -1,5 +1,5 @@
-/* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and the same objects give
- * the right result afterwards, bit by bit, and leave nothing behind.
+/* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and
+ * the same objects give the right result afterwards, bit by bit, and leave nothing behind.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -136,7 +136,8 @@ static int give_outputs(int status, const struct outputs *o, const struct output
     return status;
 }
 
-/* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless impact. */
+/* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless
+ * impact. */
 static restitute_scene scene;
 static int all_outputs;
 

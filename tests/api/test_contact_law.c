@@ -135,7 +135,8 @@ static void poor_reductions_are_named(void **unused)
     restitute_material_destroy(pib);
 }
 
-/* What contact.h says: up to a third of the bound. For impacts whose contact time, and a fiftieth of it, lie in the window. */
+/* What contact.h says: up to a third of the bound. For impacts whose contact time, and a fiftieth
+ * of it, lie in the window. */
 static void ez_errs_by_a_part_of_the_bound(void **unused)
 {
     (void)unused;
@@ -228,7 +229,8 @@ static int draw_law(uint64_t *random, int number, restitute_contact_law **law)
     return status;
 }
 
-/* Finite forces within Coulomb's law, whose bound is rounded like the force itself: 4 rounding errors of each. */
+/* Finite forces within Coulomb's law, whose bound is rounded like the force itself: 4 rounding
+ * errors of each. */
 static void check_force(const restitute_contact_force *f, double friction, int number)
 {
     const double *t = f->tangential, size = hypot(hypot(t[0], t[1]), t[2]), limit = friction * f->normal;

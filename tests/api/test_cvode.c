@@ -60,8 +60,8 @@ static void failures_touch_nothing(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* Elements are doubled while the estimate is above nine tenths of the tolerance, but what is told is whether it is above
- * the tolerance. */
+/* Elements are doubled while the estimate is above nine tenths of the tolerance, but what is told
+ * is whether it is above the tolerance. */
 static void status_follows_the_reported_estimate(void **state)
 {
     int reached = 0, missed = 0;
@@ -79,8 +79,9 @@ static void status_follows_the_reported_estimate(void **state)
     CHECK(reached > 9 && missed > 9, "%d, %d", reached, missed);
 }
 
-/* What max_updates allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
- * reference; elements are as many as fit, and no more than were asked for. */
+/* What max_updates allows is given, with an estimate that holds, and the message names the number
+ * that was set. 1e-6: the error of the reference; elements are as many as fit, and no more than
+ * were asked for. */
 static void max_updates_ends_with_the_best_result(void **state)
 {
     const restitute_impact impact = impact_of(8, 0.5, 0, 1);
@@ -172,7 +173,8 @@ static void events_may_be_counted_first(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* Work follows the scene: nothing tangential without friction or in slip to the end, fewer steps for a larger tolerance. */
+/* Work follows the scene: nothing tangential without friction or in slip to the end, fewer steps
+ * for a larger tolerance. */
 static void scenes_leave_out_what_they_do_not_need(void **state)
 {
     const double psi[] = {0.5, 9};
@@ -192,7 +194,8 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
     CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
 }
 
-/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are more samples than steps. */
+/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are
+ * more samples than steps. */
 static void history_ends_with_the_pair(void **state)
 {
     enum { samples = 500 };
@@ -225,7 +228,8 @@ static void history_ends_with_the_pair(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2 chi > 1. */
+/* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2
+ * chi > 1. */
 static void sinking_spheres_are_told(void **state)
 {
     const double tau[] = {0.2}, g[] = {1};

@@ -1,4 +1,5 @@
-/* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict reading of numbers.
+/* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict
+ * reading of numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -53,7 +54,8 @@ static void check_cell(const restitute_csv *csv, size_t row, size_t column, cons
     CHECK(strcmp(cell, expected) == 0, "row %zu column %zu is \"%s\", not \"%s\"", row, column, cell, expected);
 }
 
-/* The file as it is now on disk is refused: status, output untouched, a message with all the words. */
+/* The file as it is now on disk is refused: status, output untouched, a message with all the
+ * words. */
 static void check_refused(const char *path, int expected, const char *const *words, const char *what)
 {
     restitute_csv *csv = UNTOUCHED;
@@ -427,7 +429,8 @@ static void truncated_table(void **state)
 
 /* ------------------------------------------------------------------------------------------------------- numbers */
 
-/* The values are those that the compiler reads from the same digits: both round to the nearest double. */
+/* The values are those that the compiler reads from the same digits: both round to the nearest
+ * double. */
 static void numbers(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs untouched, and the same
- * objects give the right result afterwards, bit by bit, and leave nothing behind. Lookups take no memory at all.
+/* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs
+ * untouched, and the same objects give the right result afterwards, bit by bit, and leave nothing
+ * behind. Lookups take no memory at all.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -16,7 +17,8 @@ static restitute_error error;
 static char place;
 #define UNTOUCHED ((void *)&place)
 
-/* Sums of what a table holds, with weights that tell its places apart, and what it says of itself. */
+/* Sums of what a table holds, with weights that tell its places apart, and what it says of
+ * itself. */
 static void give_table(const restitute_table *of, struct given *given)
 {
     const struct rst_table_data *d = restitute_private_table_data(of);

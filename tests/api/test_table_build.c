@@ -187,7 +187,8 @@ static void data_makes_the_same_table(void **state)
     restitute_material_destroy(material);
 }
 
-/* A Maxwell body: below some speed the sphere sinks. There e_z = 0, above it e_z rises from 0, and the table says where. */
+/* A Maxwell body: below some speed the sphere sinks. There e_z = 0, above it e_z rises from 0, and
+ * the table says where. */
 static void rebound_begins_at_a_seam(void **state)
 {
     restitute_material *maxwell;
@@ -220,7 +221,8 @@ static void rebound_begins_at_a_seam(void **state)
     restitute_material_destroy(maxwell);
 }
 
-/* The speeds from which on limits are passed, and the flags of single places, are those of the impacts. */
+/* The speeds from which on limits are passed, and the flags of single places, are those of the
+ * impacts. */
 static void limits_travel(void **state)
 {
     restitute_material *material;
@@ -243,7 +245,8 @@ static void limits_travel(void **state)
         scene.normal_speed = random_log(&random, 1e-2, 100);
         scene.tangential_speed = scene.normal_speed * random_log(&random, 0.1, 30);
         CHECK(restitute_solve_scene(solver, &scene, &r, NULL, NULL, &error) >= 0, "%s", error.message);
-        /* ratios between nodes are powers of the speed: nearer than two hundredths to a limit nothing is asked */
+        /* ratios between nodes are powers of the speed: nearer than two hundredths to a limit
+         * nothing is asked */
         const double ratio[3] = {r.speed_ratio / 0.1, r.radius_ratio / 0.1, r.displacement_ratio / 0.3};
         if (fabs(ratio[0] - 1) < 0.02 || fabs(ratio[1] - 1) < 0.02 || fabs(ratio[2] - 1) < 0.02) continue;
         CHECK(restitute_table_flags(table, scene.normal_speed, scene.tangential_speed) == r.flags, "%g m/s, %g m/s",
@@ -328,8 +331,8 @@ static void few_impacts_give_an_honest_table(void **state)
     restitute_material_destroy(material);
 }
 
-/* With chi = 50, where 20 s do not suffice, the build ends after a second or so; ten: machines and builds are slow, and its last
- * checks cannot be cut short. */
+/* With chi = 50, where 20 s do not suffice, the build ends after a second or so; ten: machines and
+ * builds are slow, and its last checks cannot be cut short. */
 static void a_limit_of_time_is_kept(void **state)
 {
     restitute_material *material;

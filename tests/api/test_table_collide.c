@@ -1,4 +1,5 @@
-/* Impacts of two bodies by table: those of restitute_collide within the table's error, momentum conserved, refusals.
+/* Impacts of two bodies by table: those of restitute_collide within the table's error, momentum
+ * conserved, refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -58,7 +59,8 @@ static void place(uint64_t *random, restitute_body *first, restitute_body *secon
         first->velocity[i] *= -1, second->velocity[i] *= -1;
 }
 
-/* ez and ex differ by the table's error and the solver's; so do velocities, of some m/s and two parts each. */
+/* ez and ex differ by the table's error and the solver's; so do velocities, of some m/s and two
+ * parts each. */
 static void what_the_solver_does(void **state)
 {
     uint64_t random = 21;

@@ -1,4 +1,5 @@
-/* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones are refused, and silently.
+/* Table files: what was written is read with the same bits; damaged, cut, foreign and later ones
+ * are refused, and silently.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -108,7 +109,8 @@ static void check_broken(size_t place, const char *how)
           how, status, error.message);
 }
 
-/* Every byte of the block of text and of the first structures, then every 37th, in all bits in turn. */
+/* Every byte of the block of text and of the first structures, then every 37th, in all bits in
+ * turn. */
 static void flips_are_refused(void **state)
 {
     int refused = 0, tried = 0;
@@ -204,7 +206,8 @@ static void put_with_checksum(unsigned char *content, size_t length)
     put(content, length);
 }
 
-/* The file's own words of where a set begins and how many bytes it has; `member`: of the set `numbers`. */
+/* The file's own words of where a set begins and how many bytes it has; `member`: of the set
+ * `numbers`. */
 static size_t place_of(const char *set, const char *member, size_t *length)
 {
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen2(file, set, H5P_DEFAULT);
@@ -219,7 +222,8 @@ static size_t place_of(const char *set, const char *member, size_t *length)
     return place;
 }
 
-/* HDF5 reads beyond its buffers in damaged files, so it is given none: whatever stands beside the values, the table is read. */
+/* HDF5 reads beyond its buffers in damaged files, so it is given none: whatever stands beside the
+ * values, the table is read. */
 static void hdf5_reads_nothing_of_a_file(void **state)
 {
     static const char *const sets[] = {"numbers", "speed", "ez", "strain", "ex", "relaxation_time", "modulus"};

@@ -1,5 +1,6 @@
-/* Every allocation that the component table_files asks for itself fails in turn: ERROR_MEMORY or, of files that are written,
- * ERROR_FILE, outputs untouched, and the same call works afterwards. What HDF5 does without memory is its own matter.
+/* Every allocation that the component table_files asks for itself fails in turn: ERROR_MEMORY or,
+ * of files that are written, ERROR_FILE, outputs untouched, and the same call works afterwards.
+ * What HDF5 does without memory is its own matter.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

@@ -1,4 +1,5 @@
-/* What the header of tables promises of a lookup: limits, seams, bounds, derivatives, other sizes, refusals.
+/* What the header of tables promises of a lookup: limits, seams, bounds, derivatives, other sizes,
+ * refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
 #include <fenv.h>
@@ -47,8 +48,8 @@ static void limits(void **state)
     CHECK_NEAR(ex_at(1, 1e-9), ex_at(1, 0), 1e-7, "psi -> 0");
 }
 
-/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair below its node. Slopes times
- * 20 ulps are rounding. */
+/* Places of speeds round up and down: from this lowest speed on, some of the next ones lie a hair
+ * below its node. Slopes times 20 ulps are rounding. */
 static void just_above_the_lowest(void **state)
 {
     const double low = 0.00047995159222933681;
@@ -64,7 +65,8 @@ static void just_above_the_lowest(void **state)
     restitute_table_destroy(from_low);
 }
 
-/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12 of psi changes ex by 1e-11. */
+/* On both sides of a seam, closer than any slope could tell: slopes by psi are below 10, so 1e-12
+ * of psi changes ex by 1e-11. */
 static void continuous(void **state)
 {
     (void)state;
@@ -108,9 +110,9 @@ static void bounded(void **state)
     CHECK(!fetestexcept(FE_DIVBYZERO | FE_INVALID), "a lookup divided by 0 or made a NaN");
 }
 
-/* Central differences with a step h are off by h^2/6 of the third derivative, by rounding/h and, where cubics have
- * kinks, by h times the jump of the second derivative there, which is some units: with h = 1e-5 of the speed 1e-4 of the
- * slope's scale, 1/v, is generous. */
+/* Central differences with a step h are off by h^2/6 of the third derivative, by rounding/h and,
+ * where cubics have kinks, by h times the jump of the second derivative there, which is some units:
+ * with h = 1e-5 of the speed 1e-4 of the slope's scale, 1/v, is generous. */
 static void slopes(void **state)
 {
     uint64_t random = 5;
@@ -130,7 +132,8 @@ static void slopes(void **state)
     }
 }
 
-/* Full slip has a closed form for any psi: d ex/d v_n = 2 chi (1 + ez)/(f v_t) where ez is constant; roundings of a few operations. */
+/* Full slip has a closed form for any psi: d ex/d v_n = 2 chi (1 + ez)/(f v_t) where ez is
+ * constant; roundings of a few operations. */
 static void slopes_at_the_ends(void **state)
 {
     restitute_table_value pair;
@@ -190,7 +193,8 @@ static void many_at_once(void **state)
     assert_int_equal(restitute_table_pairs(table, NULL, 0, NULL, NULL, NULL, NULL), RESTITUTE_OK);
 }
 
-/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the table's tolerance. */
+/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the
+ * table's tolerance. */
 static void other_sizes(void **state)
 {
     restitute_options options = to_tolerance(1e-5);
@@ -241,7 +245,8 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
-/* The material at another temperature: the impact itself is off by its tolerance, the table by its own. */
+/* The material at another temperature: the impact itself is off by its tolerance, the table by its
+ * own. */
 static void shifted_times(void **state)
 {
     restitute_options options = to_tolerance(1e-5);

@@ -1,5 +1,5 @@
-/* The error that a table promises, at random places, against impacts solved by themselves. With more places and solids: the target
- * table-campaign (benchmark/table_campaign.c).
+/* The error that a table promises, at random places, against impacts solved by themselves. With
+ * more places and solids: the target table-campaign (benchmark/table_campaign.c).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/table.h"
 
@@ -75,7 +75,8 @@ static void standard_solid(void **state)
     check_table(0.1, 1e-4);
 }
 
-/* With its mass near the centre e_x of a sphere has a fold along all speeds, much narrower than the checks lie apart. */
+/* With its mass near the centre e_x of a sphere has a fold along all speeds, much narrower than the
+ * checks lie apart. */
 static void narrow_fold(void **state)
 {
     restitute_material *material;

@@ -22,7 +22,7 @@ expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --dens
 # history has no place for them but standard error; nothing is said of a gentle impact.
 ball="--material $materials/polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --angle 30"
 expect 0 history $ball --velocity 10 --output history.csv
-has err 'restitute: remark: ' 'contact radius/R = 0.' 'passes the limit 0.1'
+has err 'restitute: remark: ' 'contact radius/R = 0.' 'exceeds the limit 0.1'
 expect 0 history $ball --velocity 1e-4 --output history.csv
 [ ! -s err ] || fail "a remark on a gentle impact"
 expect 0 pair $ball --velocity 10 --format csv

@@ -1,5 +1,6 @@
-/* The layout of every public struct as C sees it, one number after the other: its size, then the offset of each member in
- * the order of the header. layout.f90 compares them with Fortran's. SPDX-License-Identifier: BSD-3-Clause */
+/* The layout of every public struct as C sees it, one number after the other: its size, then the
+ * offset of each member in the order of the header. layout.f90 compares them with Fortran's.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <stddef.h>
 
 #include <restitute/restitute.h>

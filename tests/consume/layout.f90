@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Every public struct has the same layout in C and in Fortran: sizes by c_sizeof, offsets by address differences, in the
-!> order of layout.c. A member that one side lacks shifts the list and fails, too.
+!> Every public struct has the same layout in C and in Fortran: sizes by c_sizeof, offsets by
+!> address differences, in the order of layout.c. A member that one side lacks shifts the list and
+!> fails, too.
 module layout_checks
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit

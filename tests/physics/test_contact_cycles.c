@@ -1,4 +1,5 @@
-/* Elastic contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter.
+/* Elastic contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not
+ * matter.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 
@@ -20,7 +21,8 @@ static double hertz(double d)
     return 8.0 / 3 / (1 - nu) * d * sqrt(d);
 }
 
-/* Exact for any grid, also for one that is outgrown; the tolerance is the one asked for, errors are of rounding. */
+/* Exact for any grid, also for one that is outgrown; the tolerance is the one asked for, errors are
+ * of rounding. */
 static void normal_force_is_that_of_hertz(void **unused)
 {
     (void)unused;
@@ -33,8 +35,9 @@ static void normal_force_is_that_of_hertz(void **unused)
     restitute_contact_law_destroy(law);
 }
 
-/* Mindlin and Deresiewicz at constant normal force: tangential force over mu F_z at the displacement u in units of that where gross
- * slip begins, after it turned round at `turn` with the force `there` (none: 0 and 0, factor 1). */
+/* Mindlin and Deresiewicz at constant normal force: tangential force over mu F_z at the
+ * displacement u in units of that where gross slip begins, after it turned round at `turn` with the
+ * force `there` (none: 0 and 0, factor 1). */
 static double mindlin(double u)
 {
     return 1 - pow(1 - fmin(1, fabs(u)), 1.5);
@@ -50,7 +53,8 @@ struct cycle {
     double worst, loss, exact_loss;
 };
 
-/* Load to the peak, unload to its opposite, reload. Forces over mu F_z, displacements over that of gross slip. */
+/* Load to the peak, unload to its opposite, reload. Forces over mu F_z, displacements over that of
+ * gross slip. */
 static struct cycle run_cycle(int elements, double peak)
 {
     restitute_contact_law *law = elastic_law(elements);
@@ -76,8 +80,9 @@ static struct cycle run_cycle(int elements, double peak)
     return c;
 }
 
-/* Where slip turned round, the profile of the tangential force keeps a kink that lies between two elements: the less
- * of the contact slips, the more it shows in the loss. Sixteen elements follow small cycles too. */
+/* Where slip turned round, the profile of the tangential force keeps a kink that lies between two
+ * elements: the less of the contact slips, the more it shows in the loss. Sixteen elements follow
+ * small cycles too. */
 static void tangential_force_follows_mindlin_and_deresiewicz(void **unused)
 {
     (void)unused;
@@ -94,7 +99,8 @@ static void tangential_force_follows_mindlin_and_deresiewicz(void **unused)
     }
 }
 
-/* A path that loads, slides round corners and unloads, in a frame turned by an angle about a normal. */
+/* A path that loads, slides round corners and unloads, in a frame turned by an angle about a
+ * normal. */
 static void follow_path(const double normal[3], const double along[3], const double across[3], double forces[40][3])
 {
     restitute_contact_law *law = elastic_law(8);
@@ -135,7 +141,8 @@ static void paths_do_not_depend_on_directions(void **unused)
         }
 }
 
-/* A normal that turns by a degree a step takes the force with it: in the turned frame nothing has moved. */
+/* A normal that turns by a degree a step takes the force with it: in the turned frame nothing has
+ * moved. */
 static void force_turns_with_the_normal(void **unused)
 {
     (void)unused;
@@ -162,7 +169,8 @@ static void force_turns_with_the_normal(void **unused)
     restitute_contact_law_destroy(law);
 }
 
-/* The springs hold the work of Hertz, 2/5 F d, within the error of the energy's quadrature with 8 elements. */
+/* The springs hold the work of Hertz, 2/5 F d, within the error of the energy's quadrature with 8
+ * elements. */
 static void stored_energy_is_the_work(void **unused)
 {
     (void)unused;

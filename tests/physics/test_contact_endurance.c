@@ -10,8 +10,9 @@ static restitute_material *standard_solid(double tau)
     return material;
 }
 
-/* A sphere of unit radius lies under its weight on a solid of G_inf = 1 Pa: in the end F = (8/3) G_inf/(1 - nu) d^(3/2). At first
- * the load is `heavier` times as much, and falls to the weight from a tenth to half of the time. */
+/* A sphere of unit radius lies under its weight on a solid of G_inf = 1 Pa: in the end F = (8/3)
+ * G_inf/(1 - nu) d^(3/2). At first the load is `heavier` times as much, and falls to the weight
+ * from a tenth to half of the time. */
 static void rest(double eta, size_t n_terms, double heavier, double h, long steps)
 {
     const double tau[1] = {1}, g[1] = {2}, mass = 1e-4, weight = 1e-7, nu = 0.5;
@@ -42,7 +43,8 @@ static void rest(double eta, size_t n_terms, double heavier, double h, long step
     restitute_material_destroy(material);
 }
 
-/* From near the indentation of the unrelaxed solid, G = 3 Pa, to that of the relaxed one; and it stays. */
+/* From near the indentation of the unrelaxed solid, G = 3 Pa, to that of the relaxed one; and it
+ * stays. */
 static void weight_creeps_to_the_relaxed_indentation(void **unused)
 {
     (void)unused;
@@ -64,7 +66,8 @@ static void weight_rests_after_a_heavy_load(void **unused)
     rest(0, 1, 1000, 2e-3, 1000000);
 }
 
-/* Force after a steady approach to `overlap`, of a contact whose grid was made for the overlap `first`. */
+/* Force after a steady approach to `overlap`, of a contact whose grid was made for the overlap
+ * `first`. */
 static struct drive press(const restitute_material *material, double first, double overlap, int elements)
 {
     const double h = 1e-3;
@@ -73,7 +76,8 @@ static struct drive press(const restitute_material *material, double first, doub
     struct drive d = drive_of(law, h, 0.3);
     restitute_error error;
     const double v = overlap / (n * h);
-    /* an elastic impact at this speed with this mass would be `first` deep: that is how a law chooses its grid */
+    /* an elastic impact at this speed with this mass would be `first` deep: that is how a law
+     * chooses its grid */
     const double modulus = restitute_material_modulus(material, 0.88 * first / v);
     d.motion.half_step_over_mass = h / 2 / (32.0 / 15 / 0.5 * modulus * pow(first, 2.5) / (v * v));
     for (int i = 0; i < n; i++) {
@@ -101,8 +105,9 @@ static void outgrown_grids_keep_the_force(void **unused)
     }
 }
 
-/* Pressed, lifted and pressed again at once: the surface has not come back, so that the second contact begins deeper and
- * is weaker; after a long rest it is as the first. More elements agree. */
+/* Pressed, lifted and pressed again at once: the surface has not come back, so that the second
+ * contact begins deeper and is weaker; after a long rest it is as the first. More elements
+ * agree. */
 static double second_force(const restitute_material *material, double rest, int elements, double *first)
 {
     restitute_contact_law *law = law_of(material, elements, 0);

@@ -12,7 +12,8 @@ struct drawn {
 enum { kinds = 6 };
 enum kind { ELASTIC, STANDARD, KELVIN_VOIGT, TWO_TERMS, THREE_TERMS, MAXWELL };
 
-/* Solid spheres, psi to 4, delta1 to 30; wide: any sphere that turns and shells, psi to 10, delta1 to 100. */
+/* Solid spheres, psi to 4, delta1 to 30; wide: any sphere that turns and shells, psi to 10, delta1
+ * to 100. */
 static struct drawn draw(uint64_t *seed, enum kind kind, int wide)
 {
     const double delta1 = random_log(seed, 1e-3, wide ? 100 : 30), gamma = random_log(seed, 0.01, 100);
@@ -57,7 +58,8 @@ struct tally {
     double largest, sum;
 };
 
-/* The DEM impact at four phases of first touch, with steps of the contact time over `per_contact`. */
+/* The DEM impact at four phases of first touch, with steps of the contact time over
+ * `per_contact`. */
 static void compare(const struct drawn *d, const restitute_result *exact, int elements, double per_contact, int wide,
                     struct tally *tally)
 {
@@ -98,7 +100,8 @@ static struct tally run(int sets, int elements, double per_contact, int wide)
     return all;
 }
 
-/* Of all impacts with solid spheres 99.5 % are within 0.01 and none is beyond 0.03: what a DEM user is told. */
+/* Of all impacts with solid spheres 99.5 % are within 0.01 and none is beyond 0.03: what a DEM user
+ * is told. */
 static void pairs_agree_with_the_library(void **unused)
 {
     (void)unused;
@@ -115,7 +118,8 @@ static void pairs_agree_in_the_wide_domain(void **unused)
     CHECK((double)all.beyond <= 0.01 * (double)all.count, "%ld of %ld beyond 0.01", all.beyond, all.count);
 }
 
-/* Steps and elements are refined in turn: with the other fine enough, halving each must halve the mean error. */
+/* Steps and elements are refined in turn: with the other fine enough, halving each must halve the
+ * mean error. */
 static void errors_fall_with_the_step(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* No contact gives more work than it took, whatever is done to it, and nothing but numbers comes out.
+/* No contact gives more work than it took, whatever is done to it, and nothing but numbers comes
+ * out.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 #include "../support/random.h"
@@ -19,7 +20,8 @@ static restitute_material *random_material(uint64_t *seed)
     return material;
 }
 
-/* Approach, retreat, stop, oscillate, slide round corners, with steps of several lengths; then apart. */
+/* Approach, retreat, stop, oscillate, slide round corners, with steps of several lengths; then
+ * apart. */
 static void drive_at_random(struct drive *d, uint64_t *seed, double size)
 {
     const int legs = 3 + random_below(seed, 12);
@@ -37,8 +39,8 @@ static void drive_at_random(struct drive *d, uint64_t *seed, double size)
         drive_by(d, -0.1 * size, 0.01 * size, 0);
 }
 
-/* What velocity Verlet takes for the work is the trapezoid; beyond its own error and rounding (a thousand steps of 1e-16)
- * none must be gained. */
+/* What velocity Verlet takes for the work is the trapezoid; beyond its own error and rounding (a
+ * thousand steps of 1e-16) none must be gained. */
 static void no_drive_gains_work(void **unused)
 {
     (void)unused;

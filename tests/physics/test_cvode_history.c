@@ -59,8 +59,8 @@ static double momentum_missing(const struct track *t, int force, int velocity, d
     return fabs(v[j] - v[j - 1] + 0.5 * rate * h * (f[j] + f[j - 1])) - 0.5 * rate * h * change;
 }
 
-/* D'' = -F_z, U'' = -2 chi F_x. CVODE's interpolation leaves some hundredth of the tolerance, 2e-4 of psi at most in 1000 others
- * of these impacts; a force that is off by a hundredth shows. */
+/* D'' = -F_z, U'' = -2 chi F_x. CVODE's interpolation leaves some hundredth of the tolerance, 2e-4
+ * of psi at most in 1000 others of these impacts; a force that is off by a hundredth shows. */
 static void forces_change_the_velocities(const struct track *t, int number)
 {
     const restitute_impact *i = &t->impact;
@@ -74,7 +74,8 @@ static void forces_change_the_velocities(const struct track *t, int number)
     }
 }
 
-/* Terms that relax within a step of CVODE, as those of a small gamma do, are where looking back could overflow. */
+/* Terms that relax within a step of CVODE, as those of a small gamma do, are where looking back
+ * could overflow. */
 static void histories_and_ledgers_of_standard_solids(void **state)
 {
     uint64_t random = 19;

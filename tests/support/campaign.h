@@ -1,5 +1,6 @@
-/* Random impacts of the whole domain and of its corners, by name, for the campaign of the method `sync`, and the
- * command that solves one of them again. Needs open_memstream of POSIX 2008. SPDX-License-Identifier: BSD-3-Clause */
+/* Random impacts of the whole domain and of its corners, by name, for the campaign of the method
+ * `sync`, and the command that solves one of them again. Needs open_memstream of POSIX 2008.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CAMPAIGN_H
 #define TEST_CAMPAIGN_H
 
@@ -28,8 +29,8 @@ static inline void free_impact(restitute_impact *impact)
     impact->solid = NULL;
 }
 
-/* The measured solid at an impact time anywhere among its relaxation times; G_r is its modulus at that time. Moduli
- * vary, so that no two solids are alike. */
+/* The measured solid at an impact time anywhere among its relaxation times; G_r is its modulus at
+ * that time. Moduli vary, so that no two solids are alike. */
 static inline restitute_material *draw_polyisobutylene(struct campaign_draw *d)
 {
     const double time = random_log(&d->random, 1e-11, 1e5);
@@ -192,8 +193,8 @@ static inline restitute_impact tiny_psi_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* A Maxwell body between sinking and rebound. Every third one has a weak spring in parallel, G1/G2 = gamma: its time
- * over the T of its G2 is gamma^0.6 theta. */
+/* A Maxwell body between sinking and rebound. Every third one has a weak spring in parallel, G1/G2
+ * = gamma: its time over the T of its G2 is gamma^0.6 theta. */
 static inline restitute_impact nearly_sinking_corner(struct campaign_draw *d)
 {
     const double tau = random_in(&d->random, 0.25, 0.4);
@@ -314,8 +315,8 @@ static inline void write_solid(const restitute_material *solid, FILE *out)
     fprintf(out, "}' >case.json; ");
 }
 
-/* The command that solves it, to be freed; NULL without memory. A solid goes as a scene in which d0 and T of G_r = 1 Pa
- * are 1 m and 1 s (24): R = 1 m, nu = 1/2, m = 64/15 kg, 1 m/s, 45 degrees. */
+/* The command that solves it, to be freed; NULL without memory. A solid goes as a scene in which d0
+ * and T of G_r = 1 Pa are 1 m and 1 s (24): R = 1 m, nu = 1/2, m = 64/15 kg, 1 m/s, 45 degrees. */
 static inline char *command_of(const restitute_impact *impact, const restitute_options *options)
 {
     const double mass = 64.0 / 15, friction = impact->psi > 0 ? 2 / (3 * impact->psi) : INFINITY;

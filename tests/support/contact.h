@@ -1,4 +1,5 @@
-/* One impact as a DEM code computes it: velocity Verlet with the contact law, in the units of an impact (docs/theory.md).
+/* One impact as a DEM code computes it: velocity Verlet with the contact law, in the units of an
+ * impact (docs/theory.md).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CONTACT_H
 #define TEST_CONTACT_H
@@ -10,7 +11,8 @@
 
 enum { most_state = 1024 };
 
-/* The scene of a dimensionless impact: radius and reference modulus 1, speed 1, largest elastic overlap `depth`. */
+/* The scene of a dimensionless impact: radius and reference modulus 1, speed 1, largest elastic
+ * overlap `depth`. */
 static const double depth = 1e-4, impact_friction = 0.3, impact_nu = 0.5;
 
 struct dem_impact {

@@ -1,4 +1,5 @@
-/* Files that a reader must refuse: those without an end or a beginning, and those larger than it takes.
+/* Files that a reader must refuse: those without an end or a beginning, and those larger than it
+ * takes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_ODD_FILES_H
 #define TEST_ODD_FILES_H

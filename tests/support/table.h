@@ -8,7 +8,8 @@
 #include "random.h"
 #include "solve.h"
 
-/* A steel ball of 5 mm on a standard solid, or with gamma = 0 a Kelvin-Voigt one: delta1 = 0.05 to 0.7 over six decades of speed. */
+/* A steel ball of 5 mm on a standard solid, or with gamma = 0 a Kelvin-Voigt one: delta1 = 0.05 to
+ * 0.7 over six decades of speed. */
 static inline restitute_scene ball_on(double gamma, restitute_material **material)
 {
     restitute_scene scene;

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
-!> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
+!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and
+!> test_sync_front.c. One motion at a time is held here, in rooms of fixed size: a test program, not
+!> the library, may keep state.
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
   use rst_precision, only: dp, ip
@@ -42,7 +43,8 @@ contains
     weight = weights_at(x)
   end subroutine probe_weights
 
-  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before the point i.
+  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before
+  !> the point i.
   subroutine probe_polynomial(y, i, last, start, slope, root) bind(c)
     real(c_double), intent(in) :: y(0:stages)
     integer(c_int64_t), value :: i
@@ -78,7 +80,8 @@ contains
     failed = merge(1_ip, 0_ip, fails)
   end function probe_respond
 
-  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the compression and of all.
+  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the
+  !> compression and of all.
   function probe_normal(eta, n, g, rate, depth, halvings, roughness, counts) bind(c) result(found)
     real(c_double), value :: eta, depth, roughness
     integer(c_int64_t), value :: n, halvings
@@ -123,7 +126,8 @@ contains
     store%now_l(0:stages, 1:n) => now_l_room
   end subroutine hold
 
-  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth, velocity, force.
+  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth,
+  !> velocity, force.
   subroutine probe_motion(p, x, motion) bind(c)
     integer(c_int64_t), value :: p
     real(c_double), value :: x
@@ -148,7 +152,8 @@ contains
     n_pieces = store%n_pieces
   end function probe_contact
 
-  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S, stick radius at y of the piece.
+  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S,
+  !> stick radius at y of the piece.
   subroutine probe_piece(i, y, panel, range, rooted, motion) bind(c)
     integer(c_int64_t), value :: i
     real(c_double), value :: y
@@ -164,8 +169,9 @@ contains
     end associate
   end subroutine probe_piece
 
-  !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has
-  !> the memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
+  !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time
+  !> `loaded`, all of it in stick, has the memories m of the arms in z and x now, and the velocity r
+  !> of slip; recorded over A. out: radius, H, y at centre and edge.
   subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, side, out) bind(c)
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: g(n), rate(n), m(n, 2)

@@ -1,4 +1,5 @@
-/* Influence coefficients against quadrature, and the convolution by cosine transforms against the plain sum.
+/* Influence coefficients against quadrature, and the convolution by cosine transforms against the
+ * plain sum.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
@@ -17,7 +18,8 @@ static double kernel(enum bem_kind kind, double x, double y)
     return x * y / (r * r * r) / (4 * pi);
 }
 
-/* Gauss-Legendre of 10 nodes in each direction: its error is far below 1e-9 for cells that do not touch the point. */
+/* Gauss-Legendre of 10 nodes in each direction: its error is far below 1e-9 for cells that do not
+ * touch the point. */
 static double by_quadrature(enum bem_kind kind, int i, int j)
 {
     static const double node[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
@@ -48,7 +50,8 @@ static void coefficients_are_the_integrals(void **state)
     }
 }
 
-/* int 1/r over the unit square about its centre is 4 ln(1 + sqrt 2); that of x^2/r^3 is half of it, by symmetry. */
+/* int 1/r over the unit square about its centre is 4 ln(1 + sqrt 2); that of x^2/r^3 is half of it,
+ * by symmetry. */
 static void own_cell(void **state)
 {
     double table[4];
@@ -62,7 +65,8 @@ static void own_cell(void **state)
     CHECK_NEAR(table[0], 0, 1e-15, "cross");
 }
 
-/* K x at cell (i, j) of the quarter, x even in both directions, by the sum over all four quarters. */
+/* K x at cell (i, j) of the quarter, x even in both directions, by the sum over all four
+ * quarters. */
 static double by_sum(const double *table, int n, int m, int ld, const double *x, int i, int j)
 {
     double sum = 0;
@@ -106,7 +110,8 @@ static double table_at(const double *table, int n, int di, int dj)
     return table[abs(dj) * (n + 1) + abs(di)];
 }
 
-/* Tractions along x are even in both directions, those along y odd; so are the displacements that each causes. */
+/* Tractions along x are even in both directions, those along y odd; so are the displacements that
+ * each causes. */
 static void plane_is_the_sum(void **state)
 {
     enum { m = 8, n = 2 * m };
@@ -138,7 +143,8 @@ static void plane_is_the_sum(void **state)
     rst_bem_plane_destroy(plane);
 }
 
-/* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from the side within a few percent. */
+/* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from
+ * the side within a few percent. */
 static void preconditioner_inverts(void **state)
 {
     enum { m = 32 };

@@ -1,5 +1,6 @@
-/* What goes wrong inside the method `cvode`: failures of CVODE itself come back with its words, storms and endless runs with ours, and
- * nothing is ever printed. The failures are made here: a right-hand side that gives no numbers, limits that a sound run passes.
+/* What goes wrong inside the method `cvode`: failures of CVODE itself come back with its words,
+ * storms and endless runs with ours, and nothing is ever printed. The failures are made here: a
+ * right-hand side that gives no numbers, limits that a sound run passes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -11,7 +12,8 @@
 
 #include "../support/solve.h"
 
-/* Standard output and standard error go to a file from capture() on; captured() undoes that and tells how much was written. */
+/* Standard output and standard error go to a file from capture() on; captured() undoes that and
+ * tells how much was written. */
 struct capture {
     FILE *file;
     int output, error;
@@ -141,7 +143,8 @@ static void failures_have_the_words_of_cvode_and_print_nothing(void **state)
     }
 }
 
-/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the limits of the run. */
+/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the
+ * limits of the run. */
 static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup), struct run *run)
 {
     const struct rst_problem problem = {.chi = 8,

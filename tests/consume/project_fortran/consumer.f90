@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A Fortran user's program: every kind of call of the module. Exit status 0 if all is what it should be.
+!> A Fortran user's program: every kind of call of the module. Exit status 0 if all is what it
+!> should be.
 program consumer
   use restitute
   implicit none (type, external)
@@ -15,8 +16,8 @@ program consumer
 
 contains
 
-  !> An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip limit of the
-  !> literature); the default tolerance is 1e-3.
+  !> An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip
+  !> limit of the literature); the default tolerance is 1e-3.
   function no_slip_is_right() result(good)
     logical :: good
     type(restitute_solver) :: solver
@@ -30,7 +31,8 @@ contains
     print "(3a, 2f8.5)", "restitute ", restitute_version(), ", elastic without slip:", result%ez, result%ex
   end function no_slip_is_right
 
-  !> The same limit by the precise method, to the five digits in which it is published; it takes no time step, and says so.
+  !> The same limit by the precise method, to the five digits in which it is published; it takes no
+  !> time step, and says so.
   function other_method_is_right() result(good)
     logical :: good
     type(restitute_solver) :: solver
@@ -91,7 +93,8 @@ contains
     call restitute_material_destroy(rubber)
   end function rubber_ball_rebounds
 
-  !> Arrays with a stride, arrays of unlike length, and a pair, whose modulus at a time is that of the series.
+  !> Arrays with a stride, arrays of unlike length, and a pair, whose modulus at a time is that of
+  !> the series.
   function materials_are_right() result(good)
     logical :: good
     real(rk), parameter :: table(2, 2) = reshape([1e-4_rk, 5e6_rk, 1e-2_rk, 1e6_rk], [2, 2])
@@ -106,7 +109,8 @@ contains
     expected = 1e6_rk + 5e6_rk*exp(-10.0_rk) + 1e6_rk*exp(-0.1_rk)
     ! Rounding of three terms and two exponentials.
     good = good .and. abs(restitute_material_modulus(polymer, 1e-3_rk)/expected - 1) < 1e-14_rk
-    ! A solid in series with itself has half the modulus; the root finder of the series leaves a few digits of rounding.
+    ! A solid in series with itself has half the modulus; the root finder of the series leaves a few
+    ! digits of rounding.
     good = good .and. restitute_material_pair(polymer, polymer, pair) == RESTITUTE_OK
     good = good .and. abs(restitute_material_modulus(pair, 1e-3_rk)/expected - 0.5_rk) < 1e-10_rk
     good = good .and. abs(restitute_material_dundurs(pair)) < epsilon(1.0_rk)
@@ -115,7 +119,8 @@ contains
     call restitute_material_destroy(polymer) ! a second time does no harm
   end function materials_are_right
 
-  !> Every second element of an array, the results of single calls, a refused case, and lengths that do not fit.
+  !> Every second element of an array, the results of single calls, a refused case, and lengths that
+  !> do not fit.
   function batches_are_right() result(good)
     logical :: good
     integer, parameter :: n = 6

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A Fortran user's program: a modulus from the contact times of an elastic ball, in one call and in pieces, and a series of
-!> one term from its moduli. Exit status 0 if all is what it should be.
+!> A Fortran user's program: a modulus from the contact times of an elastic ball, in one call and in
+!> pieces, and a series of one term from its moduli. Exit status 0 if all is what it should be.
 program consumer_fitting
   use, intrinsic :: iso_c_binding, only: c_ptr, c_sizeof
   use restitute
