@@ -11,7 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* In units of the rms of a component of g. Of Maxwell's pairs one of 1e6 is faster, and collides a little too seldom. */
+/* In units of the rms of a component of g. Of Maxwell's pairs one of 1e6 is faster, and collides a
+ * little too seldom. */
 static const double FASTEST = 5.5;
 
 /* splitmix64: small, and the same on every machine. Uniform in [0, 1). */

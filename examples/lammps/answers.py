@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What tests of DEM adapters share: materials, and the library's answers to compare a DEM code with.
+"""What tests of DEM adapters share: materials, and the library's answers to compare a DEM code
+with.
 
 From the environment: RESTITUTE (the command).
 """

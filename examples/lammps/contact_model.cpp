@@ -38,7 +38,7 @@ bool touching(const Body &first, const Body &second, Contact &c)
     return true;
 }
 
-/* ------------------------------------------------------------------------------------------------------- record */
+/* ---- record */
 
 void Record::add(const Record &other)
 {
@@ -86,10 +86,11 @@ void ContactModel::note(Ratio which, double ratio)
     record.beyond[which] += ratio > limits[which];
 }
 
-/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one step of approach at
- * most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact radius of 0.003 R, covers that up to steps
- * of 0.009 R. A larger tolerance would hide forgotten contacts of hard spheres at rest.
- * v/c_s as for one impact of the library: with the modulus at the time scale of the impact. */
+/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one
+ * step of approach at most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact
+ * radius of 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide forgotten
+ * contacts of hard spheres at rest. v/c_s as for one impact of the library: with the modulus at the
+ * time scale of the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
     double limit; /* a fiftieth of the contact time, which is 2.94 time scales */
@@ -102,7 +103,7 @@ void ContactModel::note_first_touch(const Contact &contact, double speed, double
     note(STEP, rates.step / limit);
 }
 
-/* ---------------------------------------------------------------------------------------------- words of a script */
+/* ---- words of a script */
 
 static double number(const std::string &word)
 {
@@ -226,7 +227,7 @@ int ContactModel::history_size() const
     return 1 + (int)restitute_contact_law_state_size(law);
 }
 
-/* ---------------------------------------------------------------------------------------------------- time steps */
+/* ---- time steps */
 
 const char *ContactModel::set_step(double step)
 {

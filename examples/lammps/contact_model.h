@@ -1,5 +1,5 @@
-/* A contact law and what a DEM code needs around it: words of an input script, the motion of two spheres that
- * touch, and a record of what was met. Knows no DEM code.
+/* A contact law and what a DEM code needs around it: words of an input script, the motion of two
+ * spheres that touch, and a record of what was met. Knows no DEM code.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef RESTITUTE_CONTACT_MODEL_H
 #define RESTITUTE_CONTACT_MODEL_H
@@ -12,7 +12,8 @@
 namespace restitute_dem
 {
 
-/* A sphere, or a wall: radius 0 stands for infinite. Of a wall the position is the nearest point. */
+/* A sphere, or a wall: radius 0 stands for infinite. Of a wall the position is the nearest
+ * point. */
 struct Body {
     const double *position, *velocity, *spin;
     double radius, inverse_mass; /* 0: nothing moves it */
@@ -28,9 +29,10 @@ struct Contact {
 /* Sets the contact and returns true; or false: apart, or bodies that nothing moves. */
 bool touching(const Body &first, const Body &second, Contact &contact);
 
-/* What a run met. Four ratios have limits: contact radius over radius and speed over shear wave speed, limits of the
- * model, time step over that of the law, and the first overlap over what two steps of approach explain: beyond 1 a
- * contact begins deep, without a memory that it should have. The last three are those of first touches. */
+/* What a run met. Four ratios have limits: contact radius over radius and speed over shear wave
+ * speed, limits of the model, time step over that of the law, and the first overlap over what two
+ * steps of approach explain: beyond 1 a contact begins deep, without a memory that it should have.
+ * The last three are those of first touches. */
 enum Ratio { RADIUS, SPEED, STEP, DEPTH, RATIOS };
 
 struct Record {
@@ -50,8 +52,8 @@ struct Units {
 class ContactModel
 {
   public:
-    /* FILE friction MU [partner rigid|FILE] [elements N] [terms N] [window SHORTEST LONGEST] [limits A V]
-     * Throws std::invalid_argument. */
+    /* FILE friction MU [partner rigid|FILE] [elements N] [terms N] [window SHORTEST LONGEST]
+     * [limits A V] Throws std::invalid_argument. */
     ContactModel(const std::vector<std::string> &words, const Units &units);
     ~ContactModel();
     ContactModel(const ContactModel &) = delete;
@@ -69,8 +71,9 @@ class ContactModel
     /* What follows returns what is wrong, or NULL. */
     const char *set_step(double step);
 
-    /* The force on body 1 after a step. `density`: of the denser sphere. `label`: a positive number by which the host
-     * knows a new contact again. In the history it becomes negative when the contact counts as beyond RADIUS. */
+    /* The force on body 1 after a step. `density`: of the denser sphere. `label`: a positive number
+     * by which the host knows a new contact again. In the history it becomes negative when the
+     * contact counts as beyond RADIUS. */
     const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3],
                         double label = 1);
 

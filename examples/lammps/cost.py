@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Run time of pair_style restitute beside LAMMPS's own hertz/material and mindlin on the same crowd of spheres.
+"""Run time of pair_style restitute beside LAMMPS's own hertz/material and mindlin on the same
+crowd of spheres.
 
-Styles take turns. Of their times on the processor the shortest count. Run by examples/lammps/run; prints a table.
+Styles take turns. Of their times on the processor the shortest count. Run by
+examples/lammps/run; prints a table.
 """
 import json
 import os

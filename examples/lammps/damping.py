@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a constant damping gets wrong: restitution of two polymer beads over speed and angle, in LAMMPS with
-pair_style restitute and with its own hertz/material, damping tsuji and tangential mindlin, beside the library.
+"""What a constant damping gets wrong: restitution of two polymer beads over speed and angle, in
+LAMMPS with pair_style restitute and with its own hertz/material, damping tsuji and tangential
+mindlin, beside the library.
 
-The damping of LAMMPS is fitted to a head-on impact at 1 m/s: its modulus is that of the bead after the time scale of
-that impact, its e_z that of the library. Run by examples/lammps/run; writes damping.csv.
+The damping of LAMMPS is fitted to a head-on impact at 1 m/s: its modulus is that of the bead
+after the time scale of that impact, its e_z that of the library. Run by examples/lammps/run;
+writes damping.csv.
 """
 import json
 import math
@@ -38,8 +40,8 @@ def impact(speed, angle, time, style):
 
 
 def damped():
-    """pair_style granular, fitted to a head-on impact at 1 m/s. Where it is small, the coefficient of restitution
-    that LAMMPS is given is not what comes out, so it is searched for."""
+    """pair_style granular, fitted to a head-on impact at 1 m/s. Where it is small, the
+    coefficient of restitution that LAMMPS is given is not what comes out, so it is searched for."""
     answer, = library([(1, 0)])
     with open(BEAD) as file:
         bead = json.load(file)

@@ -91,7 +91,7 @@ void FixWallRestitute::reset_dt()
     if (const char *problem = model->set_step(update->dt)) error->all(FLERR, "fix {} wall/restitute: {}", id, problem);
 }
 
-/* --------------------------------------------------------------------------------------------------- a time step */
+/* ---- a time step */
 
 /* The nearest point of the wall; false: there is none. */
 bool FixWallRestitute::nearest(const double *x, double *point) const
@@ -162,7 +162,7 @@ void FixWallRestitute::post_run()
     if (comm->me == 0) utils::logmesg(lmp, "fix {} wall/restitute:\n{}", id, all.text(model->limits));
 }
 
-/* -------------------------------------------------------------------------------- states of contacts, one an atom */
+/* ---- states of contacts, one an atom */
 
 void FixWallRestitute::grow_arrays(int nmax)
 {

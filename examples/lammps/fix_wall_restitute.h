@@ -1,4 +1,5 @@
-/* fix wall/restitute: viscoelastic contacts of spheres with planes and with the inside of a cylinder.
+/* fix wall/restitute: viscoelastic contacts of spheres with planes and with the inside of a
+ * cylinder.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef LMP_FIX_WALL_RESTITUTE_H
 #define LMP_FIX_WALL_RESTITUTE_H

@@ -13,7 +13,8 @@
 namespace LAMMPS_NS
 {
 
-/* The spheres of a process as bodies of a contact, for as long as their arrays stay where they are. */
+/* The spheres of a process as bodies of a contact, for as long as their arrays stay where they
+ * are. */
 class Spheres
 {
   public:
@@ -39,14 +40,15 @@ class Spheres
 /* A model of the words of a command, which names itself as `who`. */
 std::unique_ptr<restitute_dem::ContactModel> make_model(LAMMPS *lmp, const char *who, char **first, char **last);
 
-/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the group of fix freeze,
- * or 0. */
+/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the
+ * group of fix freeze, or 0. */
 int check_host(LAMMPS *lmp, const char *who);
 
 /* Ends the run where a restart file was written with another law. */
 void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const restitute_dem::ContactModel &model);
 
-/* Warns once of contacts that begin too fast for the time step, and once of those that begin deep. */
+/* Warns once of contacts that begin too fast for the time step, and once of those that begin
+ * deep. */
 void warn(LAMMPS *lmp, const restitute_dem::Record &record, bool warned[restitute_dem::RATIOS]);
 
 /* The record of all processes. */

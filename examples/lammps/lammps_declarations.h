@@ -22,8 +22,9 @@ struct restitute_plugin {
 typedef void (*restitute_plugin_register)(struct restitute_plugin *plugin, void *lammps);
 }
 
-/* The fix that keeps a pair style's history. Compiled against the sources of LAMMPS its own header serves. Without
- * them we name its public members, whose order is that of one version: the plugin refuses any other. */
+/* The fix that keeps a pair style's history. Compiled against the sources of LAMMPS its own header
+ * serves. Without them we name its public members, whose order is that of one version: the plugin
+ * refuses any other. */
 #if __has_include("fix_neigh_history.h")
 #include "fix_neigh_history.h"
 #define RESTITUTE_LAMMPS_VERSION 0 /* any */

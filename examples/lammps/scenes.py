@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Small scenes in LAMMPS, run inside this Python. From the environment: PLUGIN (restituteplugin.so)."""
+"""Small scenes in LAMMPS, run inside this Python. From the environment: PLUGIN
+(restituteplugin.so)."""
 import ctypes
 import os
 import sys

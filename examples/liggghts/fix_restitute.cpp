@@ -80,14 +80,15 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* ------------------------------------------------------------------------------------------------- input script */
+/* ---- input script */
 
 static std::string types(int i, int j)
 {
     return "types " + std::to_string(i) + " " + std::to_string(j);
 }
 
-/* Of the variable restitute_I_J or else restitute; variables in it are replaced. "": there is neither. */
+/* Of the variable restitute_I_J or else restitute; variables in it are replaced. "": there is
+ * neither. */
 std::string FixRestitute::words_of(int i, int j) const
 {
     std::string name = "restitute_" + std::to_string(i) + "_" + std::to_string(j);
@@ -138,7 +139,7 @@ void FixRestitute::read_laws()
     }
 }
 
-/* ------------------------------------------------------------------------------------------------- before a run */
+/* ---- before a run */
 
 /* PairGran keeps its fix to itself. An explicit instantiation may name what is private. */
 template <FixContactHistory *PairGran::*member> struct Open {
@@ -150,7 +151,8 @@ template <FixContactHistory *PairGran::*member> struct Open {
 template struct Open<&PairGran::fix_history>;
 void give_history(PairGran *pair, FixContactHistory *history);
 
-/* PairGran makes the fix with its contacts' histories itself, but writes their length into three characters. */
+/* PairGran makes the fix with its contacts' histories itself, but writes their length into three
+ * characters. */
 void FixRestitute::make_long_history(PairGran *pair)
 {
     const int size = pair->dnum_pair();
@@ -191,15 +193,16 @@ void FixRestitute::reset_dt()
         if (const char *problem = its->set_step(update->dt)) refuse(problem);
 }
 
-/* --------------------------------------------------------------------------------------------------- a time step */
+/* ---- a time step */
 
 Body FixRestitute::sphere(int i) const
 {
     return {atom->x[i], atom->v[i], atom->omega[i], atom->radius[i], atom->mask[i] & frozen ? 0 : 1 / atom->rmass[i]};
 }
 
-/* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS computes a second
- * contact with the edge behind which a convex mesh turns away. It is none: its point is on the first triangle, too. */
+/* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS
+ * computes a second contact with the edge behind which a convex mesh turns away. It is none: its
+ * point is on the first triangle, too. */
 static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
 {
     TriMesh *mesh = met.mesh;
@@ -251,7 +254,8 @@ void FixRestitute::compute(const Meeting &met, int offset, double f[3])
     if (swapped) std::transform(f, f + 3, f, std::negate<double>());
 }
 
-/* LIGGGHTS does not say when two spheres part and keeps the history while they are neighbors. The step in it tells. */
+/* LIGGGHTS does not say when two spheres part and keeps the history while they are neighbors. The
+ * step in it tells. */
 const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool on_record, int offset, double f[3])
 {
     ContactModel &its = *model(met.itype, met.jtype);
@@ -269,11 +273,11 @@ const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool o
     return its.advance(now, denser, on_record, history, f);
 }
 
-/* What the contacts of a sphere with the triangles of a mesh do to that with one of them:
- * - On an edge both triangles may claim the sphere, with one normal. The first that is computed takes the contact.
- * - A sphere that slides over an edge finds its memory at the triangle that it leaves: a contact that begins deeper
- *   than a step can bring it takes the memory of that one of the last step whose normal is nearest. LIGGGHTS itself
- *   passes it on between triangles of one plane.
+/* Several triangles of a mesh at one sphere:
+ * - On an edge both triangles may claim the sphere, with one normal. The first takes the contact.
+ * - When a sphere slides over an edge, its memory is that of the triangle that it leaves. A contact
+ *   that begins with a deeper overlap than one step can give takes this memory: that of the contact
+ *   of the last step with the nearest normal. Between triangles of one plane LIGGGHTS itself passes it.
  * Returns false if another triangle has the contact. */
 bool FixRestitute::follow_mesh(const Meeting &met, const Contact &now, int offset, double *history)
 {
@@ -310,7 +314,7 @@ void FixRestitute::end_of_step()
     }
 }
 
-/* ------------------------------------------------------------------------------------- what a run met, and restarts */
+/* ---- what a run met, and restarts */
 
 Record FixRestitute::own_record() const
 {
@@ -332,8 +336,9 @@ Record FixRestitute::record() const
     return all;
 }
 
-/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS takes each run for the first
- * with it, makes new neighbor lists and loses the histories in the old ones. Said again they are known to it. */
+/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS takes
+ * each run for the first with it, makes new neighbor lists and loses the histories in the old ones.
+ * Said again they are known to it. */
 void FixRestitute::post_run()
 {
     std::string page = std::to_string(neighbor->pgsize), one = std::to_string(neighbor->oneatom);

@@ -1,5 +1,6 @@
-/* fix restitute: the contact laws of a run of LIGGGHTS, the contacts of spheres and walls, the report at the end.
- * `pair_style gran model restitute` makes it; scripts read its numbers as f_restitute.
+/* fix restitute: the contact laws of a run of LIGGGHTS, the contacts of spheres and walls, the
+ * report at the end. `pair_style gran model restitute` makes it; scripts read its numbers as
+ * f_restitute.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifdef FIX_CLASS
 FixStyle(restitute, FixRestitute)
@@ -37,7 +38,8 @@ class FixRestitute : public Fix
     int history_size(bool is_wall) const; /* doubles of a contact */
     void make_long_history(class PairGran *pair);
 
-    /* The force on sphere i. `history`: our doubles of the contact, `offset` behind the first ones of the host. */
+    /* The force on sphere i. `history`: our doubles of the contact, `offset` behind the first ones
+     * of the host. */
     void compute(const Meeting &met, int offset, double force[3]);
 
     double tangential[3] = {}; /* of the contact at hand: the normal model leaves it to the tangential one */

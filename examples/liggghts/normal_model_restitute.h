@@ -1,4 +1,5 @@
-/* model restitute: viscoelastic contacts of spheres in LIGGGHTS, normal part. It goes with tangential restitute.
+/* model restitute: viscoelastic contacts of spheres in LIGGGHTS, normal part. It goes with
+ * tangential restitute.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(RESTITUTE, restitute, 42)

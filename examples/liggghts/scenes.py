@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Small scenes in LIGGGHTS, each a run of the program. From the environment: PLUGIN (librestitute_liggghts.so)."""
+"""Small scenes in LIGGGHTS, each a run of the program. From the environment: PLUGIN
+(librestitute_liggghts.so)."""
 import os
 import subprocess
 

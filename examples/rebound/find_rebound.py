@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Prints library and header directory of the REBOUND that this Python has, separated by a semicolon. If it has none that fits,
-# status 1 and on standard error what is wrong. Nothing of REBOUND is run.
+# Prints library and header directory of the REBOUND that this Python has, separated by a semicolon.
+# If it has none that fits, status 1 and on standard error what is wrong. Nothing of REBOUND is run.
 import glob
 import importlib.metadata
 import os

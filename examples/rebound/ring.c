@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Saturn's rings with REBOUND: ice boulders in a patch that goes round the planet, whose impacts take their restitution
- * from a table. REBOUND asks for it by the speed, through its callback `coefficient_of_restitution`.
+ * Saturn's rings with REBOUND: ice boulders in a patch that goes round the planet, whose impacts
+ * take their restitution from a table. REBOUND asks for it by the speed, through its callback
+ * `coefficient_of_restitution`.
  *
  *   ring [ORBITS]          default 40, some ten seconds
  *
@@ -23,7 +24,8 @@ struct impacts {
     double count, sum_ez, energy, energy_ez2; /* energy: sum of v^2 */
 };
 
-/* What REBOUND calls. Its speed is negative: bodies that approach. The simulation's `extras` is ours. */
+/* What REBOUND calls. Its speed is negative: bodies that approach. The simulation's `extras` is
+ * ours. */
 static double restitution(const struct reb_simulation *const r, double v)
 {
     struct impacts *impacts = r->extras;
@@ -39,7 +41,8 @@ static double boulder_mass(void)
     return 4.0 / 3 * acos(-1.0) * DENSITY * RADIUS * RADIUS * RADIUS;
 }
 
-/* REBOUND's spheres have no spin and its callback no tangential part: a table of ez alone, without friction. */
+/* REBOUND's spheres have no spin and its callback no tangential part: a table of ez alone, without
+ * friction. */
 static int build_table(restitute_table **table, restitute_error *error)
 {
     restitute_material *ice = NULL;
@@ -68,7 +71,7 @@ static struct reb_simulation *simulation(struct impacts *impacts)
     return r;
 }
 
-/* ------------------------------------------------------------------------------------------------------- two spheres */
+/* ---- two spheres */
 
 /* Component along the line of two spheres at which the second leaves the first. */
 static double opening(const struct reb_particle *a, const struct reb_particle *b, double vx, double vy, double vz)
@@ -77,8 +80,9 @@ static double opening(const struct reb_particle *a, const struct reb_particle *b
     return (x * vx + y * vy + z * vz) / sqrt(x * x + y * y + z * z);
 }
 
-/* Two boulders touch, approach at the speed v along their line, in any direction, and slide at v past each other. Sets
- * `before` and `after` to the speeds along the line where REBOUND saw them collide. */
+/* Two boulders touch, approach at the speed v along their line, in any direction, and slide at v
+ * past each other. Sets `before` and `after` to the speeds along the line where REBOUND saw them
+ * collide. */
 static void collide_pair(struct impacts *impacts, double v, double longitude, double height, double *before,
                          double *after)
 {
@@ -120,7 +124,7 @@ static int check(const restitute_table *table)
     return good ? 0 : -1;
 }
 
-/* -------------------------------------------------------------------------------------------------------------- ring */
+/* ---- ring */
 
 static struct reb_simulation *ring(struct impacts *impacts)
 {

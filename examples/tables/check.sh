@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# read_table.py finds in a file what the command does: impacts that stick first, that slip first, in full slip, beyond the table's
-# ranges. Arguments: the command, the folder examples, a Python. Exit status 77 without h5py.
+# read_table.py finds in a file what the command does: impacts that stick first, that slip first, in
+# full slip, beyond the table's ranges. Arguments: the command, the folder examples, a Python. Exit
+# status 77 without h5py.
 set -eu
 command=$1 examples=$2 python=$3
 

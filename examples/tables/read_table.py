@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the file of a table with h5py, and looks up pairs in it.
 
-    read_table.py FILE V_N V_T      prints what the file says of itself, and ez and ex of an impact (m/s)
+    read_table.py FILE V_N V_T      prints the file's description, and ez and ex of an impact (m/s)
     read_table.py FILE              prints ez over the speed, as CSV
 
-The library itself is not needed: all that a table is stands in its file (include/restitute/table_files.h). Exit status 77: h5py is not
-installed.
+The library itself is not needed: all that a table is stands in its file
+(include/restitute/table_files.h). Exit status 77: h5py is not installed.
 """
 
 import math

@@ -15,7 +15,7 @@
 !> found.
 !>
 !> The integrand is f - q. It vanishes where the contact slips forward and, without a parallel
-!> dashpot, at the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, The first part is exact.
+!> dashpot, at the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX. The first part is exact.
 !> The second uses the trapezoidal rule, up to the last element and on to the edge. Cells in which
 !> slip begins are divided there, since the slip annulus may be thinner than a cell. If a term
 !> relaxes faster than the edge passes from element to element, its fading memory b is a thin layer

@@ -5,8 +5,8 @@
 !> then changes the velocities. Phases: compression (elements enter), restitution (elements leave,
 !> outermost first), done. The tangential motion has one of four modes:
 !>   frictionless      nothing to do
-!>   gross_slip        q = f everywhere (docs/theory.md, section 4): no tangential element states until all elements stick at once
-!>                     (docs/theory.md, section 4); for psi >= psi_c that never happens and (27) follows by itself
+!>   gross_slip        q = f everywhere: no tangential element states until all elements stick at once
+!>                     (docs/theory.md, section 4); for psi >= psi_c they never do, and (27) follows
 !>   partial_slip      return mapping, element by element
 !>   no_slip           the limit psi -> 0: all elements in contact stick
 module rst_euler

@@ -31,7 +31,7 @@
 extern "C" {
 #endif
 
-/* ------------------------------------------------------------------------------------------------------- the law */
+/* ---- the law */
 
 /** A contact law of a material. */
 typedef struct restitute_contact_law restitute_contact_law;
@@ -95,7 +95,7 @@ RESTITUTE_API int restitute_contact_law_series(const restitute_contact_law *law,
 RESTITUTE_API int restitute_contact_time_step_limit(const restitute_contact_law *law, double mass, double radius,
                                                     double speed, double *limit, restitute_error *error);
 
-/* ------------------------------------------------------------------------------------------------------- a step */
+/* ---- a step */
 
 /** What depends on the time step alone. Made by @ref restitute_contact_rates_set, read by the steps. */
 typedef struct restitute_contact_rates {

@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-/* ------------------------------------------------------------------------------------------------------- materials */
+/* ---- materials */
 
 /** What a material file says beside the solid itself. */
 typedef struct restitute_material_info {
@@ -76,7 +76,7 @@ RESTITUTE_API int restitute_material_read(const char *path, restitute_material *
 RESTITUTE_API int restitute_material_read_info(const char *path, restitute_material **material,
                                                restitute_material_info *info, restitute_error *error);
 
-/* ------------------------------------------------------------------------------------------------------ CSV tables */
+/* ---- CSV tables */
 
 /** A table of text cells: a header row of column names, then rows of as many cells. Immutable. */
 typedef struct restitute_csv restitute_csv;

@@ -171,7 +171,7 @@ RESTITUTE_API int restitute_fitter_values(const restitute_fitter *fitter, double
 /** NULL is allowed. */
 RESTITUTE_API void restitute_fitter_destroy(restitute_fitter *fitter);
 
-/* ------------------------------------------------------------------------------------------------------------ DMA */
+/* ---- DMA */
 
 /** How to turn storage and loss moduli into a Prony series. */
 typedef struct restitute_dma_options {

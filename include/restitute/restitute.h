@@ -54,7 +54,7 @@
 extern "C" {
 #endif
 
-/* ------------------------------------------------------------------------------------------------ errors, version */
+/* ---- errors, version */
 
 /** Optional last argument: what went wrong, in one line, e.g. "friction = -0.1: must be >= 0 (inf: no slip)". */
 typedef struct restitute_error {
@@ -69,7 +69,7 @@ RESTITUTE_API const char *restitute_status_text(int status);
 /** Version of the library in use, "major.minor.patch". */
 RESTITUTE_API const char *restitute_version(void);
 
-/* ------------------------------------------------------------------------------------------------------- materials */
+/* ---- materials */
 
 /** A linear-viscoelastic solid, its shear relaxation modulus and Poisson ratio:
  *
@@ -161,7 +161,7 @@ RESTITUTE_API size_t restitute_material_terms(const restitute_material *material
 RESTITUTE_API int restitute_material_series(const restitute_material *material, double *equilibrium_modulus,
                                             double *parallel_viscosity, double *relaxation_time, double *modulus);
 
-/* ------------------------------------------------------------------------------------------------ what is to happen */
+/* ---- what is to happen */
 
 /** One impact in dimensionless numbers (22),(23). Lengths in d0 = a_el^2/R, times in T = d0/v_z0, a_el by (24).
  *
@@ -244,7 +244,7 @@ RESTITUTE_API void restitute_numbers_init(restitute_numbers *numbers);
 RESTITUTE_API int restitute_scene_numbers(const restitute_scene *scene, restitute_numbers *numbers,
                                           restitute_error *error);
 
-/* ------------------------------------------------------------------------------------------------ how it is solved */
+/* ---- how it is solved */
 
 /** A way to solve the impact. Methods of other components come from their headers. */
 typedef struct restitute_method restitute_method;
@@ -297,7 +297,7 @@ RESTITUTE_API int restitute_solver_create(const restitute_options *options, rest
 /** Release a solver; NULL is allowed. */
 RESTITUTE_API void restitute_solver_destroy(restitute_solver *solver);
 
-/* ------------------------------------------------------------------------------------------------------- results */
+/* ---- results */
 
 /** Assumptions of the model that a result strains, bits of restitute_result.flags (theory.md, 11). X(name, bit, text) */
 #define RESTITUTE_FLAG_LIST(X)                                                                                         \
@@ -393,7 +393,7 @@ RESTITUTE_API int restitute_solve_scene(restitute_solver *solver, const restitut
                                         restitute_result *result, restitute_ledger *ledger, restitute_history *history,
                                         restitute_error *error);
 
-/* ------------------------------------------------------------------------------------------------ many impacts */
+/* ---- many impacts */
 
 /** Solve many dimensionless impacts, by several threads. Every case gives the bits that @ref restitute_solve gives it,
  *  whatever the number of threads.
@@ -433,7 +433,7 @@ RESTITUTE_API int restitute_solve_many(const restitute_options *options, size_t 
 RESTITUTE_API int restitute_solve_scenes(const restitute_options *options, size_t n, const restitute_scene *scenes,
                                          restitute_result *results, int *statuses, int threads, restitute_error *error);
 
-/* ------------------------------------------------------------------------------------ one solid, many sliding speeds */
+/* ---- one solid, many sliding speeds */
 
 /** The normal motion of one impact, for any number of sliding speeds.
  *
@@ -478,7 +478,7 @@ RESTITUTE_API int restitute_plan_solve(restitute_plan *plan, double sliding, res
 /** Release a plan; NULL is allowed. */
 RESTITUTE_API void restitute_plan_destroy(restitute_plan *plan);
 
-/* ------------------------------------------------------------------------------------------- two bodies in space */
+/* ---- two bodies in space */
 
 /** A sphere, or a plane that nothing moves, in any frame of reference. SI units; ranges are those of a scene. */
 typedef struct restitute_body {

@@ -46,7 +46,7 @@ extern "C" {
 /** An immutable table, destroyed by @ref restitute_table_destroy. */
 typedef struct restitute_table restitute_table;
 
-/* ---------------------------------------------------------------------------------------------------------- build */
+/* ---- build */
 
 /** How to build. */
 typedef struct restitute_table_options {
@@ -107,7 +107,7 @@ RESTITUTE_API int restitute_table_build_many(size_t count, const restitute_mater
 /** Release a table; NULL is allowed. No call that uses it may still run. */
 RESTITUTE_API void restitute_table_destroy(restitute_table *table);
 
-/* -------------------------------------------------------------------------------------------------------- look up */
+/* ---- look up */
 
 /** A restitution pair. This struct will never change. */
 typedef struct restitute_table_value {
@@ -207,7 +207,7 @@ RESTITUTE_API int restitute_table_collide(const restitute_table *table, const re
  *          ERROR_NULL, ERROR_DOMAIN. Outside the table's range those of its ends */
 RESTITUTE_API int restitute_table_flags(const restitute_table *table, double normal_speed, double tangential_speed);
 
-/* ------------------------------------------------------------------------------------------------ what a table is */
+/* ---- what a table is */
 
 /** What a table says of itself. Speeds are normal speeds in m/s. */
 typedef struct restitute_table_info {

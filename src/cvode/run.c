@@ -88,7 +88,7 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
                           e->layer, t, y, rate, &run->sums);
 }
 
-/* ------------------------------------------------------------------------------------------------ what CVODE calls */
+/* ---- what CVODE calls */
 
 static int call_rates(void *owner, double t, const double *y, double *rate)
 {
@@ -160,7 +160,7 @@ static void call_weights(void *owner, const double *y, double *weight)
         weight[shear + 2 + k] = 1 / (close * share * fmax(stress, fabs(y[shear + 2 + k])));
 }
 
-/* ------------------------------------------------------------------------------------------------ memory */
+/* ---- memory */
 
 /* Take memory from a block; without a block only count it. */
 struct taken {
@@ -311,7 +311,7 @@ static int integrate_from(struct run *run)
     return rst_integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
-/* ------------------------------------------------------------------------------------------------ elements */
+/* ---- elements */
 
 static void fade_to(struct run *run, double t)
 {
@@ -387,7 +387,7 @@ static int begin_shear(struct run *run, int after_gross_slip)
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------ events */
+/* ---- events */
 
 static int note(struct run *run, int kind, double position, int elements)
 {
@@ -558,7 +558,7 @@ static int react(struct run *run, int64_t first)
     return RESTITUTE_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------ following */
+/* ---- following */
 
 /* Knots of the trace within the step that led from `from` to run->time. */
 static int extend_trace(struct run *run, double from)

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The binary interface of the shared library against the recorded one: check.sh LIBRARY INCLUDE_DIRECTORY BASELINE
-# Additions pass; what an existing program would trip over fails. A change that is meant is recorded anew by the target
-# abi-baseline; before 1.0 it then needs a new minor version, after that a new major one. Skipped without abidiff.
+# The binary interface of the shared library against the recorded one: check.sh LIBRARY
+# INCLUDE_DIRECTORY BASELINE Additions pass; what an existing program would trip over fails. A
+# change that is meant is recorded anew by the target abi-baseline; before 1.0 it then needs a new
+# minor version, after that a new major one. Skipped without abidiff.
 set -u
 skip() {
     echo "skipped: $1"

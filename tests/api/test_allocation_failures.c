@@ -13,7 +13,7 @@ static restitute_solver *solver;
 static restitute_options options;
 static restitute_error error;
 
-/* ------------------------------------------------------------------------------------------------------- materials */
+/* ---- materials */
 
 static char place;
 #define UNTOUCHED ((void *)&place)
@@ -60,7 +60,7 @@ static void materials(void **state)
         fail_each_allocation(&all[i]);
 }
 
-/* --------------------------------------------------------------------------------------------------------- solvers */
+/* ---- solvers */
 
 static void create_solver(void)
 {
@@ -267,7 +267,7 @@ static void method_sync(void **state)
     with_method(restitute_method_sync(), 1e-6);
 }
 
-/* ------------------------------------------------------------------------------------------- one call, many impacts */
+/* ---- one call, many impacts */
 
 static int give_pair(int status, const double pair[2], struct given *given)
 {
@@ -361,7 +361,7 @@ static void single_calls_and_batches(void **state)
     }
 }
 
-/* ------------------------------------------------------------------------------------------------- the checker itself */
+/* ---- the checker itself */
 
 /* It loses a block whenever it fails, and says that all is well. */
 static int leaky(struct given *given)

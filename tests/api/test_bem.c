@@ -62,7 +62,7 @@ static void refusals(void **state)
     assert_non_null(strstr(error.message, "reached before there was a result"));
     options = options_of(0, 1e-3);
     error = refused(options, impact_of(1, 0.5, 1, 1e-40), RESTITUTE_ERROR_TOO_MUCH_WORK);
-    assert_non_null(strstr(error.message, "no box"));
+    assert_non_null(strstr(error.message, "no grid"));
 }
 
 static void tolerance_is_met_or_told(void **state)

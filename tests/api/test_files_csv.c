@@ -70,7 +70,7 @@ static void check_refused(const char *path, int expected, const char *const *wor
     CHECK(restitute_csv_read(path, &csv, NULL) == expected && csv == UNTOUCHED, "%s: without an error struct", what);
 }
 
-/* -------------------------------------------------------------------------------------------------- what is read */
+/* ---- what is read */
 
 static void plain_table(void **state)
 {
@@ -280,7 +280,7 @@ static void long_cell(void **state)
     free(text);
 }
 
-/* ----------------------------------------------------------------------------------------------- what is refused */
+/* ---- what is refused */
 
 static void malformed_tables(void **state)
 {
@@ -427,7 +427,7 @@ static void truncated_table(void **state)
         check_any_bytes(rich_table, length, (int)length);
 }
 
-/* ------------------------------------------------------------------------------------------------------- numbers */
+/* ---- numbers */
 
 /* The values are those that the compiler reads from the same digits: both round to the nearest
  * double. */

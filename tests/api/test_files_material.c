@@ -106,7 +106,7 @@ static void check_same(restitute_material *read, restitute_material *made)
     restitute_material_destroy(made);
 }
 
-/* ---------------------------------------------------------------------------------------------------- the models */
+/* ---- the models */
 
 static void elastic(void **state)
 {
@@ -280,7 +280,7 @@ static void many_terms_json(void **state)
     check_many_terms(JSON, count);
 }
 
-/* ----------------------------------------------------------------------------------------------- shipped materials */
+/* ---- shipped materials */
 
 static void shipped_elastic(void **state)
 {
@@ -332,7 +332,7 @@ static void shipped_polyisobutylene(void **state)
     CHECK(fingerprints[0] != fingerprints[1], "two contents, one fingerprint");
 }
 
-/* ----------------------------------------------------------------------------------------------- what else it says */
+/* ---- what else it says */
 
 static void info_init(void **state)
 {
@@ -445,7 +445,7 @@ static void fingerprints(void **state)
     CHECK(first != second && second != third && first != third, "another content, the same fingerprint");
 }
 
-/* --------------------------------------------------------------------------------------------------- the refusals */
+/* ---- the refusals */
 
 static char untouched_place;
 #define UNTOUCHED ((restitute_material *)&untouched_place)
@@ -879,7 +879,7 @@ static void struct_size(void **state)
     }
 }
 
-/* -------------------------------------------------------------------------------------------------- any bytes at all */
+/* ---- any bytes at all */
 
 static const char rich_json[] = "{\n  \"name\": \"n\", \"source\": \"s\\\"\\u00e4\",\n  \"poisson_ratio\": 0.25,\n"
                                 "  \"density_kg_m3\": 9e2, \"model\": \"prony\",\n  \"terms\": [\n    " TERM(
@@ -958,7 +958,7 @@ static void deep_nesting(void **state)
     check_refused(JSON, FORMAT, (const char *[]){JSON, NULL}, "200000 brackets");
 }
 
-/* -------------------------------------------------------------------------------------------------------- locale */
+/* ---- locale */
 
 static void comma_locale(void **state)
 {

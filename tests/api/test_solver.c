@@ -64,7 +64,7 @@ static void printed_largest_step_is_accepted(void **state)
         CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
         CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_UNSTABLE_STEP, "refused");
         restitute_solver_destroy(solver);
-        options.time_step = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        options.time_step = strtod(strstr(error.message, "stable step: ") + strlen("stable step: "), NULL);
         CHECK(solve_impact(options, impact).status >= 0, "%s", error.message);
     }
 }
@@ -101,7 +101,7 @@ static void rough_overrides_are_not_trusted(void **state)
         CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
         restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
         restitute_solver_destroy(solver);
-        double limit = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        double limit = strtod(strstr(error.message, "stable step: ") + strlen("stable step: "), NULL);
         struct restitute_result r = solve_impact(as_told(0, limit * random_in(&random, 0.3, 1)), impact).result;
         above += fabs(r.ez - fine.ez) > r.error_ez + 1e-3 || fabs(r.ex - fine.ex) > r.error_ex + 1e-3;
     }

@@ -45,7 +45,7 @@ static int give_new_table(int status, restitute_table *made, struct given *given
     return status;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- builds */
+/* ---- builds */
 
 static int build(struct given *given)
 {
@@ -78,7 +78,7 @@ static void builds(void **state)
         fail_each_allocation(&all[i]);
 }
 
-/* ------------------------------------------------------------------------------------------------- all other calls */
+/* ---- all other calls */
 
 static int from_data(struct given *given)
 {

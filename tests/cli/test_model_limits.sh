@@ -1,12 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Unlike materials by --partner FILE, and the model limits in words: text, JSON, and the names in the column status.
+# Unlike materials by --partner FILE, and the model limits in words: text, JSON, and the names in
+# the column status.
 . "$(dirname -- "$0")/common.sh"
 
 glass="--material $materials/aluminium_oxide.json --partner $materials/soda_lime_glass.json --radius 0.0025
     --density 4000 --friction 0.092"
 
-# Dundurs' constant of the pair, by hand from the moduli in the files: 154 GPa and 0.23, 29.2 GPa and 0.2.
+# Dundurs' constant of the pair, by hand from the moduli in the files: 154 GPa and 0.23, 29.2 GPa
+# and 0.2.
 expect 0 pair $glass --velocity 3.9 --angle 40
 has out "Dundurs' beta          -0.263" 'passed: the materials are elastically unlike'
 expect 0 pair $glass --velocity 3.9 --angle 40 --dundurs-limit 0.3

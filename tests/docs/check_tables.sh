@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The tables of docs/records/measurements.md are what the library of this build computes: these rows in this order, no more.
+# The tables of docs/records/measurements.md are what the library of this build computes: these rows
+# in this order, no more.
 #   SOURCE_DIR=... MEASUREMENTS=/path/of/measurements check_tables.sh
 set -eu
 

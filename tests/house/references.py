@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finds references that lead nowhere: references.py TREE
 
-Looks into the pages and into the comments of the code for five kinds: paths that begin with a folder of the tree, names of
-pages, their numbered sections, names of tests, and targets of CMake. Exit status 1 if one does not exist.
+Looks into the pages and into the comments of the code for five kinds: paths that begin with a
+folder of the tree, names of pages, their numbered sections, names of tests, and targets of
+CMake. Exit status 1 if one does not exist.
 """
 
 import re
@@ -31,7 +32,8 @@ def complaints_of(tree):
     count, wrong = 0, []
 
     def page_named(name, place):
-        """A page is named by its path in the tree, from the folder of the file, or by its name in docs."""
+        """A page is named by its path in the tree, from the folder of the file, or by its name
+        in docs."""
         return next((found for found in (Path(tree, name), Path(tree, place, name), Path(tree, "docs", name)) if found.exists()), None)
 
     for path in files:

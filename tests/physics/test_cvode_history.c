@@ -48,8 +48,9 @@ static void all_is_finite(const struct track *t, int number)
                   number, i->chi, i->psi, i->delta1, i->gamma, k, j);
 }
 
-/* |change of the velocity + rate times the integral of the force| from sample j - 1 to j, less what the trapezoidal rule may err:
- * half of what the force changes there, and beside it, for a largest force between the samples. */
+/* The balance |change of the velocity + rate times the integral of the force| from sample j - 1 to
+ * j, minus the possible error of the trapezoidal rule: half of the change of the force there and in
+ * the neighbouring intervals, for a largest force between the samples. */
 static double momentum_missing(const struct track *t, int force, int velocity, double rate, int j)
 {
     const double *f = t->column[force], *v = t->column[velocity], h = t->column[TIME][j] - t->column[TIME][j - 1];

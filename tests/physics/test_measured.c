@@ -54,7 +54,7 @@ static restitute_scene sphere_on_wall(const restitute_material *pair, double rad
     return scene;
 }
 
-/* |found/expected - 1| within the share; every point of a set is looked at before the test fails. */
+/* |found/expected - 1| within the share; every point is checked before the test fails. */
 static int misses(double found, double expected, double share, const char *what, double at)
 {
     double off = found / expected - 1;

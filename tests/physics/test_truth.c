@@ -86,10 +86,10 @@ static double estimate(double coarsest, double coarser, double fine)
     return 1.25 * fmax(fabs(fine - coarser), 0.5 * fabs(coarser - coarsest));
 }
 
-/* Besides the first-order error the largest indentation is read off at the ends of steps, near a
- * maximum: within
- * |D''| h^2/2, and |D''| is about 1 there. The end of contact is dated within the last step, and the last but
- * one element's exit that it is continued from likewise: two steps. */
+/* The largest indentation has the error of first order. It also is a value at the end of a step
+ * near a maximum, which is within |D''| h^2/2 with |D''| of about 1. The end of contact is
+ * interpolated in the last step, and extrapolated from the exit of the last but one element: two
+ * steps. */
 static void largest_indentation_and_contact_time_are_right(void **state)
 {
     (void)state;

@@ -126,7 +126,7 @@ static inline double draw_psi(struct campaign_draw *d, const restitute_impact *i
     return random_in(random, 0, 10);
 }
 
-/* ----------------------------------------------------------------------------------------------------- the corners */
+/* ---- the corners */
 
 static inline restitute_impact any_impact(struct campaign_draw *d)
 {
@@ -292,7 +292,7 @@ static const struct campaign_corner {
 
 enum { CAMPAIGN_CORNERS = sizeof campaign_corners / sizeof *campaign_corners };
 
-/* ------------------------------------------------------------------------------------------------ to solve it again */
+/* ---- to solve it again */
 
 /* A material file of any solid, on one line. */
 static inline void write_solid(const restitute_material *solid, FILE *out)

@@ -1,14 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh LIBRARY [PROGRAM]
+# Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh
+# LIBRARY [PROGRAM]
 #   - it defines nothing but restitute_*
 #   - it calls nothing of a Fortran run-time library
 #   - it neither prints nor ends the program: it needs no function that does so, and no standard stream
 #   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
 #     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads;
 #     nor one whose name holds WITHOUT, if that is set
-# NM, READELF, WITH_OPENMP and WITHOUT come from the environment. Tools have lines of their own: of a pipeline the shell
-# sees the last status alone, and a tool that fails would be taken for one that finds nothing.
+# NM, READELF, WITH_OPENMP and WITHOUT come from the environment. Tools have lines of their own: of
+# a pipeline the shell sees the last status alone, and a tool that fails would be taken for one that
+# finds nothing.
 set -eu
 library=$1
 wrong=0

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Shows that check.sh and objects.sh can fail: all their complaints must come for a library that deserves them, and
-# they fail with a tool that fails.
+# Shows that check.sh and objects.sh can fail: all their complaints must come for a library that
+# deserves them, and they fail with a tool that fails.
 #   counter_check.sh LIBRARY OBJECT GOOD_LIBRARY GOOD_OBJECT...
 set -eu
 openmp=$WITH_OPENMP # the library has it only where there is one

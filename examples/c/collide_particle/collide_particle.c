@@ -1,5 +1,6 @@
-/* A hollow rubber ball with topspin hits the floor: velocities and spin after it, as a DEM code wants them.
- * Its mass and moment of inertia are its own; the thick shell is taken to deform like a solid ball. */
+/* A hollow rubber ball with topspin hits the floor: velocities and spin after it, as a DEM code
+ * wants them. Its mass and moment of inertia are its own; the thick shell is taken to deform like a
+ * solid ball. */
 #include <math.h>
 #include <restitute/restitute.h>
 #include <stdio.h>

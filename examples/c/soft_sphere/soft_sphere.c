@@ -1,5 +1,6 @@
-/* A DEM in a hundred lines: rubber spheres drop into a box, with the contact law of restitute. Writes soft_sphere.csv: where
- * the energy goes. SPDX-License-Identifier: BSD-3-Clause */
+/* A DEM in a hundred lines: rubber spheres drop into a box, with the contact law of restitute.
+ * Writes soft_sphere.csv: where the energy goes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/contact.h>
 
 #include <math.h>
@@ -45,7 +46,8 @@ static double overlap_of(int i, int j, double n[3])
     return 2 * radius - distance;
 }
 
-/* One step of one contact. Velocities are those of the middle of the step, as velocity Verlet has them. */
+/* One step of one contact. Velocities are those of the middle of the step, as velocity Verlet has
+ * them. */
 static int touch(const restitute_contact_law *law, const restitute_contact_rates *rates, double mass, int i, int j)
 {
     struct sphere at_rest = {0}, *one = &sphere[i], *two = j < spheres ? &sphere[j] : &at_rest;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Runs a test of the adapter for LAMMPS:  run.sh build|NAME of a test_NAME.py
-# From the environment: CMAKE BUILD_DIR RESTITUTE SANITIZED. All is kept in BUILD_DIR/lammps, with the virtual
+# Runs a test of the adapter for LAMMPS:  run.sh build|NAME of a test_NAME.py From the environment:
+# CMAKE BUILD_DIR RESTITUTE SANITIZED. All is kept in BUILD_DIR/lammps, with the virtual
 # environment.
 set -eu
 

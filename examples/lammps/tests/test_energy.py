@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""No contact gives energy: 400 random impacts of pairs and 200 with a wall, many of them grazing, of four materials."""
+"""No contact gives energy: 400 random impacts of pairs and 200 with a wall, many of them
+grazing, of four materials."""
 import math
 import random
 
@@ -26,7 +27,8 @@ def random_motion(draw):
 
 
 def impacts(solid, draw, scene):
-    """Pairs side by side, and spheres above the wall at z = -0.4; returns the tags of each impact."""
+    """Pairs side by side, and spheres above the wall at z = -0.4; returns the tags of each
+    impact."""
     bodies = []
     places = [(SPACING * i, SPACING * j) for i in CELLS for j in CELLS]
     draw.shuffle(places)
@@ -75,6 +77,7 @@ for solid in SOLIDS:
     with open("log.txt") as log:
         check("times the overlap" not in log.read(), f"{solid}: grazing contacts count as ones that begin deep")
     print(f"{solid}: largest gain in 40 x {len(bodies)} looks {max(gain):.1e}, losses up to {max(lost):.3f}")
-    # Rounding of velocities and, in the middle of elastic impacts, what velocity Verlet oscillates by.
+    # Rounding of velocities and, in the middle of elastic impacts, what velocity Verlet oscillates
+    # by.
     check(max(gain) <= 1e-12, f"{solid}: a contact gives energy, {max(gain):.1e} of what came in")
     check(max(lost) > 0.1, f"{solid}: no friction")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The memory of contacts: a restart in their middle, a swap of atoms, new neighbor lists, a new run change no bit."""
+"""The memory of contacts: a restart in their middle, a swap of atoms, new neighbor lists, a new
+run change no bit."""
 from scenes import Scene, check, material
 
 RUBBER = material("rubber", model="standard_solid", modulus1_pa=1e9, modulus2_pa=2e9, viscosity_pa_s=3e4)
@@ -17,7 +18,7 @@ MOTION = f"""
 
 
 def impacts(dummy_first=False):
-    """A sphere that hits the floor and two that hit each other obliquely, with spins; all touch after 100 steps."""
+    """A sphere hits the floor, and two collide obliquely, with spins; all touch after 100 steps."""
     scene = Scene()
     if dummy_first:
         scene.add((0.3, 0.3, 0.3), (0, 0, 0))
@@ -60,7 +61,8 @@ scene = Scene()
 scene.run(f"clear\nread_restart middle.restart\n{LAW}{MOTION}")
 same("a restart with the law given again", finish(scene, 200), whole)
 
-# Without the first atom LAMMPS moves the last one into its place: the two that touch are now in the other order.
+# Without the first atom LAMMPS moves the last one into its place: the two that touch are now in the
+# other order.
 scene = impacts(dummy_first=True)
 scene.run("run 100\ngroup dummy id 1\ndelete_atoms group dummy compress no")
 order = scene.lammps.extract_atom("id")

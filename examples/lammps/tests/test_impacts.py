@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Twenty impacts of two spheres and of a sphere and a wall: LAMMPS gives the library's (ez, ex) and converges to it."""
+"""Twenty impacts of two spheres and of a sphere and a wall: LAMMPS gives the library's (ez, ex)
+and converges to it."""
 import math
 import os
 from statistics import mean
@@ -67,7 +68,7 @@ def impact(case, time, steps, elements, phase):
 
 
 def compare(answers, steps, elements):
-    """The largest error of all impacts, and the mean of those whose law has all terms of the material."""
+    """Largest error of all impacts, and mean of those whose law has all terms of the material."""
     errors = []
     for n, (case, answer) in enumerate(zip(CASES, answers)):
         ez, ex = impact(case, answer["contact_time"], steps, elements, (0.1 + 0.37 * n) % 1)
@@ -83,5 +84,6 @@ def compare(answers, steps, elements):
 pairs = library_pairs([library_case(*case) for case in CASES])
 (largest, coarse), (_, finer), (_, fine) = (compare(pairs, *n) for n in ((50, 8), (200, 16), (800, 32)))
 check(largest <= 0.01, "LAMMPS is off by more than the law's 0.01")
-# First order would be a quarter each time; what the half-space leaves out remains, overlaps up to 5e-4 of the radius.
+# First order would be a quarter each time; what the half-space leaves out remains, overlaps up to
+# 5e-4 of the radius.
 check(finer <= 0.4 * coarse and fine <= 0.7 * finer and fine <= 5e-4, "LAMMPS does not converge to the library")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed ends the run with a message that names it. Contacts that begin too fast for the time step,
-or deep, are reported."""
+"""What cannot be computed ends the run with a message that names it. Contacts that begin too fast
+for the time step, or with a deep overlap, are reported."""
 import re
 
 from scenes import MATERIALS, Scene, check, material
@@ -97,7 +97,7 @@ refused("a radius that grows beyond the skin", ["atom 3 at step 34", "0.00551", 
 
 def warnings(name, count, lines, ratio="first overlap over 2 steps'", words="times the overlap", first=0,
              distance=0.01, speed=0.03, **scene_words):
-    """So many contacts of two spheres on the x axis are reported as beyond a ratio, with one warning if any is."""
+    """Two spheres on the x axis: `count` contacts exceed a ratio, with one warning if any does."""
     scene = Scene(screen="log.txt", **scene_words)
     scene.add((first, 0, 0), (speed, 0, 0))
     scene.add((first + distance, 0, 0), (0, 0, 0))
@@ -122,14 +122,15 @@ warnings("a sphere put into a wall", 1, f"fix w all wall/restitute {rubber} fric
          distance=0.1)
 warnings("a contact that a new pair style has forgotten", 1, f"{RUN}\npair_style none\n{LAW}run 100")
 warnings("a sphere made larger", 1, f"{RUN}\nset atom 1 diameter 0.012\nrun 100", distance=0.0105)
-# The box shrinks by 1e-5 of its width of 1 m a step. Its spheres, or their images, follow without velocities. LAMMPS
-# looks for new neighbors only if something moves.
+# The box shrinks by 1e-5 of its width of 1 m a step. Its spheres, or their images, follow without
+# velocities. LAMMPS looks for new neighbors only if something moves.
 SHRINK = "fix d all deform 1 x erate -10 remap {}\n" + RUN.replace("100", "1000")
 warnings("spheres of a box that shrinks", 0, SHRINK.format("x"), distance=0.0101, speed=1e-3, boundary="p p p")
 warnings("images of spheres of a box that shrinks", 0, SHRINK.format("none"), first=-0.4925, distance=0.985, speed=1e-3,
          boundary="p p p")
-# Spheres that have grown by less than half the skin. The second neighbor list of the run is made when they are three bins
-# apart that LAMMPS makes for the radii of the start, 1/181 m wide: then it looks two bins far.
+# Spheres that have grown by less than half the skin. The second neighbor list of the run is made
+# when they are three bins apart that LAMMPS makes for the radii of the start, 1/181 m wide: then it
+# looks two bins far.
 warnings("spheres that have grown", 0, "variable d equal 0.0109\nfix grow all adapt 1 atom diameter v_d\n"
          + RUN.replace("100", "2500"), first=-0.5 + 90 / 181 - 3e-5 - 5.005e-4, distance=0.01125 + 5.005e-4, speed=0.5,
          atom_style="sphere 1")

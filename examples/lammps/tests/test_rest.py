@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A settled bed stays so: its energy, of motion and height, does not grow. For 100000 steps, or as many as the first argument says."""
+"""A settled bed stays so: its energy, of motion and height, does not grow. For 100000 steps, or
+as many as the first argument says."""
 import random
 import sys
 
@@ -58,5 +59,6 @@ print(f"{STEPS} steps at rest: motion and height change by at most", " ".join(f"
       f"J in each quarter; energy of motion at the end {rest[-1][0]:.1e} J")
 check(settled < 0.95 * start, f"the bed did not fall: {settled:.2e} of {start:.2e} J")
 check(max(motion for motion, _ in rest) < 1e-2 * start, "the bed has not settled")
-# Contacts store some 1e-6 of the energy of the fall and give it back when a sphere rolls into a better place.
+# Contacts store some 1e-6 of the energy of the fall and give it back when a sphere rolls into a
+# better place.
 check(max(tops) <= 2e-6 * start, "the energy of the bed grows")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a sphere held fast.
-Spheres that fixes create during a run meet as others do."""
+"""The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a
+sphere held fast. Spheres that fixes create during a run meet as others do."""
 import math
 
 from scenes import Scene, check, library_pairs, material
@@ -18,7 +18,8 @@ def end(scene, tag=1):
 
 
 def pair(length=1, turned=lambda a: a, **scene_words):
-    """Two spheres; lengths in units of so many to the metre, in a frame of reference that may be turned."""
+    """Two spheres; lengths in units of so many to the metre, in a frame of reference that may be
+    turned."""
     scene = Scene(half_width=0.5 * length, **scene_words)
     grams = 1e-3 if length == 100 else 1
     scene.add((0, 0, 0), turned((SPEED * length, ALONG * length, 0)), turned((0, 3, 2)), RADIUS * length, 2000 * grams)
@@ -82,7 +83,8 @@ DEPOSIT = "deposit 40 0 25 4711 region slab near 0.0061 mol ball vx -0.5 0.5 vy 
 
 
 def created(fix, largest_is_there):
-    """What spheres do that a fix creates after the first of two runs, and how many contacts they have had."""
+    """What spheres do that a fix creates after the first of two runs, and how many contacts they
+    have had."""
     scene = Scene(half_width=0.05)
     scene.add((0.04, 0.04, 0.04), (0, 0, 0), radius=0.003 if largest_is_there else 0.0005)
     scene.run(f"""

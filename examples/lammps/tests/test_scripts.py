@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The input scripts of this example, short: what they print, on one process and on two, and after a restart. And a
-dense flow across periodic boundaries, whose contacts survive what commands between runs do."""
+"""Short runs of the input scripts: their output on one process and on two, and after
+a restart. And a dense flow across periodic boundaries, whose contacts survive commands between
+runs."""
 import os
 import re
 import subprocess
@@ -125,8 +126,8 @@ for processes in 1, 2:
 again = crowd("a restart of a restart", processes, "read_restart again.restart", "run 50\nrun 50")
 check(again == whole, "crowd: a restart from a file that was written before a run changes it")
 
-# Files written within a run, and by run every. Atoms that LAMMPS sorts as a run begins, after within.300, would add
-# their forces in another order.
+# Files written within a run, and by run every. Atoms that LAMMPS sorts as a run begins, after
+# within.300, would add their forces in another order.
 UNSORTED = "\natom_modify sort 0 0\n"
 within = crowd("restart files within runs", 1, NEW + UNSORTED, """
     restart 300 within.*

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The memory of contacts: a new run, a restart in their middle and two ranks change no motion; the same spheres may
-meet again, and the call counter says that our law ran."""
+"""The memory of contacts: a new run, a restart in their middle and two ranks change no motion;
+the same spheres may meet again, and the call counter says that our law ran."""
 import random
 import re
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Twenty impacts, each of a pair, on a wall and on a mesh: LIGGGHTS gives the library's (ez, ex) and converges."""
+"""Twenty impacts, each of a pair, on a wall and on a mesh: LIGGGHTS gives the library's (ez, ex)
+and converges."""
 import math
 import os
 from statistics import mean
@@ -35,8 +36,9 @@ def library_cases(solid, speed, angle, partner):
 
 
 def impacts(case, times, steps, elements, phase):
-    """(ez, ex) of the three, with so many steps in the shorter contact; gaps close within `phase` of a step. The
-    sphere on the mesh slides over the edge of two triangles in the middle of its contact."""
+    """(ez, ex) of the three, with so many steps in the shorter contact; gaps close within
+    `phase` of a step. The sphere on the mesh slides over the edge of two triangles in the middle
+    of its contact."""
     solid, speed, angle, partner = case
     dt, end = min(times) / steps, int(1.6 * steps * max(times) / min(times))
     normal, along = speed * math.cos(math.radians(angle)), speed * math.sin(math.radians(angle))
@@ -67,7 +69,7 @@ def impacts(case, times, steps, elements, phase):
 
 
 def compare(answers, steps, elements):
-    """The largest error of all impacts, and the mean of those whose law has all terms of the material."""
+    """Largest error of all impacts, and mean of those whose law has all terms of the material."""
     errors, whole = [], []
     for n, case in enumerate(CASES):
         pair, wall = answers[2 * n:2 * n + 2]
@@ -86,5 +88,6 @@ def compare(answers, steps, elements):
 found = library_pairs([its for case in CASES for its in library_cases(*case)])
 (largest, coarse), (_, finer), (_, fine) = (compare(found, *n) for n in ((50, 8), (200, 16), (800, 32)))
 check(largest <= 0.01, "LIGGGHTS is off by more than the law's 0.01")
-# First order would be a quarter each time. What remains: the normal of a pair turns while it slides, by up to 2e-3.
+# First order would be a quarter each time. What remains: the normal of a pair turns while it
+# slides, by up to 2e-3.
 check(finer <= 0.4 * coarse and fine <= 0.8 * finer and fine <= 3e-4, "LIGGGHTS does not converge to the library")

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""LIGGGHTS's own Kuwabara-Kono force (hertz/stiffness with limitForce) beside model restitute for a Kelvin-Voigt solid.
+"""LIGGGHTS's own Kuwabara-Kono force (hertz/stiffness with limitForce) beside model restitute
+for a Kelvin-Voigt solid.
 
-Both have the same force while two spheres approach. Later the law keeps account of the surface, which comes back more
-slowly than the spheres leave: its contact is smaller than that of the overlap, and the dashpot holds back less."""
+Both have the same force while two spheres approach. Later the law keeps account of the surface,
+which comes back more slowly than the spheres leave: its contact is smaller than that of the
+overlap, and the dashpot holds back less."""
 import math
 
 from scenes import STYLE, box, check, dump, law, library_pairs, liggghts, material, motions, sphere
 
 RADIUS, DENSITY, SPEED, G, NU = 0.005, 1000, 0.05, 1e7, 0.3
-# By delta1 (docs/theory.md): ez of the force of Kuwabara and Kono and of a Kelvin-Voigt solid, both computed elsewhere
+# By delta1 (docs/theory.md): ez of the force of Kuwabara and Kono and of a Kelvin-Voigt solid, both
+# computed elsewhere
 EXPECTED = {0.03: (0.9214, 0.9224), 0.1: (0.7683, 0.7752), 0.3: (0.4914, 0.5134), 1.0: (0.1739, 0.2008)}
 
 mass = DENSITY * 4 / 3 * math.pi * RADIUS ** 3 / 2  # effective

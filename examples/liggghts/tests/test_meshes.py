@@ -9,7 +9,8 @@ soft = material("soft", model="standard_solid", modulus1_pa=1e7, modulus2_pa=3e7
 
 
 def slide(name, wall, speed, slope=0.0, start=-0.004, steps=4000, every=10):
-    """Motions of a sphere that settles for 2 ms, slides along x, and is pressed down by its weight."""
+    """Motions of a sphere that settles for 2 ms, slides along x, and is pressed down by its
+    weight."""
     down, along = (-math.sin(slope), -math.cos(slope)), (math.cos(slope), -math.sin(slope))
     x, z = start * along[0] - RADIUS * down[0], start * along[1] - RADIUS * down[1]
     mass = 1000 * 4 / 3 * math.pi * RADIUS ** 3
@@ -57,8 +58,9 @@ wall, _ = slide("wall", f"fix table all {WALL} primitive type 2 zplane 0", 1e-4,
 print(f"slowly over an edge, which both triangles claim: within {difference(slow, wall):.1e}")
 check(difference(slow, wall) <= 1e-9, "the sphere feels an edge that two triangles claim")
 
-# A roof: the contact turns about the ridge and goes on on the other side. The force falls by a tenth on the ridge, in
-# the time of some 100 steps; a second contact with the edge, or a memory lost there, changes it by half in one step.
+# A roof: the contact turns about the ridge and goes on on the other side. The force falls by a
+# tenth on the ridge, in the time of some 100 steps; a second contact with the edge, or a memory
+# lost there, changes it by half in one step.
 slope = math.radians(4)
 roof = list(triangles(lambda x: -abs(x) * math.tan(slope), [-0.02, 0.0, 0.02]))
 steps, text = slide("roof", on_mesh("roof", roof), 0.5, -slope, start=-0.002, steps=1600, every=1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be computed, or no preload, ends the run with a message that names it. Contacts that begin too
-fast for the time step, or deep, are reported."""
+"""What cannot be computed, or no preload, ends the run with a message that names it. Contacts
+that begin too fast for the time step, or deep, are reported."""
 import re
 
 from scenes import MATERIALS, STYLE, WALL, box, check, law, liggghts, material, sphere

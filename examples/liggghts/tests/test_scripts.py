@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The drum, short: on one rank and on two the same contacts; LIGGGHTS's own law and rolling friction run, too."""
+"""The drum, short: on one rank and on two the same contacts; LIGGGHTS's own law and rolling
+friction run, too."""
 import os
 import re
 import subprocess
