@@ -20,7 +20,7 @@ SOUND = {
 
 
 def found_by(script, more):
-    """Exit status and lines of a script on the sound tree with more in it: {file: text behind what is there}."""
+    """Exit status and lines of a script on the sound tree, with more text at the ends of files."""
     with tempfile.TemporaryDirectory() as tree:
         for name in SOUND | more:
             path = Path(tree, name)
