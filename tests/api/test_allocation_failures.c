@@ -1,5 +1,5 @@
 /* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and
- * the same objects give the right result afterwards, bit by bit, and leave nothing behind.
+ * the same objects give the right result afterwards, bit by bit, and leak nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

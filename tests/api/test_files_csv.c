@@ -16,7 +16,7 @@
 /* Every test writes this one file in the current directory; the teardown removes it. */
 #define TABLE "test_files_csv_table.csv"
 
-/* What outputs point to before a call that must not touch them. */
+/* Values of outputs before a call that must not change them. */
 static char untouched_place;
 #define UNTOUCHED ((restitute_csv *)&untouched_place)
 
@@ -486,7 +486,7 @@ static void no_numbers(void **state)
         refused_number(texts[i], RESTITUTE_ERROR_FORMAT);
 }
 
-/* The header allows inf and no other word. */
+/* The header allows inf and no other text. */
 static void infinity_is_no_number(void **state)
 {
     (void)state;

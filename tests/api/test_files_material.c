@@ -84,9 +84,8 @@ static void pair_of(const restitute_material *material, double *ez, double *ex)
     CHECK(restitute_scene_pair(&scene, ez, ex, &error) >= 0, "%s", error.message);
 }
 
-/* The two solids are one: G(t), and the pair, which feels also what G(t) does not show, a dashpot
- * in parallel. Both were made by one library of the same doubles, so nothing may differ and there
- * is no tolerance. Both are released. */
+/* The two solids are equal: G(t), and the pair, which also depends on a parallel dashpot. One
+ * library made both from the same doubles, so there is no tolerance. Both are released. */
 static void check_same(restitute_material *read, restitute_material *made)
 {
     CHECK(restitute_material_terms(read) == restitute_material_terms(made), "%zu terms, not %zu",
@@ -807,8 +806,8 @@ static void unreadable_files(void **state)
     check_refused("%s%n.json", RESTITUTE_ERROR_FILE, (const char *[]){"%s%n.json", NULL}, "path like a format");
 }
 
-/* What a JSON file names is read like the JSON file itself: neither may hang the reader or fill its
- * memory. */
+/* A file named in a JSON file is read like the JSON file itself: neither may block the reader or
+ * fill its memory. */
 static void endless_files(void **state)
 {
     (void)state;

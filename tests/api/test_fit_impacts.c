@@ -177,7 +177,7 @@ static void a_wrong_model_is_called_wrong(void **state)
     assert_non_null(strstr(r.remarks, "a standard solid fits better"));
     CHECK(r.flags & RESTITUTE_FIT_LIMITS, "a/R up to 0.8: %s", r.remarks);
     restitute_material_destroy(r.material);
-    for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, where nothing is left to fit */
+    for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, if no constant is fitted */
         const double known[] = {1e6, 3e6, wrong ? 350 : 300};
         restitute_fit_options all = fit_options(RESTITUTE_FIT_STANDARD_SOLID);
         all.known = known;
@@ -210,9 +210,9 @@ static void robust_losses_bear_outliers(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Of many points most lie between impacts. With all constants known nothing is fitted, so rms is
- * the difference from their own impacts: of three spheres on a rigid or a soft wall, over five
- * decades of speed. Maxwell's e falls to 0 there, which bends most. */
+/* With many points most are interpolated. With all constants known nothing is fitted, so rms is the
+ * error of the interpolation: for three spheres on a rigid or a soft wall, over five decades of
+ * speed. Maxwell's e falls to 0 there and has the largest curvature. */
 static void many_points_are_interpolated(void **state)
 {
     enum { MANY = 120 };
@@ -539,7 +539,7 @@ static void residuals_in_order_are_a_misfit(void **state)
     restitute_material_destroy(solid);
 }
 
-/* e of an elastic solid is 1 whatever its modulus: nothing is determined, and that is not 0/0. */
+/* e of an elastic solid is 1 for any modulus: no constant is determined, and no result is 0/0. */
 static void data_that_determine_nothing_have_no_condition(void **state)
 {
     restitute_fit_point points[5];

@@ -1,4 +1,4 @@
-/* The time history: what it contains, and that it obeys mechanics by itself.
+/* The time history: its content, and whether it obeys the equations of motion.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -48,8 +48,8 @@ static void first_sample_is_first_touch_and_last_the_end(void **state)
         CHECK(t[last] == r.contact_time && contact[last] == 0 && fz[last] == 0 && fx[last] == 0, "psi %g: last",
               psi[i]);
         CHECK(-vz[last] == r.ez && fabs(vx[last] + r.ex * vx[0]) < 1e-15 * vx[0] + 1e-16, "psi %g: pair", psi[i]);
-        /* the solid is viscoelastic: it is still dented where it lets go, by less than its largest
-         * indentation */
+        /* the solid is viscoelastic: at the end of contact an indentation remains, smaller than the
+         * largest */
         CHECK(depth[last] > 0 && depth[last] < r.max_indentation, "psi %g: ends at %g", psi[i], depth[last]);
         for (size_t k = 1; k <= last; k++) {
             CHECK(t[k] > t[k - 1], "time runs back at %zu", k);

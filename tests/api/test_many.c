@@ -45,7 +45,7 @@ static void one_by_one(const restitute_options *options, size_t n, const restitu
                        restitute_result *results, int *statuses)
 {
     for (size_t i = 0; i < n; i++) {
-        restitute_solver *solver; /* a new one each time, so that nothing can be carried over */
+        restitute_solver *solver; /* a new one each time, so that no state is kept */
         CHECK(restitute_solver_create(options, &solver, NULL) == RESTITUTE_OK, "solver");
         statuses[i] = restitute_solve(solver, &impacts[i], &results[i], NULL, NULL, NULL);
         restitute_solver_destroy(solver);
@@ -176,7 +176,7 @@ static void failures_stop_nobody_and_the_first_is_named(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* A remark is told if there is no failure; a failure behind it goes before it. */
+/* A remark is reported if there is no failure; a later failure replaces it. */
 static void remarks_are_told_after_failures(void **state)
 {
     (void)state;
@@ -257,8 +257,8 @@ static int one_thread_gives_the_same(void *of)
            memcmp(results, known->results, sizeof results) == 0;
 }
 
-/* OpenMP's threads do not live on in a child of the process, which waits for them for ever; one
- * thread needs none. */
+/* OpenMP's threads do not exist in a child of the process, which would wait for them for ever; with
+ * one thread there is no wait. */
 static void a_child_goes_on_with_one_thread(void **state)
 {
     (void)state;
@@ -279,7 +279,7 @@ static void no_cases_are_done_at_once(void **state)
     restitute_error error;
     CHECK(restitute_solve_many(NULL, 0, NULL, NULL, NULL, 0, &error) == RESTITUTE_OK && !*error.message, "impacts");
     CHECK(restitute_solve_scenes(&options, 0, NULL, NULL, NULL, 3, NULL) == RESTITUTE_OK, "scenes");
-    options.elements = 1; /* a wrong option is told all the same */
+    options.elements = 1; /* a wrong option is still reported */
     CHECK(restitute_solve_scenes(&options, 0, NULL, NULL, NULL, 3, &error) == RESTITUTE_ERROR_DOMAIN, "options");
 }
 

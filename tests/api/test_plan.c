@@ -83,7 +83,7 @@ static double random_psi(uint64_t *random, double chi)
     }
 }
 
-/* A new solver each time, so that nothing can be carried over. */
+/* A new solver each time, so that no state is kept. */
 static void compare(const restitute_options *options, restitute_impact impact, restitute_plan *plan, double psi,
                     int all, const char *name)
 {
@@ -128,7 +128,7 @@ static void every_solid_gives_the_bits_of_single_calls(void **state)
     free_solids(all);
 }
 
-/* Bodies that creep for ever, of which some stop: how slow a sphere may become depends on psi. */
+/* Bodies that creep for ever; some count as stopped: the limit of speed depends on psi. */
 static void spheres_that_sink_give_the_bits_of_single_calls(void **state)
 {
     (void)state;

@@ -114,8 +114,8 @@ static void work_that_is_not_allowed_is_not_done(void **state)
     CHECK(refusals >= 1 && remarks >= 1, "%d refusals, %d remarks", refusals, remarks);
 }
 
-/* Elements given, whatever the tolerance: 24 times the largest power of two that keeps to them, and
- * more only where panels are halved, 24 at least. The remark says that the tolerance is missed. */
+/* Prescribed elements, for any tolerance: 24 times the largest power of two within this number, at
+ * least 24, and more only where panels are halved. The remark says that the tolerance is missed. */
 static void elements_may_be_given(void **state)
 {
     (void)state;
@@ -150,10 +150,11 @@ static int solve_with_history(double tolerance, const restitute_material *solid,
     return status;
 }
 
-/* Moduli times s and times times s^(-2/5) are the same impact in other units: the same to rounding,
- * but where the coarsest iterations are lost, which rounding lets end one way or the other (1 solid
- * in 500), to a hundredth of the tolerance. An elastic solid a fifth as stiff as the unit once had
- * points at no finite time, others with weak damping too. */
+/* Moduli times s and relaxation times times s^(-2/5) are the same impact in other units. The
+ * results are equal to rounding. Where the coarsest iterations do not converge, their end depends
+ * on rounding (1 solid in 500), and the results are equal to a hundredth of the tolerance. An
+ * elastic solid with a fifth of the unit modulus once had points at infinite time, and so had
+ * others with weak damping. */
 static void scale_of_moduli_does_not_matter(void **state)
 {
     enum { solids = 300, samples = 8 };

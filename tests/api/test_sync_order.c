@@ -1,6 +1,5 @@
-/* A solver keeps the room, and what is in it, of the impact that it solved last. Results do not
- * show it: they have the bits of new solvers in whatever order the impacts come, and so have
- * refusals.
+/* A solver keeps memory of the last impact. Results do not depend on it: for any order of the
+ * impacts they have the bits of new solvers. So have refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 

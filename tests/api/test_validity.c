@@ -73,8 +73,8 @@ static void ratios_are_what_they_say(void **state)
     restitute_material_destroy(steel);
 }
 
-/* Of two spheres the denser one has the slower waves, whichever is the first; of a partner held
- * fast nothing is known. */
+/* Of two spheres the denser one has the slower waves, in any order; the density of a fixed partner
+ * is unknown. */
 static void wave_speed_is_that_of_the_denser_sphere(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void flags_have_texts(void **state)
     CHECK(strcmp(restitute_flag_text(3), "unknown flag") == 0, "two flags are no flag");
 }
 
-/* What is passed stands in the message of a call that is done, and nothing else. */
+/* The message of a successful call names exactly the exceeded limits. */
 static void limits_that_are_passed_are_named(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@ static restitute_options bem_options(int64_t elements)
     restitute_options options = default_options();
     options.method = restitute_method_bem();
     options.elements = elements;
-    options.tolerance = 0.1; /* the grid is told: no complaint about its estimate */
+    options.tolerance = 0.1; /* the grid is prescribed: no remark about the estimate */
     return options;
 }
 
@@ -71,9 +71,8 @@ static void prony_and_flow(void **state)
     restitute_material_destroy(rebounds);
 }
 
-/* Fluids into which the sphere sinks for good. Its force fades until the iterations leave no cell
- * in contact, at speeds around the threshold of rest, 1e-5 at this tolerance: that is no
- * rebound. */
+/* Fluids into which the sphere sinks for good. The force decays until no cell is in contact, at
+ * speeds around the threshold of rest, 1e-5 at this tolerance. This counts as no rebound. */
 static void sinks_where_sync_does(void **state)
 {
     static const struct {
@@ -95,7 +94,7 @@ static void sinks_where_sync_does(void **state)
     }
 }
 
-/* Without slip the traction is singular at the rim. */
+/* Without slip the traction is singular at the edge of the contact. */
 static void no_slip(void **state)
 {
     (void)state;
@@ -163,7 +162,7 @@ static void explicit_steps(void **state)
     }
 }
 
-/* Terms out of all proportion are springs, or nothing: the elastic impact comes out, not a
+/* Extreme terms are springs, or nothing: the result is that of the elastic impact, not a
  * refusal. */
 static void extreme_terms(void **state)
 {
@@ -178,7 +177,7 @@ static void extreme_terms(void **state)
     }
 }
 
-/* Next to no instantaneous compliance: the steps ring, and the estimate knows. */
+/* Nearly no instantaneous compliance: the steps oscillate, and the estimate includes this. */
 static void ringing(void **state)
 {
     (void)state;

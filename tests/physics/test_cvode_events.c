@@ -71,8 +71,8 @@ static void events_come_in_order_and_change_nothing(void **state)
     CHECK_NEAR(-last->tangential_velocity / 0.8, s.result.ex, 1e-3, "the run with most elements");
 }
 
-/* theory.md, 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, whatever the solid; elastic:
- * D from the energy. */
+/* docs/theory.md, section 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, for any solid;
+ * elastic: D from the energy. */
 static void gross_slip_ends_once_and_everywhere(void **state)
 {
     const double cases[][3] = {{1.5, 0, 1}, {2.5, 0, 1}, {2, 1, 1}, {1.5, 0.3, 0}, {2.6, 0.5, 0.1}};

@@ -1,6 +1,6 @@
-/* The method `cvode` where relaxation is fastest against the impact, gamma = 1e-6, beside the
- * reduced normal equations, integrated here by Runge and Kutta's formulas in small steps and with
- * steps twice as large, which tells the error of that.
+/* The method `cvode` with very fast relaxation, gamma = 1e-6, compared with the reduced normal
+ * equations. These are integrated here by Runge and Kutta's formulas, with small steps and with
+ * steps twice as large for the error.
  *
  * Kelvin-Voigt (docs/sync.md, (3) and (9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta
  * sqrt(D) D']
@@ -134,10 +134,11 @@ static double reduced_ez(double theta, double gamma, double h)
     return -s.of[VELOCITY];
 }
 
-/* delta1 = 1e-6: tau = 1.5e-12 T, which no reference can resolve and none has to: the solid differs
- * from Kelvin-Voigt's by tau over the contact time. delta1 = 1e3: tau = 1.5e-3 T, a fourteenth of
- * the contact time, with a spring a million times as stiff as the other. The reference is good to
- * 1e-7, the method to its tolerance; that is a tenth of what 1e-5 would allow. */
+/* delta1 = 1e-6: tau = 1.5e-12 T. No reference resolves this, and none needs to: the solid differs
+ * from a Kelvin-Voigt solid by tau over the contact time. delta1 = 1e3: tau = 1.5e-3 T, a
+ * fourteenth of the contact time, with a spring a million times as stiff as the other. The
+ * reference is good to 1e-7, the method to its tolerance; that is a tenth of what 1e-5 would
+ * allow. */
 static void stiff_corner_follows_the_reduced_equations(void **state)
 {
     const struct {

@@ -83,7 +83,7 @@ struct curve {
     double tau[40], g[40], f[MOST], storage[MOST], loss[MOST], temperature[MOST];
 };
 
-/* tests/data/pib_prony.csv; its source stands in it. */
+/* tests/data/pib_prony.csv, which names its source. */
 static void read_series(struct curve *c)
 {
     char line[200];

@@ -49,8 +49,8 @@ static void elastic_impact_rebounds_with_ez_1(void **state)
 }
 
 /* A relaxation time far above the contact time: the dashpot is frozen and both springs act, G1 +
- * G2. Lengths and times scale like (1 + 1/gamma)^(-2/5). What is left of the damping: the bound
- * that merging states for it, 4 D^(5/2) (g/tau) t, and g/tau = 1/(gamma^2 theta). */
+ * G2. Lengths and times scale like (1 + 1/gamma)^(-2/5). The remaining damping is within the bound
+ * of merging, 4 D^(5/2) (g/tau) t, with g/tau = 1/(gamma^2 theta). */
 static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void damping_of_a_frozen_dashpot_falls_with_its_viscosity(void **state)
     CHECK_NEAR(lost[0] / lost[1], 100, 1 + 100 * 1e-5 / lost[1], "lost %g and %g", lost[0], lost[1]);
 }
 
-/* No friction: nothing changes the tangential motion, at all. */
+/* No friction: the tangential motion does not change. */
 static void without_friction_ex_is_minus_1(void **state)
 {
     (void)state;
@@ -101,8 +101,7 @@ static void without_friction_ex_is_minus_1(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* Elastic similarity decouples the normal problem: bit for bit the same, whatever happens
- * tangentially. */
+/* Elastic similarity decouples the normal problem: the same bits for any tangential motion. */
 static void normal_problem_does_not_feel_the_tangential_one(void **state)
 {
     (void)state;

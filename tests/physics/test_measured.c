@@ -95,8 +95,8 @@ static void aluminium_oxide_on_glass_rebounds_as_measured(void **state)
     CHECK(missed == 0, "%d of %d points missed", missed, count);
 }
 
-/* The error of the coarse mesh is 0.3 to 3 % from V_t/(mu V_n) = 1.89 up; below nothing is asserted
- * but the flag. For an elastic sphere radius, density and E of the steel do not matter to e_x; the
+/* The error of the coarse mesh is 0.3 to 3 % from V_t/(mu V_n) = 1.89 up; below, only the flag is
+ * checked. For an elastic sphere e_x does not depend on radius, density and E of the steel; the
  * wall is a million times stiffer. */
 static void elastic_sphere_on_a_rigid_wall_spins_as_by_finite_elements(void **state)
 {

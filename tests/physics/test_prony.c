@@ -137,7 +137,7 @@ static void order_and_splitting_of_terms_do_not_matter(void **state)
     restitute_material_destroy(c);
 }
 
-/* What merging does to the pair stays below its stated bound. The reference has the same terms at a
+/* The change of the pair by merging is below its bound. The reference has the same terms at a
  * tolerance so small that none is merged, with the elements and the step of the merged run, so that
  * only merging differs. */
 static void merging_changes_the_pair_by_less_than_its_bound(void **state)
@@ -172,9 +172,9 @@ static void merging_changes_the_pair_by_less_than_its_bound(void **state)
     CHECK(merged >= 300, "only %d of 720 terms merged: nothing tested", merged);
 }
 
-/* A contact that outlasts the time for which slow terms were merged is solved again with them: a
- * strong dashpot lets the sphere go so slowly that they relax meanwhile. The bound holds for the
- * contact time that came out. */
+/* If the contact lasts longer than the time for which slow terms were merged, it is solved again
+ * with these terms: with a strong dashpot the sphere leaves so slowly that they relax. The bound
+ * holds for the computed contact time. */
 static void slow_terms_count_in_long_contacts(void **state)
 {
     (void)state;

@@ -145,10 +145,10 @@ static double beside(const struct track *t, const double *values, double time, d
     return fmax(0, fmax(low - value, value - high));
 }
 
-/* Against euler at a tolerance of 3e-4. Its velocities are those after the step and that good; its
- * indentation is better. Its dashpots lag by a step, and without slip its last elements let go at
- * once, one by one: two per cent of the largest force. Its radii end at whole elements or are
- * continued from two of them, steps late: two elements, four steps. */
+/* Compared with euler at a tolerance of 3e-4, which is the error of its velocities after a step;
+ * its indentation is better. Its dashpots lag by a step. Without slip its last elements lose their
+ * force one by one: two per cent of the largest force. Its radii are those of whole elements, or
+ * extrapolated from two elements, some steps late: two elements, four steps. */
 static void samples_are_those_of_euler(void **state)
 {
     (void)state;

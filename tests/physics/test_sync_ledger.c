@@ -31,10 +31,9 @@ static struct restitute_ledger ledger_at(int64_t elements, int solid, double psi
     return solve_impact(sync_at(elements), impact_with(&all[solid], chi, psi)).ledger;
 }
 
-/* The walk that keeps the ledger has 256 elements at least, whatever the pair took, and closes to
- * second order (unit/test_sync_walk.c). Twice the worst that was measured over these scenes: 3.6e-5
- * in z, 5.8e-5 in x, 1.5e-4 where the contact slips in a ring that is narrower than five
- * elements. */
+/* The walk for the ledger has at least 256 elements, and its residual is of second order
+ * (unit/test_sync_walk.c). Twice the largest residual measured in these scenes: 3.6e-5 in z, 5.8e-5
+ * in x, 1.5e-4 where the slip ring is narrower than five elements. */
 static const double closure_z = 7e-5;
 
 static double closure_x(double psi)
@@ -79,8 +78,8 @@ static void dissipation_is_never_negative(void **state)
         }
 }
 
-/* Friction so strong that slip is left out has the ledger of no slip, as parts of psi^2, whatever
- * psi. */
+/* With friction so strong that slip is left out, the ledger is that without slip, in units of
+ * psi^2, for any psi. */
 static void so_is_that_of_strong_friction(void **state)
 {
     (void)state;
@@ -117,8 +116,8 @@ static void entries_are_those_of_euler(void **state)
         }
 }
 
-/* In full slip f is both force and friction: its work is that of two changes of momentum, whatever
- * the solid. The force is integrated in time to third order. */
+/* In full slip f is both force and friction: for any solid its work follows from two changes of
+ * momentum. The force is integrated in time to third order. */
 static void friction_of_full_slip_is_known(void **state)
 {
     (void)state;

@@ -281,8 +281,8 @@ static void check_same(const restitute_material *a, const restitute_material *b,
     }
 }
 
-/* What is left of the term: g t/tau, g tau^2, g, each with a factor of ten for what the pair makes
- * of it. Small enough that nothing is merged at 1e-7, so that the method sees the term. */
+/* Remaining effect of the term: g t/tau, g tau^2, g, each with a factor of ten for the effect on
+ * the pair. So small that nothing is merged at 1e-7, and the method computes with the term. */
 static void limits_of_single_terms_hold(void **state)
 {
     const double slow_tau[] = {0.5, 3e6}, slow_g[] = {0.7, 0.4}, fast_tau[] = {1e-5, 0.5}, fast_g[] = {2e4, 0.7},
@@ -318,7 +318,7 @@ static void a_term_may_be_split(void **state)
 }
 
 /* e_z = 0, and e_x = 0 unless slip persists: then (27) with e_z = 0, beyond psi_c = 2 chi. The
- * default method knows it too, to its 1e-3. */
+ * default method agrees within 1e-3. */
 static void maxwell_body_with_a_short_time_never_rebounds(void **state)
 {
     const double tau[] = {0.2}, g[] = {1}, chis[] = {0.55, 7.0 / 6, 3}, factors[] = {0, 0.1, 0.99, 1.01, 3};
@@ -465,8 +465,8 @@ static void friction_work_has_the_first_layer_of_fast_arms(void **state)
     }
 }
 
-/* What collocation leaves of the layer at the end of the first panel goes on in the next ones:
- * without that, 3.4e-5. */
+/* The remainder of the layer at the end of the first panel continues in the next ones: without
+ * that, 3.4e-5. */
 static void first_layer_goes_on_in_later_panels(void **state)
 {
     (void)state;
@@ -526,8 +526,8 @@ static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
     }
 }
 
-/* A weak dashpot holds the edge back for a moment at the turning point, which finer runs resolve
- * worse and worse: rounding must not be taken for a sphere that stays. */
+/* A weak dashpot delays the edge at the turning point for a short time. Finer runs resolve this
+ * less well: rounding must not be taken for a sphere that stops. */
 static void nearly_elastic_spheres_rebound(void **state)
 {
     const double tolerances[] = {1e-1, 1e-3, 2.5e-5, 1e-6};

@@ -1,6 +1,5 @@
 /* The method `sync` against the reference impacts of tests/data at every tolerance, and its error
- * estimate against the true error. All of it takes a few seconds, so nothing is left out with
- * sanitizers.
+ * estimate against the true error. It takes a few seconds, so all of it also runs with sanitizers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
@@ -119,8 +118,8 @@ static void estimate_is_below_the_tolerance_or_the_status_says_so(void **state)
         }
 }
 
-/* At most one in twenty has an estimate below its true error (so few rows do not tell at each
- * tolerance), and none below a tenth of it. */
+/* At most one in twenty has an estimate below its true error (there are too few rows to check this
+ * at each tolerance), and none below a tenth of it. */
 static void estimated_error_covers_the_true_one(void **state)
 {
     int low = 0, too_low = 0;
@@ -165,8 +164,8 @@ static void estimated_error_is_not_far_above_the_true_one(void **state)
 }
 
 /* The depth is integrated with e_z and as exact; 1e-10 is what the file prints, and rounding of
- * some thousand steps. The end of contact is where a solid that hardly pushes any more lets go: a
- * velocity wrong by the tolerance shifts it by tolerance/ez, a part of the contact time. */
+ * some thousand steps. At the end of contact the force is nearly zero: an error of the velocity by
+ * the tolerance shifts it by tolerance/ez of the contact time. */
 static void largest_indentation_and_contact_time_are_right(void **state)
 {
     int missed = 0;

@@ -4,7 +4,7 @@
 #include "../support/data.h"
 #include "../support/solve.h"
 
-/* What the default method promises for every impact of its domain. */
+/* The accuracy of the default method for every impact of its domain. */
 static const double promised = 1e-3;
 
 static struct truth rows[truth_rows];

@@ -110,7 +110,7 @@ static void relaxation_of_the_pair_is_that_of_the_volterra_equations(void **stat
     }
 }
 
-/* Two like bodies are half as stiff, in every respect. */
+/* Two equal bodies are half as stiff in every direction. */
 static void a_pair_of_one_material_is_half_of_it(void **state)
 {
     (void)state;
@@ -179,9 +179,8 @@ static void a_hard_partner_is_nearly_rigid(void **state)
     restitute_material_destroy(pair);
 }
 
-/* Rates next to each other, and a partner that is rigid for all that a double knows: each term
- * survives, and the pair is half of it, or the soft one. 1e-12: rounding of a sum of a few
- * terms. */
+/* Neighbouring rates, and a partner that is rigid to rounding: no term is lost, and the pair is
+ * half of the solid, or the soft one. 1e-12: rounding of a sum of a few terms. */
 static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state)
 {
     (void)state;
@@ -212,7 +211,7 @@ static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state
     }
 }
 
-/* The solid of two bodies is no body of its own. */
+/* A pair is refused as one of the materials of a pair. */
 static void a_pair_is_not_halved_or_paired_again(void **state)
 {
     (void)state;
@@ -240,8 +239,8 @@ static void dashpots_and_bad_arguments(void **state)
     CHECK(restitute_material_kelvin_voigt(3, 2, 0.5, &voigt, NULL) == 0, "voigt");
     CHECK(restitute_material_maxwell(5, 1, 0.5, &maxwell, NULL) == 0, "maxwell");
     restitute_material *both = pair_of(voigt, voigt), *mixed = pair_of(voigt, maxwell);
-    /* two like Kelvin-Voigt bodies are one; with a Maxwell body in series nothing carries for
-     * ever */
+    /* two equal Kelvin-Voigt bodies are one; in series with a Maxwell body there is no equilibrium
+     * modulus */
     CHECK(restitute_material_terms(both) == 0 && restitute_material_modulus(both, 1) == 1.5, "Kelvin-Voigt pair");
     CHECK(restitute_material_terms(mixed) == 2 && restitute_material_modulus(mixed, 1e9) == 0, "mixed pair");
     /* at first the dashpot is rigid */

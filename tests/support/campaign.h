@@ -215,7 +215,7 @@ static inline restitute_impact strong_damping_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* Spheres that lose next to nothing, so that they rebound as they came. */
+/* Spheres that lose nearly nothing, so e_z is nearly 1. */
 static inline restitute_impact nearly_elastic_corner(struct campaign_draw *d)
 {
     restitute_impact impact = impact_of(7.0 / 6, 0, random_log(&d->random, 1e-12, 1e-4), 0);
@@ -251,7 +251,8 @@ static inline restitute_impact large_chi_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* Solids that are refused are none: nothing resists, or delta1 of the dashpot is above 1e12. */
+/* Solids that the library refuses: no modulus and no viscosity, or delta1 of the dashpot above
+ * 1e12. */
 static inline int is_accepted(const restitute_material *solid)
 {
     double eta;

@@ -22,8 +22,7 @@ static inline restitute_options sync_with(int64_t elements)
     return options;
 }
 
-/* What a call must not leave open: the tolerance is met by the estimates, or the status says that
- * it is not. */
+/* The estimates are below the tolerance, or the status says that they are not. */
 static inline int estimate_keeps_tolerance(const struct solution *s, double tolerance)
 {
     if (s->status == RESTITUTE_TOLERANCE_NOT_REACHED) return 1;

@@ -1,5 +1,5 @@
-/* No call with valid input raises what a host may trap, and all that it gives is finite: for every
- * method the same sweeps.
+/* No call with valid input raises a floating-point exception that a program may trap, and all
+ * results are finite. All methods run the same sweeps.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_TRAPS_H
 #define TEST_TRAPS_H

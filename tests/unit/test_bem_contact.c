@@ -83,7 +83,8 @@ static void hertz(void **state)
         const double r = sqrt(radius2(i, spacing));
         contact += x[i] > 0;
         if (r < 0.9) worst = fmax(worst, fabs(x[i] / spacing - 8 / pi * sqrt(1 - r * r)));
-        /* the radius, by cells: none beyond one cell of the edge is on the wrong side of it */
+        /* the radius, by cells: all cells more than one cell from the edge are on the right side of
+         * it */
         if (r < 1 - spacing) CHECK(x[i] > 0, "no contact at r = %g", r);
         if (r > 1 + spacing) CHECK(x[i] <= 0, "contact at r = %g", r);
     }

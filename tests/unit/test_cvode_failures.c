@@ -1,6 +1,6 @@
-/* What goes wrong inside the method `cvode`: failures of CVODE itself come back with its words,
- * storms and endless runs with ours, and nothing is ever printed. The failures are made here: a
- * right-hand side that gives no numbers, limits that a sound run passes.
+/* Failures inside the method `cvode`. Failures of CVODE are reported with its text, too many events
+ * and endless runs with ours. Nothing is printed. The failures are provoked: a right-hand side
+ * without a finite value, limits below those of a normal run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -42,7 +42,7 @@ static long captured(struct capture *c)
     return written;
 }
 
-/* y' = -y, for so many evaluations: from then on it has no value. */
+/* y' = -y for a number of evaluations; after them it has no value. */
 struct decay {
     long calls, most;
 };
@@ -217,7 +217,7 @@ static void runs_without_end_are_ended_and_say_why(void **state)
     }
 }
 
-/* What becomes of it in a call: the status and the words. */
+/* The result of a call: the status and the message. */
 static void a_call_hands_on_the_words_of_cvode(void **state)
 {
     const struct rst_problem problem = {.chi = 8,

@@ -8,9 +8,9 @@
 
 /* ---- front */
 
-/* Cattaneo and Mindlin, loaded at an angle: D' = 1 and U' = beta < 1 to D1, where all sticks; then
- * D stays and U goes on to U1. With q = U1 - beta X^2 in stick c^2 = (D1 - U1)/(1 - beta) and H =
- * (2/3)(1 - beta) c^3. */
+/* Cattaneo and Mindlin, oblique loading: D' = 1 and U' = beta < 1 up to D1, while all elements
+ * stick; then D is constant and U increases to U1. With q = U1 - beta X^2 in stick c^2 = (D1 -
+ * U1)/(1 - beta) and H = (2/3)(1 - beta) c^3. */
 static void front_of_cattaneo_and_mindlin(void **state)
 {
     (void)state;
@@ -22,9 +22,9 @@ static void front_of_cattaneo_and_mindlin(void **state)
                 const double b = side * beta, u1 = side * (b * d1 + load * (d1 - b * d1)), m[2] = {d1, u1};
                 double out[4], c = sqrt((d1 - side * u1) / (1 - b));
                 probe_front(1, &g, &rate, 0, beta, d1, d1, m, -1, side, out);
-                /* the search ends where 1e-4 of a slack is left, and goes on linearly: c is then
-                 * off by some 1e-8 of itself, and H by 1e-12 at most; the last of Newton's steps is
-                 * better than it has to be */
+                /* the search ends where the stick margin is 1e-4, and continues linearly: the
+                 * relative error of c is then about 1e-8, that of H at most 1e-12; the last Newton
+                 * step is better than needed */
                 CHECK_NEAR(out[0], c, 0.6e-7 * c, "c, beta = %g, side %d, load %g", beta, side, load);
                 CHECK_NEAR(out[1], 2.0 / 3 * (1 - b) * c * c * c, 1e-14, "H, beta = %g, side %d, load %g", beta, side,
                            load);
@@ -113,7 +113,7 @@ static void recorded_tangential_motions_are_met(void **state)
     CHECK(solved == partial - 1, "%d of %d rows solved by a front", solved, partial);
 }
 
-/* A foundation of elements, driven by velocities that are known, with one arm beside the spring. */
+/* A foundation of elements with prescribed velocities, and one arm parallel to the spring. */
 enum { elements = 600, substeps = 40 };
 
 struct foundation {
@@ -156,9 +156,8 @@ static double drive(struct foundation *f, double h, double d0, double d1, const 
     return total;
 }
 
-/* S and the stick radius behind the front against elements that know of no front: they are driven
- * by the D' and U' that were found, and each slips by itself when its trial force exceeds its
- * friction limit. */
+/* S and the stick radius behind the front, compared with elements without a front. These have the
+ * computed D' and U', and each slips when its trial force exceeds its friction limit. */
 static void front_is_that_of_a_foundation(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The normal motion that a plan or a batch keeps: when a run of the method sync stays, and when it
- * is solved anew.
+/* The normal motion that a plan or a batch keeps: when a run of the method sync is kept, and when
+ * it is solved again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/check.h"
 #include "sync/motion.h"

@@ -221,9 +221,9 @@ static void elastic_impact_keeps_its_energy_and_is_symmetric(void **state)
     CHECK_NEAR(out[RADIUS], 0, DBL_EPSILON, "the edge is back at the centre");
 }
 
-/* Kelvin-Voigt by itself: the compression in the root sigma of time with the force (2/3) A^3 +
- * theta A D', the restitution D'' = -(5/4)(D + theta D')^(3/2), which ends where D + theta D' =
- * 0. */
+/* Kelvin-Voigt without the library: the compression in the root sigma of time with the force (2/3)
+ * A^3 + theta A D', the restitution D'' = -(5/4)(D + theta D')^(3/2), which ends where D + theta D'
+ * = 0. */
 static void voigt_rates(int back, double theta, double sigma, const double y[2], double out[2])
 {
     if (back) { /* D, D' over time */

@@ -26,7 +26,7 @@ static const struct motion *motion_of(const struct solid *s, int n, int n1, doub
 
 static double body[(most_nodes + walk_lanes) * walk_columns];
 
-/* The room holds NaN: nothing of it may be read before it is written. */
+/* The workspace holds NaN: no value may be read before it is written. */
 static void follow(const struct solid *s, const struct motion *m, const struct walk *walk, struct result *result)
 {
     static double stress[(most_nodes + walk_lanes) * (most_terms + 1) * 2];
@@ -187,7 +187,7 @@ static void without_slip_a_heavy_body_strains_each_element_evenly(void **state)
     }
 }
 
-/* To second order, and none of its parts is negative. */
+/* To second order, and no part of it is negative. */
 static void ledger_closes(void **state)
 {
     (void)state;
