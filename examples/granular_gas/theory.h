@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * What the kinetic theory of a homogeneous cooling gas of smooth spheres says, in the units of
- * gas.h. */
+ * Kinetic theory of a homogeneous cooling gas of smooth spheres, in the units of gas.h. */
 #ifndef THEORY_H
 #define THEORY_H
 
@@ -11,9 +10,9 @@
  * Ernst (1998). */
 double theory_haff(double ez, double start, double time);
 
-/* The temperature that `start` has become after `time` in a gas of frictionless spheres of any
- * ez(v), whose velocities are taken to be Maxwell's: dT/dt = -(omega/3) A(T) T, omega = 4
- * sqrt(T/pi), A = <1 - ez^2>. */
+/* The temperature after `time`, from `start`, in a gas of frictionless spheres of any ez(v), with
+ * Maxwell's velocity distribution: dT/dt = -(omega/3) A(T) T, omega = 4 sqrt(T/pi), A = <1 -
+ * ez^2>. */
 double theory_frictionless(const struct gas_law *law, double start, double time);
 
 #endif

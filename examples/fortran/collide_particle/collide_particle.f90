@@ -1,6 +1,6 @@
-!> A hollow rubber ball with topspin hits the floor: velocities and spin after it, as a DEM code
-!> wants them. Its mass and moment of inertia are its own; the thick shell is taken to deform like a
-!> solid ball.
+!> A hollow rubber ball with topspin hits the floor: velocities and spin after the impact, as a DEM
+!> code needs them. Mass and moment of inertia are those of a shell; the thick shell is assumed to
+!> deform like a solid ball.
 program collide_particle
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use restitute
@@ -25,7 +25,7 @@ program collide_particle
   ball%inertia = 0.5_rk*ball%mass*ball%radius**2       ! between solid, 2/5, and thin shell, 2/3
   ball%position = [0.0_rk, 0.0_rk, 0.01_rk]
   ball%velocity = [1.0_rk, 0.5_rk, -2.0_rk]            ! m/s
-  ball%spin = [0.0_rk, 150.0_rk, 20.0_rk]              ! rad/s; about z: a twist, which stays
+  ball%spin = [0.0_rk, 150.0_rk, 20.0_rk]              ! rad/s; the spin about z does not change
   contact = restitute_contact()
   contact%material = rubber
   contact%deformable = RESTITUTE_ONE_BODY_DEFORMS
@@ -36,7 +36,7 @@ program collide_particle
   print "(2(a, f5.3))", "ez = ", result%ez, ", ex = ", result%ex
   print "(a, 3f8.3)", "velocity", ball%velocity
   print "(a, 3f8.2)", "spin    ", ball%spin
-  do bit = 0, 3 ! what the model is strained by, in words
+  do bit = 0, 3 ! exceeded limits of the model
     if (btest(result%flags, bit)) print "(2a)", "note: ", restitute_flag_text(2**bit)
   end do
   call restitute_solver_destroy(solver)
