@@ -27,8 +27,7 @@ static const double most_ringing_error = 0.1, damped_enough = 0.005;
 static const double falls_to = 0.9;
 
 /* Steps of an impact: with 60 cells over the radius if both are chosen here; with any number of
- * cells if that is prescribed.
- * */
+ * cells if that is prescribed. */
 static const double usual_elements = 60, usual_steps = 200;
 
 /* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for

@@ -6,8 +6,7 @@
 #include "bem/transform.h"
 
 /* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x
- * m in lines of ld.
- * */
+ * m in lines of ld. */
 struct bem_bounded {
     struct bem_transform *transform;
     enum bem_kind kind;

@@ -10,8 +10,7 @@
 static const int64_t coarse = 16, coarse_steps = 40;
 
 /* The grid is this times the guessed radius. A run whose contact fills less than the second value
- * is repeated.
- * */
+ * is repeated. */
 static const double generous = 1.15, least_part = 0.6;
 
 /* The guess of the time is more accurate than this factor. */

@@ -19,10 +19,10 @@ static const double looser = 10, share_of_change_ez = 0.3;
 /* Rounding in CVODE's predictions. */
 static const double closest = 1e-13;
 
-/* The trapezium rule is of second order: a third of the change from half as many elements is taken
- * off. The estimate follows from the change of this result from half as many elements. A change may
- * be small by chance, so the error of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is
- * added. */
+/* The trapezoidal rule is of second order: a third of the change from half as many elements is
+ * taken off. The estimate follows from the change of this result from half as many elements. A
+ * change may be small by chance, so the error of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2),
+ * is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
 /* e_x differs from that without slip by at most this times psi (docs/records/accuracy.md), which is
@@ -116,8 +116,7 @@ static void add_work(struct cvode_memory *memory, const struct run *run)
 }
 
 /* The normal motion alone, once with `looser` times the error and once with the wanted error. Its
- * trace stays in memory.
- * */
+ * trace stays in memory. */
 static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
                         restitute_error *error)
 {
@@ -279,8 +278,7 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
 }
 
 /* Double the elements until the pair converges. If that is impossible, return the present pair with
- * a remark.
- * */
+ * a remark. */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {

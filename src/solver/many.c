@@ -123,8 +123,7 @@ static int report_first(const struct batch *batch, const struct worker *workers,
 }
 
 /* The struct_size of the first struct is the stride of the array. If it is wrong, no other struct
- * can be found.
- * */
+ * can be found. */
 static int check_batch(const struct batch *batch, int threads, restitute_error *error)
 {
     if (threads < 0 || threads > most_threads)

@@ -43,7 +43,7 @@ enum { rst_finest = 4 };
 /* Number of midpoints of the finest cells that are solved. Their largest difference is the
  * remaining error along psi. */
 enum { rst_last_probes = 3 };
-/* Share of the impacts, and of the time, that is reserved for the checks. */
+/* Share of the impacts, and of the time, for refinement. The rest is for the checks. */
 static const double rst_for_refining = 0.8;
 /* Cells whose error is within this factor of the largest are halved together. */
 static const double rst_together = 8;

@@ -140,7 +140,7 @@ static void families_agree(void **state)
     }
 }
 
-/* The accounts are kept by the trapezium rule over steps and over at least 256 elements: the
+/* The accounts are kept by the trapezoidal rule over steps and over at least 256 elements: the
  * residual is theirs, not the pair's. */
 static void energy_is_accounted_for(void **state)
 {
