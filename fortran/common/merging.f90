@@ -2,7 +2,7 @@
 !> section 7).
 !>
 !> A term that hardly relaxes within the contact is added to G_inf; one that relaxes at once is
-!> added to eta with g tau. Costs are bounds on the energy of the change in units of the impact
+!> added to eta as g tau. The bounds are on the energy of the change, in units of the impact
 !> energy, with D' <= 1:
 !>   slow: the modulus changes by at most g t/tau; over loading and unloading that is worth 2 D_max^(5/2) of it
 !>   fast: the stress changes by g tau^2 u'' and, after entry, g tau u' exp(-t/tau); together at most

@@ -143,7 +143,7 @@ static void plane_is_the_sum(void **state)
     rst_bem_plane_destroy(plane);
 }
 
-/* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from
+/* The preconditioner returns what was convolved, but for images and the edge: a smooth bump far from
  * the side within a few percent. */
 static void preconditioner_inverts(void **state)
 {
