@@ -143,8 +143,8 @@ static void plane_is_the_sum(void **state)
     rst_bem_plane_destroy(plane);
 }
 
-/* The preconditioner returns what was convolved, but for images and the edge: a smooth bump far from
- * the side within a few percent. */
+/* The preconditioner returns what was convolved, but for images and the edge: a smooth bump far
+ * from the side within a few percent. */
 static void preconditioner_inverts(void **state)
 {
     enum { m = 32 };

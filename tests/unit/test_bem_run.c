@@ -164,8 +164,8 @@ static void stick_sets_agree_with_bounds(void **state)
 }
 
 /* The order in the cells, from 8 to 64 over the side of the box, against 128. The largest depth is
- * the smoothest of what a run gives: measured 1.98; whole cells at the edge cost 3/2 in single steps
- * of it, two on the average. Velocities stay within the estimates of the method. */
+ * the smoothest of what a run gives: measured 1.98; whole cells at the edge cost 3/2 in single
+ * steps of it, two on the average. Velocities stay within the estimates of the method. */
 static void converges_with_the_grid(void **state)
 {
     enum { grids = 4 };
