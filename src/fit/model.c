@@ -15,7 +15,7 @@ enum { BATCH = 200 };
  * the sphere sinks in. */
 static const double widest = 18.4; /* ln 1e8 */
 
-/* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
+/* 2.9432751843 T is the elastic contact time (docs/theory.md, section 12). */
 static const double elastic_time = 2.9432751843;
 
 /* The plan has T for 1 Pa and Poisson's ratio 1/2. By (24) T^2.5 is proportional to (1 -
