@@ -1,4 +1,5 @@
-/* The curves of docs/figures/sync-panels.svg: one impact as the method `sync` sees it, in the plane of time and radius.
+/* The curves of docs/figures/sync-panels.svg: one impact as the method `sync` sees it, in the plane
+ * of time and radius.
  *
  *     sync_panels curves   s, A, c a line; empty lines between pieces
  *     sync_panels points   s, A of the points of the panels and, third, 1 at an end of a panel

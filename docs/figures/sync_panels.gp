@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The figure of docs/sync.md from what `sync_panels` prints: gnuplot -e "curves='DIR'; figures='DIR'" sync_panels.gp
+# The figure of docs/sync.md from what `sync_panels` prints: gnuplot -e "curves='DIR';
+# figures='DIR'" sync_panels.gp
 set terminal svg size 720,460 font "Helvetica,14" background "white"
 set output figures."/sync-panels.svg"
 set border lw 1

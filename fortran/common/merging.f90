@@ -1,13 +1,16 @@
-!> Merging of relaxation times that a contact of a given length cannot feel (docs/theory.md, section 7).
+!> Merging of relaxation times that do not matter in a contact of a given duration (docs/theory.md,
+!> section 7).
 !>
-!> A term that hardly relaxes within the contact joins G_inf; one that has long relaxed joins eta at constant g tau.
-!> Costs are bounds on the energy of the change in units of the impact energy, with D' <= 1:
+!> A term that hardly relaxes within the contact is added to G_inf; one that relaxes at once is
+!> added to eta as g tau. The bounds are on the energy of the change, in units of the impact
+!> energy, with D' <= 1:
 !>   slow: the modulus changes by at most g t/tau; over loading and unloading that is worth 2 D_max^(5/2) of it
 !>   fast: the stress changes by g tau^2 u'' and, after entry, g tau u' exp(-t/tau); together at most
 !>         (3/2) g tau^2 an element, (15/4) of it integrated over the contact radius A_max
-!> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on e_z and e_x is
-!> 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has, the tangential oscillation is so fast
-!> that u'' outgrows its normal counterpart: there the fast part counts chi/4 times.
+!> They act in z, and in x with 2 chi times the weight and through the friction limit: the bound on
+!> e_z and e_x is 2 max(1, chi) times the sum. Above chi = 4, which no solid or hollow sphere has,
+!> the tangential oscillation is so fast that u'' outgrows its normal counterpart: there the fast
+!> part counts chi/4 times.
 module rst_merging
   use rst_motion_factors, only: shear_factor
   use rst_precision, only: dp, ip

@@ -1,4 +1,5 @@
-/* One impact as every method sees it: in the units of docs/theory.md, section 2, with friction, sliding and solid settled.
+/* One impact as the input of every method, in the units of docs/theory.md, section 2. Friction,
+ * sliding and solid are already decided.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_PROBLEM_H
 #define RST_PROBLEM_H
@@ -54,7 +55,7 @@ static inline double rst_time_left(const struct rst_problem *problem)
     return problem->clock ? problem->deadline - problem->clock() : INFINITY;
 }
 
-/* Whether there is no time for `times` as much as was done since `before` seconds were left. */
+/* Whether the time left is less than `times` the time spent since `before` seconds were left. */
 static inline int rst_lacks_time(const struct rst_problem *problem, double times, double before)
 {
     if (!problem->clock) return 0;
@@ -62,7 +63,7 @@ static inline int rst_lacks_time(const struct rst_problem *problem, double times
     return left < times * (before - left);
 }
 
-/* A limit that is spent, as messages name it. */
+/* An exceeded limit, as text for messages. */
 struct rst_limit {
     char text[48];
 };
@@ -116,7 +117,8 @@ extern const double rst_largest_chi;
 /* The parallel dashpot is not stronger than delta1 may be. */
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error);
 
-/* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
+/* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid,
+ * and at least 1. */
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
 
 /* Velocity at which the contact point slides before the impact, m/s, with the sign of the scene. */

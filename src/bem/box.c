@@ -1,4 +1,7 @@
-/* Box and duration. Runs on a coarse grid correct the first guess, that of all methods, until they fit into their box.
+/* Size of the grid and duration. First guess: the impact on an elastic solid with the modulus at
+ * the time of the impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units
+ * formed with its own modulus, at the time 1.47). Runs on a coarse grid correct it until the
+ * contact fits the grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/box.h"
 
@@ -6,11 +9,11 @@
 
 static const int64_t coarse = 16, coarse_steps = 40;
 
-/* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again.
- * */
+/* The grid is this times the guessed radius. A run whose contact fills less than the second value
+ * is repeated. */
 static const double generous = 1.15, least_part = 0.6;
 
-/* The guess of the time is far less wrong than this. */
+/* The guess of the time is more accurate than this factor. */
 static const double far_off = 1e6;
 
 enum { most_tries = 60 };
@@ -34,7 +37,8 @@ void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double
     *longest = time * far_off;
 }
 
-/* By the steps of second order, whatever the variant: explicit ones may need so many that no search ends. */
+/* With steps of second order for every variant: explicit steps may need so many that the search
+ * would not end. */
 int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
                      struct bem_box *box)
 {

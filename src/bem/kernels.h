@@ -1,4 +1,4 @@
-/* The Fortran procedures of the component; see fortran/bem.
+/* The Fortran procedures of the component; see the folder fortran/bem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_KERNELS_H
 #define BEM_KERNELS_H

@@ -1,4 +1,4 @@
-/* Snapshots of the fields, the quarter that is computed unfolded to the whole grid.
+/* Snapshots of the fields. The computed quarter is reflected to the whole grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/bem.h>
 

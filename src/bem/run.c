@@ -1,5 +1,5 @@
-/* The impact in steps of time: velocity Verlet for the sphere (5), in each step the normal problem for p and then the
- * tangential one for tau (docs/bem.md). All is of second order in the step.
+/* Time stepping of the impact: velocity Verlet for the sphere (5); in each step the normal problem
+ * for p, then the tangential one for tau (docs/bem.md). All is of second order in the step.
  *   D'' = -(15/64) int p dA,   U'' = -(15/32) chi int tau dA,   u_x = (3/2) U where it sticks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/run.h"
@@ -22,10 +22,11 @@ static double shear_mass_factor(const struct bem_setup *setup)
     return rst_mass_factor() / 4 * setup->problem->chi;
 }
 
-/* Contact is sought this many cells beyond where it will be, if it goes on as it went. */
+/* Contact is sought this many cells beyond its extrapolated edge. */
 static const double reach = 3;
 
-/* The energy bounds velocities by those at first touch; more means that the step is unstable. */
+/* Energy conservation bounds velocities by those at first touch. Larger ones mean that the step is
+ * unstable. */
 static const double most_speed = 1.05;
 
 static void swap_in(double **before, double **now, double **new)
@@ -41,7 +42,7 @@ static int is_elastic(const struct bem_solid *solid)
     return solid->n_terms == 0 && !(solid->flow > 0);
 }
 
-/* Sizes whose transforms are fast and that are not too many. */
+/* Sizes with fast transforms; not too many of them. */
 static int64_t size_for(double cells, int64_t most)
 {
     static const int64_t sizes[] = {8, 12, 16, 20, 24, 30, 36, 40, 48, 54, 60, 64, 72, 80, 90, 96, 108, 120, 128};
@@ -59,7 +60,8 @@ static double radius_of(double area)
     return sqrt(area / 3.14159265358979323846);
 }
 
-/* Gap and s of an elastic solid on a larger part of the grid, from the tractions of the last two steps. */
+/* Gap and s of an elastic solid on a larger part of the grid, from the tractions of the last two
+ * steps. */
 static void look_back(struct bem_stepper *s, const double *p, const double *tau, const struct bem_motion *motion,
                       double *gap, double *s_field)
 {
@@ -76,7 +78,7 @@ static void look_back(struct bem_stepper *s, const double *p, const double *tau,
     s->run->updates += 8 * m * m;
 }
 
-/* Nothing is left of what was outside of the first m cells. */
+/* Clear everything outside the first m cells. */
 static void clear_beyond(int64_t ld, int64_t m, double *x)
 {
     for (int64_t j = 0; j < m; j++)
@@ -84,9 +86,9 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
     memset(x + m * ld, 0, (size_t)((ld - m) * ld) * sizeof *x);
 }
 
-/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the
- * grid: where contact will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the
- * result. */
+/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps
+ * it on the whole grid: where contact will be, and where it was, for the ledger. A ledger does not
+ * change the bits of the result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
@@ -110,7 +112,8 @@ static int choose_part(struct bem_stepper *s, int64_t least)
     return !s->all;
 }
 
-/* The normal problem, on a larger part of the grid if the contact reaches the side of the chosen one. */
+/* The normal problem, on a larger part of the grid if the contact reaches the border of the present
+ * part. */
 static enum bem_end press(struct bem_stepper *s, double depth, double shift)
 {
     for (;;) {
@@ -188,14 +191,14 @@ static int rests(const struct bem_stepper *s)
            normal_mass_factor() * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
-/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact
- * too. */
+/* Whether a sphere without force leaves. For a sphere that nearly rests, the iterations may also
+ * leave no cell in contact. */
 static int leaves(const struct bem_stepper *s)
 {
     return !s->setup->problem->solid.can_sink || s->motion.velocity <= -s->setup->rest_speed;
 }
 
-/* From sums to parts of the energies that came in; u_x = 1.5 U. */
+/* From sums to fractions of the energies before the impact; u_x = 1.5 U. */
 static void scale_work(const struct bem_setup *setup, struct bem_work *work)
 {
     const double z = 2 * normal_mass_factor(), x = 2 * shear_mass_factor(setup);

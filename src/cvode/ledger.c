@@ -1,5 +1,6 @@
-/* The energy ledger of the method cvode (theory.md, 8): the run once more, with what dissipates and what leaves added up
- * by the trapezium rule over CVODE's steps and over the elements that leave.
+/* The energy ledger of the method cvode (theory.md, 8): the run is repeated. Dissipation and the
+ * energy of elements that leave are added up by the trapezoidal rule over CVODE's steps and over
+ * the elements that leave.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
@@ -9,11 +10,11 @@
 #include "base/report.h"
 #include "cvode/solve.h"
 
-/* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
- * others. */
+/* Largest and smallest number of elements of a ledger. It is a check, and needs no more even if the
+ * pair did. */
 static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
-/* What has been added up, and what was last seen. */
+/* The sums, and the values at the last step. */
 struct bookkeeper {
     struct rst_ledger ledger;
     double rate[3], square;

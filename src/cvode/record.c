@@ -1,4 +1,5 @@
-/* The history of an impact by the method cvode: the run once more, sampled evenly by CVODE's own interpolation.
+/* The history of an impact by the method cvode: the run once more, sampled evenly by CVODE's own
+ * interpolation.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 

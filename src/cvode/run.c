@@ -1,8 +1,10 @@
-/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it (docs/theory.md, section 4).
+/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it
+ * (docs/theory.md, section 4).
  *
- * CVODE starts anew at first touch, when gross slip ends, at the largest indentation, where the formula of the force
- * changes, and where elements that stick again would otherwise have been taken to slip for too long a part of a step.
- * Entries, exits and stick -> slip leave the right-hand side continuous and do not interrupt it.
+ * CVODE restarts at the end of gross slip and at the largest indentation, where the formula of the
+ * force changes. It also restarts where elements stick again, if treating them as slipping for the
+ * rest of the step would be too inaccurate. At entries, exits and stick -> slip the right-hand side
+ * is continuous, and CVODE is not interrupted.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "cvode/run.h"
 
@@ -16,26 +18,27 @@
 /* Root functions before those of the elements. */
 enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 
-/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root of the error of a
- * step: Hermite's cubic between them, of fourth order, then errs by less than a hundredth of that. */
+/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root
+ * of the error of a step: Hermite's cubic between them, of fourth order, then errs by less than a
+ * hundredth of that. */
 static const double knot_factor = 0.5;
 
-/* Functions of elements that are 0 by construction are shifted by this part of the allowed error, so that CVODE does
- * not take them for events; an element changes its motion that much later. */
+/* Functions of elements that are 0 by construction are shifted by this share of the allowed error,
+ * so that CVODE does not report events. An element changes its motion later by as much. */
 static const double shift_of_root = 1e-3;
 
-/* A step after which elements prove to have stuck for a while is taken back if that changed U' by more than this part
- * of the error allowed. */
+/* If some elements already stuck within a step, the step is repeated if this changed U' by more
+ * than this share of the allowed error. */
 static const double late_part = 1;
 
-/* The velocity of a sphere that may sink in is followed more closely where it is small: it must not pass through 0 by
- * errors while it is told from rest_speed. */
+/* A small velocity of a sphere that may sink in is computed more accurately: errors must not change
+ * its sign while it is compared with rest_speed. */
 static const double sinking_scale = 0.02;
 
-/* Below this psi tangential stresses are small beside the normal ones almost everywhere. */
+/* Below this psi tangential stresses are much smaller than normal ones almost everywhere. */
 static const double mostly_sticks = 0.2;
 
-/* How many times the error of a step the states may be off (docs/cvode.md). */
+/* Error of the states over the error of a step (docs/cvode.md). */
 static const double error_margin = 100;
 
 static size_t position_of_shear(const struct cvode_scene *scene)
@@ -49,6 +52,7 @@ double rst_run_velocity(const struct run *run, const double *y)
     return y[1];
 }
 
+/* In gross slip U' follows from D' (27); without friction U' is constant. */
 double rst_run_shear_velocity(const struct run *run, const double *y)
 {
     if (run->shears) return y[position_of_shear(&run->scene) + 1];
@@ -84,7 +88,7 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
                           e->layer, t, y, rate, &run->sums);
 }
 
-/* ------------------------------------------------------------------------------------------------ what CVODE calls */
+/* ---- what CVODE calls */
 
 static int call_rates(void *owner, double t, const double *y, double *rate)
 {
@@ -101,7 +105,7 @@ static double error_scale(const struct run *run)
     return run->setup->closeness * fmin(1, run->setup->problem->shear_speed);
 }
 
-/* What counts as 0 where something is 0 by construction. */
+/* Threshold below which a value that is 0 by construction counts as 0. */
 static double nearly(const struct run *run)
 {
     return shift_of_root * error_scale(run);
@@ -113,7 +117,7 @@ static void call_roots(void *owner, double t, const double *y, double *value)
     const struct elements *e = &run->elements;
     evaluate(run, t, y, run->scratch);
     value[ROOT_PHASE] = run->scene.restitution ? run->contact.square : y[1];
-    value[ROOT_SLIP_END] = run->shears ? 1 : y[1] - run->slip_end; /* behind it D' may stay there: refused by CVODE */
+    value[ROOT_SLIP_END] = run->shears ? 1 : y[1] - run->slip_end; /* after it D' may stay there, which CVODE refuses */
     value[ROOT_ENTRY] = value[ROOT_EXIT] = 1;
     if (run->log && run->setup->n_nodes > 0) {
         if (!run->scene.restitution && run->next_entry < run->setup->n_nodes)
@@ -134,8 +138,8 @@ static void call_newton(void *owner, double gamma, const double *y, const double
     rst_cvode_solve_newton(&run->scene, s->g, s->tau, &run->contact, &run->sums, gamma, y, b, x);
 }
 
-/* Relative for what may grow, absolute by the scales of the impact: velocities 1 (tangential ones psi), stresses those
- * that stop the sphere. */
+/* Error weights: relative for states that may grow, absolute for the others, by the scales of the
+ * impact: velocities 1 (tangential ones psi), stresses those that stop the sphere. */
 static void call_weights(void *owner, const double *y, double *weight)
 {
     const struct run *run = owner;
@@ -156,9 +160,9 @@ static void call_weights(void *owner, const double *y, double *weight)
         weight[shear + 2 + k] = 1 / (close * share * fmax(stress, fabs(y[shear + 2 + k])));
 }
 
-/* ------------------------------------------------------------------------------------------------ memory */
+/* ---- memory */
 
-/* What is taken of a block; without one it is only counted. */
+/* Take memory from a block; without a block only count it. */
 struct taken {
     double *block;
     int64_t count;
@@ -208,7 +212,8 @@ static int fail(struct run *run, int status, const char *text)
     return status;
 }
 
-/* Places that the edge passes evenly in the angle, when it did, and the memory that elements start with. */
+/* Positions of the elements, equally spaced in the angle of the edge; when the edge passed them;
+ * and the memory that elements start with. */
 static void place_elements(struct run *run)
 {
     const int64_t n = run->setup->n_nodes, terms = run->scene.n_terms;
@@ -307,7 +312,7 @@ static int integrate_from(struct run *run)
     return rst_integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
-/* ------------------------------------------------------------------------------------------------ elements */
+/* ---- elements */
 
 static void fade_to(struct run *run, double t)
 {
@@ -316,7 +321,7 @@ static void fade_to(struct run *run, double t)
     run->scene.reference = t;
 }
 
-/* Elements that have entered up to now get their memory, which is kept from now on. Nonzero: CVODE does not reach
+/* Set the memory of the elements that have entered by now. Nonzero: CVODE cannot interpolate so far
  * back. */
 static int admit(struct run *run, double t)
 {
@@ -347,8 +352,8 @@ static void begin_step(struct run *run)
     evaluate(run, run->time, run->y, run->start_rate);
 }
 
-/* All elements in contact stick with the force that they slipped with: tangential memory is that of the normal side,
- * and with U = D nothing else is to be kept. */
+/* All elements in contact stick with the force of gross slip: the tangential memory equals the
+ * normal one, and with U = D nothing else is needed. */
 static void take_over_gross_slip(struct run *run)
 {
     const struct elements *e = &run->elements;
@@ -383,7 +388,7 @@ static int begin_shear(struct run *run, int after_gross_slip)
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------ events */
+/* ---- events */
 
 static int note(struct run *run, int kind, double position, int elements)
 {
@@ -399,8 +404,8 @@ static int note(struct run *run, int kind, double position, int elements)
     return rst_log_add(run->log, &event) ? fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for events") : RESTITUTE_OK;
 }
 
-/* How much U' has suffered from elements that have stuck since now, over a weight of contact, until the end of CVODE's
- * step. */
+/* Error of U' at the end of CVODE's step, over a weight of contact, if elements that stick from now
+ * on are treated as slipping. */
 static double suffered(struct run *run, double weight)
 {
     const struct rst_solid *s = &run->setup->problem->solid;
@@ -424,8 +429,8 @@ static void watch(struct run *run)
                          e->d, e->f, run->time, run->y, e->value);
 }
 
-/* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if
- * the slip has come to its end: CVODE did not watch them. */
+/* At an event: elements whose change CVODE found; and elements from `first` on, which entered with
+ * slip since its last return and whose slip has ended, since CVODE did not watch them. */
 static void find_changes(struct run *run, int64_t first, const int *fell)
 {
     const struct elements *e = &run->elements;
@@ -434,8 +439,8 @@ static void find_changes(struct run *run, int64_t first, const int *fell)
         e->change[i] = fell[i] || (i >= first && e->motion[i] != RST_ELEMENT_STICKS && e->value[i] <= nearly(run));
 }
 
-/* At the end of a step those that are past their change by more than errors can explain: they entered and changed
- * within it. */
+/* At the end of a step: elements that are past their change by more than the error. They entered
+ * and changed within the step. */
 static int find_late(struct run *run)
 {
     const struct elements *e = &run->elements;
@@ -450,7 +455,7 @@ static int find_late(struct run *run)
     return late;
 }
 
-/* Elements that are to change their motion do so. */
+/* Change the motion of the marked elements. */
 static int change_motion(struct run *run, int *restart)
 {
     const struct elements *e = &run->elements;
@@ -492,7 +497,8 @@ static int end_contact(struct run *run)
     return note(run, RESTITUTE_CVODE_EVENT_CONTACT_END, 0, 1);
 }
 
-/* The foundation of a solid that has forgotten all it bore may have let go by then: nothing would fall through 0. */
+/* If the solid has relaxed completely, contact may already have ended: no function would fall
+ * through 0. */
 static int turn(struct run *run)
 {
     run->y[1] = 0;
@@ -519,7 +525,8 @@ static int end_gross_slip(struct run *run)
     return status ? status : begin_shear(run, 1);
 }
 
-/* Gross slip may end there too (psi = 2 chi): restarted on that root, CVODE would not see it fall. */
+/* Gross slip may end at the same instant (psi = 2 chi). After a restart on that root CVODE would
+ * not find it. */
 static int turn_and_stick(struct run *run)
 {
     const int both = !run->shears && run->setup->n_nodes > 0 && fabs(run->slip_end) <= nearly(run);
@@ -552,7 +559,7 @@ static int react(struct run *run, int64_t first)
     return RESTITUTE_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------ following */
+/* ---- following */
 
 /* Knots of the trace within the step that led from `from` to run->time. */
 static int extend_trace(struct run *run, double from)
@@ -573,7 +580,9 @@ static int extend_trace(struct run *run, double from)
     return RESTITUTE_OK;
 }
 
-/* Kinetic energy and what the springs could give back: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
+/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the
+ * contact, in units of the impact energy: below rest_speed^2 the sphere has stopped
+ * (docs/theory.md, section 6). */
 static int is_lost(const struct run *run)
 {
     const struct rst_solid *s = &run->setup->problem->solid;
@@ -587,7 +596,7 @@ static void keep_largest(struct run *run)
     run->max_force = fmax(run->max_force, run->contact.force);
 }
 
-/* A step without an event, or behind its last one. */
+/* A step without an event, or its part after the last event. */
 static int end_step(struct run *run)
 {
     int status = RESTITUTE_OK, again = 0;

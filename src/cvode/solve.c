@@ -1,4 +1,5 @@
-/* The method `cvode`: the normal side at two tolerances, then elements in doubled numbers until their pairs agree.
+/* The method `cvode`: the normal motion at two tolerances, then twice as many elements until the
+ * pairs agree.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -8,19 +9,21 @@
 #include "base/gross_slip.h"
 #include "base/report.h"
 
-/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add
- * up to this many times as much (docs/cvode.md). */
+/* Error of a step of CVODE as a share of the tolerance. The errors of some thousand steps, and of
+ * the kinks in them, add up to the second value times as much (docs/cvode.md). */
 static const double closeness_part = 2e-3, adding_up = 50;
 
-/* The normal side is also followed this much less closely; a part of the change is left. */
+/* The normal motion is also computed with this much larger errors. The second value is the share of
+ * the change that estimates the error. */
 static const double looser = 10, share_of_change_ez = 0.3;
 
 /* Rounding in CVODE's predictions. */
 static const double closest = 1e-13;
 
-/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left
- * is judged by how much that result changed from half as many elements. A change may be small by chance, so the error
- * of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
+/* The trapezoidal rule is of second order: a third of the change from half as many elements is
+ * taken off. The estimate follows from the change of this result from half as many elements. A
+ * change may be small by chance, so the error of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2),
+ * is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
 /* The rest of the tolerance is for what the solver leaves out. */
@@ -28,17 +31,17 @@ static const double acceptance = 0.9;
 
 static const int64_t most_elements = 16384;
 
-/* Events that an element may have before it counts as a storm, and steps that mean that something is wrong. */
+/* Limits of the events an element and of steps. More mean a failure. */
 static const int64_t most_events = 64, most_steps = 1000000;
 
-/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where
- * the pair needs none. */
+/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance;
+ * those of a log where the pair needs none. */
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
-/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it
- * is faster than the other, Adams' formulas would take their steps at the limit of stability, where their error is not
- * estimated any more. */
+/* If the solid relaxes or damps more often than the first value in a compression, backward
+ * differentiation is used. Above the second value Adams' formulas are refused: their steps would be
+ * at the stability limit, where the error estimate does not hold. */
 static const double stiff = 30, too_stiff = 300;
 
 /* The fastest relaxation in a compression. */
@@ -82,8 +85,8 @@ static void add_work(struct cvode_memory *memory, const struct run *run)
     memory->updates += run->updates;
 }
 
-/* The normal side alone, followed `looser` times less closely and as closely as is wanted; its trace stays in memory.
- * */
+/* The normal motion alone, once with `looser` times the error and once with the wanted error. Its
+ * trace stays in memory. */
 static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
                         restitute_error *error)
 {
@@ -143,7 +146,7 @@ static double extrapolated(const struct run *coarse, const struct run *fine)
     return fine->end_shear_velocity + part_taken_ex * (fine->end_shear_velocity - coarse->end_shear_velocity);
 }
 
-/* What three runs, each with twice the elements of the one before, say of the pair. */
+/* The pair and its error from three runs, each with twice the elements of the one before. */
 static void compare(const struct run_setup *setup, const struct run *run, int64_t n, struct rst_outcome *outcome)
 {
     const struct run *fine = &run[2];
@@ -157,7 +160,7 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
     outcome->step = fine->time / (double)fine->work.steps;
 }
 
-/* The pair as it is, and what stands in the way of a better one. */
+/* Return the present pair, with the reason why there is no better one. */
 static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *obstacle,
                       restitute_error *error)
 {
@@ -184,8 +187,8 @@ static int64_t halved(int64_t n, int times)
     return (n + ((int64_t)1 << times) - 1) >> times;
 }
 
-/* A first run, with a quarter of the elements or as few as an eighth of what is left to spend allows: the next one
- * takes four times as much, and what trials cost that were too dear stays small. */
+/* The first run has a quarter of the elements, or as many as an eighth of the remaining work
+ * allows. The next run takes four times as much, so trials that are too expensive cost little. */
 static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
                         restitute_error *error)
 {
@@ -199,15 +202,16 @@ static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, st
     }
 }
 
-/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all
- * of them. Once more as much is left for coarser ones. */
+/* The next run takes four times as much as the last: twice the elements have twice the events, each
+ * searched for over all elements. As much again is left for coarser runs. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
     if (rst_time_left(setup->problem) < 5 * ladder->run[2].seconds) return 0;
     return memory->updates + 5 * ladder->run[2].updates <= setup->problem->max_updates;
 }
 
-/* One more run with twice the elements. It leaves enough for those with half and a quarter of what there is now. */
+/* One more run with twice the elements. It leaves enough work for runs with half and a quarter of
+ * the present number. */
 static int climb(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder, restitute_error *error)
 {
     struct run next;
@@ -224,7 +228,8 @@ static int climb(struct run_setup *setup, struct cvode_memory *memory, struct la
     return RESTITUTE_OK;
 }
 
-/* Runs with a quarter, half and all of the elements. If that costs too much, it is coarser ones that make three. */
+/* Runs with a quarter, half and all of the elements. If that costs too much, coarser runs complete
+ * the three. */
 static int start_refining(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
                           restitute_error *error)
 {
@@ -246,8 +251,8 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     return RESTITUTE_OK;
 }
 
-/* Elements are doubled until the pair settles. What stands in the way of that leaves the pair as it is, with a remark.
- * */
+/* Double the elements until the pair converges. If that is impossible, return the present pair with
+ * a remark. */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
@@ -292,8 +297,9 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
                       problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
-/* The sphere stays (theory.md, 6). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
- * being blocked, it creeps on or slides slower and slower, without a closed form. */
+/* The sphere has stopped (docs/theory.md, section 6). With 2 chi > 1 sliding then stops, too. With
+ * 2 chi <= 1 (blocked rotation) it creeps or slides ever more slowly, and there is no closed
+ * form. */
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)
 {
@@ -312,7 +318,7 @@ static int stay(const struct rst_problem *problem, const struct run_setup *setup
     return rst_done(error);
 }
 
-/* Once more with the log, for those who asked for it. */
+/* Repeat the run with the log, if it was asked for. */
 static int log_events(const struct run_setup *setup, const struct rst_outcome *outcome, struct cvode_memory *memory,
                       struct event_log *log, restitute_error *error)
 {

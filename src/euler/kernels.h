@@ -1,4 +1,5 @@
-/* The Fortran procedures of the method `euler`, and the twins of their derived types; see fortran/euler/interface.f90.
+/* The Fortran procedures of the method `euler`, and the twins of their derived types; see
+ * fortran/euler/interface.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_EULER_KERNELS_H
 #define RST_EULER_KERNELS_H

@@ -22,7 +22,7 @@ struct restitute_solver {
     size_t samples_size;
 };
 
-/* Merged terms may change the pair by this part of the tolerance. */
+/* Share of the tolerance by which merged terms may change the pair. */
 static const double merging_share = 0.1;
 
 /* Slip is left out where it changes e_x by less than this part of the tolerance. The method gets the rest. Twice as much
@@ -133,7 +133,8 @@ struct merged {
     double slow_rate, fast_bound; /* bound: slow_rate * contact time + fast_bound */
 };
 
-/* Merge the terms that the contact cannot feel. `window` is how long it may last, in T. */
+/* Merge terms whose relaxation does not matter in this contact. `window`: its longest duration, in
+ * T. */
 static struct merged merge(struct rst_problem *problem, double window_factor)
 {
     struct rst_solid *s = &problem->solid;
@@ -194,7 +195,7 @@ static double time_limit(const restitute_options *o)
     return o->elements > 0 || o->time_step > 0 ? INFINITY : o->method->time_limit;
 }
 
-/* Either kind of input, and what it needs to be turned into a problem. */
+/* One of the two kinds of input, and the workspace to make a problem from it. */
 struct input {
     const restitute_impact *impact;
     const restitute_scene *scene;
@@ -244,7 +245,8 @@ void rst_solver_keep_motion(restitute_solver *solver)
     solver->workspace.keeps_motion = 1;
 }
 
-/* Solve with merged terms; a contact that outlasts the window for slow terms is solved again with them. */
+/* Solve with merged terms. If the contact lasts longer than the window for slow terms, solve it
+ * again with these terms. */
 static int solve_merged(restitute_solver *solver, struct input *input, int keep_ledger, struct rst_problem *problem,
                         struct rst_outcome *outcome, struct merged *merged, restitute_error *error)
 {
@@ -256,7 +258,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
         status = solve_problem(solver, keep_ledger, problem, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
         if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;
-        if (rst_time_left(problem) <= 0) return status; /* its estimate has the bound of what was merged */
+        if (rst_time_left(problem) <= 0) return status; /* its estimate includes the bound of the merged terms */
         window *= 8;
     }
 }
@@ -291,7 +293,8 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
     return status;
 }
 
-/* Methods aim at a part of the tolerance, merged terms add their bound: what counts is the estimate that is reported. */
+/* A method aims at a share of the tolerance, and merged terms add their bound. The status follows
+ * from the reported estimate. */
 static int judge_tolerance(const struct rst_problem *problem, const restitute_result *r, int status,
                            restitute_error *error)
 {

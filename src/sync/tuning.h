@@ -50,7 +50,7 @@ static const double rst_rest_part = 0.01;
 
 /* ---- limits and bounds, which nothing was tuned for */
 
-/* Part of the tolerance that an estimate may take: what the solver leaves out has the rest (src/solver/solver.c). */
+/* Part of the tolerance that an estimate may take: what merged terms leave (src/solver/solver.c, merging_share). */
 static const double rst_acceptance = 0.9;
 
 /* Velocities are known to that in a run, by rounding, and slower rebounds are lost in it. */

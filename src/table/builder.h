@@ -11,7 +11,7 @@
 
 #include "table/column.h"
 
-/* ---- constants of the build, measured with the target table-campaign (docs/records/table.md) */
+/* Constants of the build, measured with the target table-campaign (docs/records/table.md). */
 
 /* Nodes and checks are solved to this share of the tolerance, so that their errors are not taken
  * for a shape of the function. True errors are a quarter of the estimates. */
@@ -71,7 +71,7 @@ struct rst_column {
 /* A column to be solved. */
 struct rst_task {
     struct rst_column column;
-    int may_fail; /* rst_column_is_too_hard(): its status tells */
+    int may_fail; /* with TOO_MUCH_WORK in its status */
     int status;
     restitute_error why;
 };

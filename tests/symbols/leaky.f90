@@ -1,5 +1,5 @@
-! A library that exports a foreign and a private name, takes memory unseen, calls the Fortran run-time
-! library, prints and ends the program: the checks must find all of it.
+! A library that exports a foreign name, takes memory unseen, calls the Fortran run-time library,
+! prints and ends the program: the checks must find all of it.
 ! SPDX-License-Identifier: BSD-3-Clause
 subroutine leaky_name(value) bind(c, name="leaky_name")
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_null_char

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
-!> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
+!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and
+!> test_sync_front.c. One motion at a time is held here, in rooms of fixed size: a test program, not
+!> the library, may keep state.
 module sync_probe
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr
   use rst_friction_mode, only: mode_gross_slip, mode_partial_slip
@@ -43,7 +44,8 @@ contains
     weight = weights_at(x)
   end subroutine probe_weights
 
-  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before the point i.
+  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before
+  !> the point i.
   subroutine probe_polynomial(y, i, last, start, slope, root) bind(c)
     real(c_double), intent(in) :: y(0:stages)
     integer(c_int64_t), value :: i
@@ -79,7 +81,8 @@ contains
     failed = merge(1_ip, 0_ip, fails)
   end function probe_respond
 
-  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the compression and of all.
+  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the
+  !> compression and of all.
   function probe_normal(eta, n, g, rate, depth, halvings, roughness, counts) bind(c) result(found)
     real(c_double), value :: eta, depth, roughness
     integer(c_int64_t), value :: n, halvings
@@ -124,7 +127,8 @@ contains
     store%loading_x(0:stages, 1:n) => loading_x_room
   end subroutine hold
 
-  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth, velocity, force.
+  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth,
+  !> velocity, force.
   subroutine probe_motion(p, x, motion) bind(c)
     integer(c_int64_t), value :: p
     real(c_double), value :: x
@@ -149,7 +153,8 @@ contains
     n_pieces = store%n_pieces
   end function probe_contact
 
-  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S, stick radius at y of the piece.
+  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S,
+  !> stick radius at y of the piece.
   subroutine probe_piece(i, y, panel, range, rooted, motion) bind(c)
     integer(c_int64_t), value :: i
     real(c_double), value :: y

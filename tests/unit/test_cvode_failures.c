@@ -1,5 +1,6 @@
-/* What goes wrong inside the method `cvode`: failures of CVODE itself come back with its words, storms and endless runs with ours, and
- * nothing is ever printed. The failures are made here: a right-hand side that gives no numbers, limits that a sound run passes.
+/* Failures inside the method `cvode`. Failures of CVODE are reported with its text, too many events
+ * and endless runs with ours. Nothing is printed. The failures are provoked: a right-hand side
+ * without a finite value, limits below those of a normal run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -11,7 +12,8 @@
 
 #include "../support/cvode.h"
 
-/* Standard output and standard error go to a file from capture() on; captured() undoes that and tells how much was written. */
+/* Standard output and standard error go to a file from capture() on; captured() undoes that and
+ * tells how much was written. */
 struct capture {
     FILE *file;
     int output, error;
@@ -40,7 +42,7 @@ static long captured(struct capture *c)
     return written;
 }
 
-/* y' = -y, for so many evaluations: from then on it has no value. */
+/* y' = -y for a number of evaluations; after them it has no value. */
 struct decay {
     long calls, most;
 };
@@ -141,7 +143,8 @@ static void failures_have_the_words_of_cvode_and_print_nothing(void **state)
     }
 }
 
-/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the limits of the run. */
+/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the
+ * limits of the run. */
 static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup), struct run *run)
 {
     const struct rst_problem problem = {.method = restitute_method_cvode(),
@@ -217,7 +220,7 @@ static void runs_without_end_are_ended_and_say_why(void **state)
     }
 }
 
-/* What becomes of it in a call: the status and the words. */
+/* The result of a call: the status and the message. */
 static void a_call_hands_on_the_words_of_cvode(void **state)
 {
     const struct rst_problem problem = {.method = restitute_method_cvode(),

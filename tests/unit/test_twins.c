@@ -18,7 +18,7 @@ struct member {
     size_t offset, size;
 };
 
-/* A member; one that is an array of so many members in Fortran; what is behind the last. */
+/* A member; a member that is several members in Fortran; the end of the struct. */
 #define AT(type, member) {#member, offsetof(struct type, member), sizeof ((struct type *)0)->member}
 #define PART(type, member, count) {#member, offsetof(struct type, member), (count) * sizeof ((struct type *)0)->member}
 #define END(type) {"end", sizeof(struct type), 0}

@@ -26,7 +26,8 @@ module twins
 
 contains
 
-  !> Offsets of the members of the type i of test_twins.c, then its size; n: how many numbers. 0: no such type.
+  !> Offsets of the members of the type i of test_twins.c, then its size; n: how many numbers. 0: no
+  !> such type.
   subroutine fortran_offsets(i, n, offset) bind(c)
     integer(c_int64_t), value :: i
     integer(c_int64_t), intent(out) :: n, offset(40)

@@ -1,4 +1,5 @@
-/* A user's program that fits a modulus to contact times of an elastic ball. Exit status 0 if it finds it.
+/* A user's program that fits a modulus to contact times of an elastic ball. Exit status 0 if it
+ * finds it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
