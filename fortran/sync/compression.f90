@@ -9,14 +9,13 @@ module rst_compression_panel
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, integrated, applied, factors_type, factorize, solution_of, &
-                             has_converged, keeps_matrix
+                             has_converged
   use rst_arms, only: respond, advance
+  use rst_tuning, only: keeps_matrix, largest_decrease, diverges_above, most_steps
   use rst_panel, only: panel_type, normal_type
   implicit none (type, external)
   private
   public :: compress
-
-  integer(ip), parameter :: most_iterations = 15
 
   !> At the points: sine and cosine of theta, rho, force, and cos^2 + kappa sin^2.
   type :: motion_type
@@ -56,22 +55,22 @@ contains
     m%cosine = cos(theta)
     previous = 1
     slope%wanted = .true.
-    do i = 1, most_iterations
+    do i = 1, most_steps
       call follow(scale, width, start, force, m)
       call load(normal%eta, normal%g, normal%rate, scale, width, m, loading, kernel, slope, fails)
       if (.not. fails .and. slope%wanted) call prepare(scale, width, m, slope, fails)
       if (fails) return
-      step = max(solution_of(slope%factors, m%force - force), -0.9_dp*force)
+      step = max(solution_of(slope%factors, m%force - force), -largest_decrease*force)
       force = force + step
       turn = 2*mass_factor*scale**2*step/m%below ! of kappa
       change = maxval(abs(turn)*m%sine**2) + maxval(abs(integrated(0.0_dp, width*m%sine*m%cosine*turn/m%below)))
-      fails = .not. change < 1.0e3_dp
+      fails = .not. change < diverges_above
       if (fails) return
       if (has_converged(change, previous, normal%closeness)) exit
       slope%wanted = change > keeps_matrix*previous
       previous = change
     end do
-    fails = i > most_iterations
+    fails = i > most_steps
     if (fails) return
     slope%wanted = .false.
     call follow(scale, width, start, force, m)

@@ -10,6 +10,7 @@ module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
   use rst_panel, only: normal_type
+  use rst_tuning, only: most_trials, search_rounding, faded
   use rst_store, only: store_type, of_touch, of_arm, sticks
   implicit none (type, external)
   private
@@ -27,10 +28,6 @@ module rst_front
   type :: margin_type
     real(dp) :: accuracy, angle, stick_radius, force, at_centre, at_edge
   end type margin_type
-
-  integer(ip), parameter :: most_iterations = 60
-  real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-  real(dp), parameter :: faded = 50 !! exp(-faded) is below rounding; beyond 708 it underflows, which is slow
 
 contains
 
@@ -62,12 +59,12 @@ contains
     low = 0
     high = outermost_angle
     if (.not. (theta > low .and. theta < high)) theta = 0.5_dp*(low + high)
-    do n = 1, most_iterations
+    do n = 1, most_trials
       call element_at(normal, store, time, sense, theta, element)
       y = margin%at_centre - element%deficit
       if (y > 0) low = theta
       if (y <= 0) high = theta
-      if (abs(y) <= enough .or. high - low <= rounding*outermost_angle) exit
+      if (abs(y) <= enough .or. high - low <= search_rounding*outermost_angle) exit
       if (element%slope < 0) then
         theta = theta - y/element%slope
       else

@@ -11,6 +11,7 @@ module rst_normal_motion
   use rst_guess, only: guess_compression
   use rst_compression_panel, only: compress
   use rst_restitution_panel, only: rebound
+  use rst_tuning, only: deepest, largest_unresolved_rebound
   implicit none (type, external)
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
@@ -19,9 +20,7 @@ module rst_normal_motion
   !> will not be faster than normal%residual_speed; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
-  real(dp), parameter :: largest_unresolved_rebound = 1.0e-2_dp !! one that is slower is unknown otherwise
-
-  integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
+  integer(ip), parameter :: whole = 2_ip**deepest
   real(dp), parameter :: unit = acos(0.0_dp)/real(whole, dp)
 
   !> Twin of `struct sync_normal_control` in C.

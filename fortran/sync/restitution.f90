@@ -8,15 +8,14 @@ module rst_restitution_panel
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, start_of, integrated, applied, composed, &
-                             factors_type, factorize, solution_of, has_converged, keeps_matrix
+                             factors_type, factorize, solution_of, has_converged
   use rst_arms, only: respond
+  use rst_tuning, only: keeps_matrix, largest_decrease, diverges_above, most_steps
   use rst_guess, only: guess_restitution
   use rst_panel, only: panel_type, normal_type, find_angle
   implicit none (type, external)
   private
   public :: rebound
-
-  integer(ip), parameter :: most_iterations = 25
 
   !> The time at the start of the panel. At the points: t_A, A, D', pace, f(A), F, and how fast both would
   !> fade, the sums of rate_k times what E_k multiplies in them.
@@ -56,23 +55,23 @@ contains
       m%pace = panel%pace(1:)
       previous = 1
       slope%wanted = .true.
-      do i = 1, most_iterations
+      do i = 1, most_steps
         call balance(normal%eta, normal%g, normal%rate, width, memory, kernel, entry, m, slope, fails)
         if (.not. fails .and. slope%wanted) call prepare(normal%eta, width, m, slope, fails)
         if (fails) return
         call newton(width, panel%velocity(0), m, slope, step_v, step_pace)
         change = maxval(abs(step_v)) + maxval(abs(step_pace))/maxval(m%pace)
-        fails = .not. change < 1.0e6_dp
+        fails = .not. change < diverges_above
         if (fails) return
         m%v = m%v + step_v
-        if (panel%to > 0) step_pace(stages) = max(step_pace(stages), -0.9_dp*m%pace(stages)) ! at theta = 0 it is 0
-        step_pace(:stages - 1) = max(step_pace(:stages - 1), -0.9_dp*m%pace(:stages - 1))
+        if (panel%to > 0) step_pace(stages) = max(step_pace(stages), -largest_decrease*m%pace(stages)) ! at theta = 0 it is 0
+        step_pace(:stages - 1) = max(step_pace(:stages - 1), -largest_decrease*m%pace(:stages - 1))
         m%pace = m%pace + step_pace
         if (has_converged(change, previous, normal%closeness)) exit
         slope%wanted = change > keeps_matrix*previous
         previous = change
       end do
-      fails = i > most_iterations
+      fails = i > most_steps
       if (fails) return
       slope%wanted = .false.
       call balance(normal%eta, normal%g, normal%rate, width, memory, kernel, entry, m, slope, fails)

@@ -5,6 +5,7 @@ module rst_slip
   use rst_motion_factors, only: shear_factor
   use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, value_on, applied, &
                              factors_type, factorize, solution_of, has_converged
+  use rst_tuning, only: most_steps, diverges_above, most_secants, search_part, narrowest, shortest_piece, shortest, at_edge
   use rst_panel, only: normal_type
   use rst_store, only: contact_type, store_type, sticks
   use rst_piece, only: interval_type, set_interval, stick, advance_memory
@@ -26,14 +27,6 @@ module rst_slip
   enum, bind(c)
     enumerator :: too_wide, turns_back, good
   end enum
-
-  integer(ip), parameter :: most_iterations = 20, most_secants = 15
-  !> Part of the roughness that may be left of the margin at the edge when slip reverses. No element slips there then. (Slip that
-  !> begins too early or too late may look as if it stuck again, and stick may end in all elements at once.)
-  real(dp), parameter :: at_edge = 0.1_dp
-  real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
-  real(dp), parameter :: shortest_piece = 0.02_dp !! below this width of a piece slip that turns back is reported as re-stick
-  real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
 
   !> U', S, stick radius and angle of the front at the points; what is zero at the events: lead = D' - |U'| in stick, else the
   !> stick margin at the centre and at the edge.
@@ -145,11 +138,11 @@ contains
       call element_at(normal, store, interval%time(i), sense, outermost_angle(store, interval, i), outermost(i))
     end do
     s%front(0) = outermost_angle(store, interval, 0_ip)
-    accuracy = sqrt(0.1_dp*contact%noise) ! a front that is at rest is then not taken for one that moves outward
+    accuracy = sqrt(search_part*contact%noise) ! a front that is at rest is then not taken for one that moves outward
     call find_margin(normal, store, interval, sense, accuracy, outermost(0), 0_ip, s)
     if (.not. warm) s%shear_velocity(1:) = s%shear_velocity(0) - push*s%shear_force(0)*(interval%time(1:) - interval%time(0))
     previous = 1
-    do n = 1, most_iterations
+    do n = 1, most_steps
       call advance_memory(normal, interval, s%shear_velocity(1:), store)
       do i = 1, stages
         if (n == 1 .and. .not. warm) s%front(i) = s%front(i - 1)
@@ -164,11 +157,11 @@ contains
       step = solution_of(factors, integrated(s%shear_velocity(0), -push*interval%span*s%shear_force(1:)) - s%shear_velocity(1:))
       s%shear_velocity(1:) = s%shear_velocity(1:) + step
       change = maxval(abs(step))
-      if (.not. change < 1.0e3_dp) return
+      if (.not. change < diverges_above) return
       if (has_converged(change, previous, contact%closeness)) exit
       previous = change
     end do
-    if (n > most_iterations) return
+    if (n > most_steps) return
     call advance_memory(normal, interval, s%shear_velocity(1:), store)
     do i = 1, stages
       s%centre_margin(i) = margin_at_centre(normal, store, interval, sense, i, s%shear_velocity(i))
@@ -302,7 +295,7 @@ contains
     to_before = 0
     miss_before = 0
     do n = 1, most_secants
-      if (to - interval%from <= empty) then
+      if (to - interval%from <= shortest) then
         interval%to = interval%from
         s%shear_velocity = s%shear_velocity(0)
         store%memory_z(stages, :) = store%memory_z(0, :)

@@ -4,6 +4,7 @@ module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
+  use rst_tuning, only: most_idle, steady, weightless
   use rst_panel, only: normal_type, range_at
   use rst_store, only: contact_type, piece_type, store_type, backward, sticks, forward
   use rst_piece, only: interval_type, set_interval, advance_memory
@@ -13,8 +14,6 @@ module rst_tangential_motion
   public :: follow_contact, find_velocity, solved, sticks_again, lacks_pieces
 
   integer(ip), parameter :: lacks_pieces = 2  !! follow_contact was given too few
-  integer(ip), parameter :: most_idle = 2     !! events at one place, of which one undoes the other
-  real(dp), parameter :: steady = 1.0e-10_dp, weightless = 1.0e-12_dp  !! slip velocity, and stick margin, that are rounding
 
 contains
 

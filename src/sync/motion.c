@@ -95,7 +95,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
 
 double rst_roughness(int halvings)
 {
-    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, halvings - 1));
+    return fmax(rst_least_panel_roughness, rst_first_roughness * pow(rst_roughness_falls, halvings - 1));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
@@ -104,10 +104,9 @@ double rst_piece_roughness(const struct rst_problem *problem, int halvings)
     return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
 }
 
-/* Room for four times the panels that there are if none is halved. */
 static int64_t first_capacity(int halvings)
 {
-    return INT64_C(8) << halvings;
+    return (int64_t)rst_first_panels << halvings;
 }
 
 /* Panels, M_k, P_k, how arms respond on the panels, and what the restitution needs besides. */
@@ -120,7 +119,7 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
                                        .scale = motion->scale,
-                                       .closeness = fmax(10 * rst_rounding, rst_closeness * roughness),
+                                       .closeness = fmax(rst_least_closeness, rst_closeness * roughness),
                                        .g = motion->arms,
                                        .rate = motion->arms + motion->most_arms,
                                        .panel = (struct sync_panel *)run->room,
@@ -182,9 +181,6 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
     return run;
 }
 
-/* Pieces of a motion of few panels: events take some each. */
-enum { first_pieces = 16 };
-
 static int lay_out_store(struct rst_motion *motion, int64_t capacity)
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
@@ -209,7 +205,7 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
     motion->n_arms = arms;
     for (int i = from; i <= to && !fails; i++)
         fails = lay_out(motion, &motion->run[i], first_capacity(i), 1);
-    if (!fails) fails = lay_out_store(motion, first_capacity(to) + first_pieces);
+    if (!fails) fails = lay_out_store(motion, first_capacity(to) + rst_first_pieces);
     motion->n_arms = -1; /* of no solid */
     return fails;
 }
@@ -227,7 +223,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
     const double scale = fmin(1, problem->shear_speed), roughness = rst_piece_roughness(problem, halvings);
-    const double closeness = fmax(10 * rst_rounding, rst_piece_closeness * roughness);
+    const double closeness = fmax(rst_least_closeness, rst_piece_closeness * roughness);
     const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
                                          .psi = problem->shear_speed,
@@ -236,7 +232,7 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
                                          .mode = problem->mode};
-    for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
+    for (int64_t capacity = 2 * run->normal.n_panels + rst_first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
         if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);

@@ -6,6 +6,7 @@
 
 #include "base/gross_slip.h"
 #include "base/status.h"
+#include "sync/tuning.h"
 #include "sync/walk.h"
 
 /* The tangential side: pieces, or where elements were stepped their levels, or gross slip alone. */
@@ -22,7 +23,7 @@ static double place_of(const struct sync_panel *panel, double time)
     double low = 0, high = 1, weight[rst_points];
     if (time <= panel->time[0]) return 0;
     if (time >= panel->time[rst_stages]) return 1;
-    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+    for (int i = 0; high - low > rst_place_found && i < rst_most_bisections; i++) {
         const double x = 0.5 * (low + high);
         rst_sync_weights_at(x, weight);
         if (rst_value_of(weight, panel->time) < time)

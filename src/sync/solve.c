@@ -68,7 +68,6 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
 /* The largest value that the polynomials of the force have, sampled. */
 static double largest_force(const struct sync_normal *normal)
 {
-    enum { samples = 64 };
     double largest = 0, weight[rst_points];
     int64_t first = 0, last = 0;
     for (int64_t p = 0; p < normal->n_panels; p++)
@@ -79,8 +78,8 @@ static double largest_force(const struct sync_normal *normal)
                 last = i < rst_stages ? p : p + 1; /* at the end of a panel: maybe beyond it */
             }
     for (int64_t p = first; p <= last && p < normal->n_panels; p++)
-        for (int i = 0; i <= samples; i++) {
-            rst_sync_weights_at((double)i / samples, weight);
+        for (int i = 0; i <= rst_force_samples; i++) {
+            rst_sync_weights_at((double)i / rst_force_samples, weight);
             largest = fmax(largest, rst_value_of(weight, normal->panel[p].force));
         }
     return largest;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/gross_slip.h"
+#include "sync/tuning.h"
 
 /* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
 struct ladder {
@@ -54,7 +55,6 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
 static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, int sticks,
                       struct ladder *ladder)
 {
-    static const double apart = 1e-6; /* of a panel */
     const int split = sticks && problem->mode == RST_GROSS_SLIP;
     double angle = -1;
     int64_t returning = 0, at = 0;
@@ -64,7 +64,7 @@ static void set_marks(const struct sync_normal *normal, const struct rst_problem
         rst_sync_find_velocity(normal, rst_end_of_gross_slip(problem), &angle, &returning);
     for (int64_t p = 0; p < normal->n_compression; p++) {
         const struct sync_panel *panel = &normal->panel[p];
-        const double margin = apart * (panel->to - panel->from);
+        const double margin = rst_same_angle * (panel->to - panel->from);
         if (angle > panel->from + margin && angle < panel->to - margin) {
             ladder->mark[++ladder->n_marks] = angle;
             at = ladder->n_marks;
@@ -95,7 +95,7 @@ static const double *fading_on(const struct sync_normal *normal, int64_t p, size
 static double first_layer(const struct sync_normal *normal, int64_t p, size_t k, double left, const double *weight,
                           double time)
 {
-    const double tau = 1 / normal->rate[k], slow = 100 * normal->panel[0].time[rst_stages];
+    const double tau = 1 / normal->rate[k], slow = rst_slow_arm * normal->panel[0].time[rst_stages];
     const double *fade = fading_on(normal, p, k);
     double collocated = weight[0];
     if (tau > slow) return 0;

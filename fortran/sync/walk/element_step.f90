@@ -16,6 +16,7 @@ module rst_sync_element_step
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
+  use rst_tuning, only: largest_phase
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force
@@ -78,7 +79,7 @@ contains
     step%last = min(l, 2*walk%n - l - 1)
     step%top = step%last/lanes*lanes + lanes - 1
     step%h = h
-    square = min(mass_factor*walk%chi*h*sum(term%decay*term%from_start)*stuck, 0.5_dp)
+    square = min(mass_factor*walk%chi*h*sum(term%decay*term%from_start)*stuck, largest_phase)
     stretch = square/3 + 2*square**2/15
     step%swing = (1 + stretch)*h
     term%from_start = (1 + stretch*term%decay)*term%from_start

@@ -16,6 +16,7 @@ module rst_sync_walk
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
+  use rst_tuning, only: most_trials, walk_closeness
   use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
                                    c_force, measure_step, relax, friction_force, move_elements, weighted_sum
   implicit none (type, external)
@@ -186,8 +187,6 @@ contains
     real(dp), intent(in) :: body(0:walk%capacity - 1, columns)
     type(walk_shear_type), intent(inout) :: shear(0:1)
     real(dp), intent(out) :: stuck  !! weight of the elements that stick, as the force has it
-    integer(ip), parameter :: most_trials = 60  !! halvings that exhaust all digits
-    real(dp), parameter :: tolerance = 1.0e-13_dp  !! of psi: above rounding
     type(memory_type) :: m
     real(dp) :: w, push, v, low, high, miss, change, force, slope, q
     integer(ip) :: trial
@@ -212,7 +211,7 @@ contains
       change = -miss/(1 + push*w*slope)
       if (v + change < low .or. v + change > high) change = (low + high)/2 - v
       v = v + change
-      if (abs(change) <= tolerance*walk%psi) exit
+      if (abs(change) <= walk_closeness*walk%psi) exit
     end do
     shear(1) = walk_shear_type(v, force)
     stuck = slope/step%end_response
