@@ -63,10 +63,6 @@ static const double rst_same_angle = 1e-6, rst_slow_arm = 100;
 /* Part of the tolerance below which a rebound is none. Twice: not measured */
 static const double rst_rest_part = 0.01;
 
-/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not proven.
- * Twice: not measured */
-static const double rst_change_by_slip = 2;
-
 /* ---- limits and bounds, which nothing was tuned for */
 
 /* Part of the tolerance that an estimate may take: what merged terms leave (src/solver/solver.c, merging_share). */
