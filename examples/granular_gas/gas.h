@@ -14,11 +14,15 @@
 
 #define GAS_INERTIA 0.4 /* q = J/(m R^2) of a solid sphere */
 
+struct gas_pair {
+    double ez, ex;
+};
+
 /* Restitution: from a table for spheres of this radius and mass; with table NULL a constant ez and
  * no friction. */
 struct gas_law {
     const restitute_table *table;
-    restitute_table_value constant;
+    struct gas_pair constant;
     double radius, mass; /* m, kg; not used without a table */
 };
 
@@ -33,7 +37,7 @@ struct gas {
 };
 
 /* (ez, ex) of an impact; speeds >= 0. */
-restitute_table_value gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed);
+struct gas_pair gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed);
 
 /* n >= 2 spheres with Maxwell's velocities of temperature <v^2>/3 = translational, with total
  * momentum zero, and spins with q <s^2>/3 = rotational. Returns 0, or -1 if there is no memory. */

@@ -19,6 +19,7 @@ int main(void)
     for (int i = 0; i < 4; i++) {
         restitute_scene_init(&scenes[i]);
         restitute_fit_point_init(&points[i]);
+        restitute_scene_init(&scenes[i]);
         scenes[i].radius1 = 0.005, scenes[i].mass1 = 0.004, scenes[i].normal_speed = 0.1 * (i + 1);
         points[i].scene = &scenes[i], points[i].contact_time = times[i];
     }
