@@ -133,8 +133,8 @@ RESTITUTE_SINCE_0_1 const restitute_method *restitute_cvode_recorder_method(
     const restitute_cvode_recorder *recorder);
 
 /** Events of the last impact, those of the run that gave the pair, in the units of that impact. Of
- *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up, of an impact
- *  that failed there are none.
+ *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up. Of an
+ *  impact that failed there are none.
  *
  *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder,
