@@ -1,4 +1,5 @@
-/* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict reading of numbers.
+/* The plain tables of <restitute/files.h>: what is read, what is refused and how, and the strict
+ * reading of numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -15,7 +16,7 @@
 /* Every test writes this one file in the current directory; the teardown removes it. */
 #define TABLE "test_files_csv_table.csv"
 
-/* What outputs point to before a call that must not touch them. */
+/* Values of outputs before a call that must not change them. */
 static char untouched_place;
 #define UNTOUCHED ((restitute_csv *)&untouched_place)
 
@@ -53,7 +54,8 @@ static void check_cell(const restitute_csv *csv, size_t row, size_t column, cons
     CHECK(strcmp(cell, expected) == 0, "row %zu column %zu is \"%s\", not \"%s\"", row, column, cell, expected);
 }
 
-/* The file as it is now on disk is refused: status, output untouched, a message with all the words. */
+/* The file as it is now on disk is refused: status, output untouched, a message with all the
+ * words. */
 static void check_refused(const char *path, int expected, const char *const *words, const char *what)
 {
     restitute_csv *csv = UNTOUCHED;
@@ -68,7 +70,7 @@ static void check_refused(const char *path, int expected, const char *const *wor
     CHECK(restitute_csv_read(path, &csv, NULL) == expected && csv == UNTOUCHED, "%s: without an error struct", what);
 }
 
-/* -------------------------------------------------------------------------------------------------- what is read */
+/* ---- what is read */
 
 static void plain_table(void **state)
 {
@@ -278,7 +280,7 @@ static void long_cell(void **state)
     free(text);
 }
 
-/* ----------------------------------------------------------------------------------------------- what is refused */
+/* ---- what is refused */
 
 static void malformed_tables(void **state)
 {
@@ -425,9 +427,10 @@ static void truncated_table(void **state)
         check_any_bytes(rich_table, length, (int)length);
 }
 
-/* ------------------------------------------------------------------------------------------------------- numbers */
+/* ---- numbers */
 
-/* The values are those that the compiler reads from the same digits: both round to the nearest double. */
+/* The values are those that the compiler reads from the same digits: both round to the nearest
+ * double. */
 static void numbers(void **state)
 {
     (void)state;
@@ -483,7 +486,7 @@ static void no_numbers(void **state)
         refused_number(texts[i], RESTITUTE_ERROR_FORMAT);
 }
 
-/* The header allows inf and no other word. */
+/* The header allows inf and no other text. */
 static void infinity_is_no_number(void **state)
 {
     (void)state;

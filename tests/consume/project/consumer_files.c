@@ -1,4 +1,5 @@
-/* A user's program that reads the material file named by its argument. Exit status 0 if it holds a solid.
+/* A user's program that reads the material file named by its argument. Exit status 0 if it holds a
+ * solid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
@@ -12,7 +13,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: consumer_files MATERIAL_FILE\n");
         return 2;
     }
-    if (restitute_material_read(argv[1], &material, &error) != RESTITUTE_OK) {
+    if (restitute_material_read(argv[1], &material, NULL, &error) != RESTITUTE_OK) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
