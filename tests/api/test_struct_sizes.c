@@ -210,6 +210,7 @@ static void measured_impacts(void **state)
 {
     restitute_scene scenes[4];
     restitute_fit_point points[4];
+    restitute_scene scenes[4];
     restitute_fit_result result;
     restitute_fitter *fitter = NULL;
     restitute_error *e = &with.error;
