@@ -297,7 +297,7 @@ static void many_angles(void **state)
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     (void)state;
     for (size_t k = 0; k < 4; k++)
-        drops(MANY / 4, 0.01, 1, points + k * MANY / 4);
+        drops(MANY / 4, 0.01, 1, scenes + k * MANY / 4, points + k * MANY / 4);
     for (size_t i = 0; i < MANY; i++) {
         scenes[i].friction = NAN;
         scenes[i].tangential_speed = (0.3 + 0.5 * (double)(4 * i / MANY)) * scenes[i].normal_speed;
@@ -367,7 +367,7 @@ static void temperatures(void **state)
     restitute_fit_point points[2 * N];
     (void)state;
     drops(N, 0.01, 1, scenes, points);
-    drops(N, 0.01, 1, points + N);
+    drops(N, 0.01, 1, scenes + N, points + N);
     measure(warm, N, points, 0, 1, 0, 1);
     measure(cold, N, points + N, 0, 1, 0, 1);
     for (size_t i = 0; i < 2 * N; i++)
@@ -397,7 +397,7 @@ static void temperatures_from_every_seed(void **state)
     (void)state;
     for (size_t k = 0; k < SOLIDS; k++) {
         restitute_material *solid = standard_solid(1e6, 3e6, 300 * shift[k]);
-        drops(SPEEDS, 0.03, 3, points + k * SPEEDS);
+        drops(SPEEDS, 0.03, 3, scenes + k * SPEEDS, points + k * SPEEDS);
         for (size_t i = k * SPEEDS; i < (k + 1) * SPEEDS; i++)
             points[i].temperature = at[k], scenes[i].radius1 = 0.01, scenes[i].mass1 = 0.005;
         measure(solid, SPEEDS, points + k * SPEEDS, 0.01, 1, 0, 100 + k);
