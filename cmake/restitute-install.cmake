@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installation: libraries, headers, command, man page, and what CMake and pkg-config need to find them. All paths in
-# the installed files are relative to those files, so the tree may be moved.
+# Installation: libraries, headers, command, man page, and what CMake and pkg-config need to find
+# them. All paths in the installed files are relative to those files, so the tree may be moved.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/restitute")
 string(REGEX MATCH "^[0-9]+" fortran_major "${CMAKE_Fortran_COMPILER_VERSION}")
@@ -22,10 +22,12 @@ function(restitute_install_component component)
   install(FILES ${ARGN} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/restitute")
 endfunction()
 
-# restitute_install_pkg_config(<file.pc>): from cmake/<file.pc>.in
+# restitute_install_pkg_config(<file.pc> [<name.pc>]): from cmake/<file.pc>.in, under another name if one is given
 function(restitute_install_pkg_config file)
-  configure_file("${PROJECT_SOURCE_DIR}/cmake/${file}.in" "${PROJECT_BINARY_DIR}/cmake/${file}" @ONLY)
-  install(FILES "${PROJECT_BINARY_DIR}/cmake/${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  set(name "${file}" ${ARGN})
+  list(GET name -1 name)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${file}.in" "${PROJECT_BINARY_DIR}/cmake/${name}" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/cmake/${name}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 endfunction()
 file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 file(RELATIVE_PATH prefix_to_lib "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
@@ -74,23 +76,31 @@ if(RESTITUTE_WITH_FIT)
 endif()
 if(RESTITUTE_WITH_FORTRAN)
   set(fortran_dir "${RESTITUTE_INSTALL_FORTRANDIR}")
-  install(TARGETS restitute_fortran_module EXPORT restitute-fortran ARCHIVE DESTINATION "${fortran_dir}")
-  install(FILES "$<TARGET_PROPERTY:restitute_fortran_module,Fortran_MODULE_DIRECTORY>/restitute.mod"
-          DESTINATION "${fortran_dir}")
-  install(FILES "${PROJECT_SOURCE_DIR}/fortran/public/restitute.f90"
-          DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
-  if(RESTITUTE_WITH_FIT)
-    install(TARGETS restitute_fitting_module EXPORT restitute-fortran_fit ARCHIVE DESTINATION "${fortran_dir}")
-    install(FILES "$<TARGET_PROPERTY:restitute_fitting_module,Fortran_MODULE_DIRECTORY>/restitute_fitting.mod"
-            DESTINATION "${fortran_dir}")
-    install(FILES "${PROJECT_SOURCE_DIR}/fortran/public/restitute_fitting.f90"
-            DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
-    install(EXPORT restitute-fortran_fit FILE restitute-fortran_fit.cmake NAMESPACE restitute::
-            DESTINATION "${package_dir}")
-  endif()
-  install(EXPORT restitute-fortran FILE restitute-fortran.cmake NAMESPACE restitute:: DESTINATION "${package_dir}")
   file(RELATIVE_PATH prefix_to_fortran "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_PREFIX}/${fortran_dir}")
+
+  # restitute_install_module(<target> <name> <module>...): the library restitute_<name> and what its sources define
+  function(restitute_install_module target name)
+    install(TARGETS ${target} EXPORT restitute-${name} ARCHIVE DESTINATION "${fortran_dir}")
+    install(EXPORT restitute-${name} FILE restitute-${name}.cmake NAMESPACE restitute:: DESTINATION "${package_dir}")
+    list(TRANSFORM ARGN PREPEND "$<TARGET_PROPERTY:${target},Fortran_MODULE_DIRECTORY>/")
+    list(TRANSFORM ARGN APPEND ".mod")
+    install(FILES ${ARGN} DESTINATION "${fortran_dir}")
+    get_target_property(sources ${target} SOURCES)
+    list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/fortran/public/")
+    install(FILES ${sources} DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute/fortran")
+  endfunction()
+
+  restitute_install_module(restitute_fortran_module fortran restitute_types_module restitute_texts_module
+                           restitute_core_module restitute)
   restitute_install_pkg_config(restitute-fortran.pc)
+  foreach(component IN LISTS RESTITUTE_FORTRAN_COMPONENTS)
+    restitute_install_module(restitute_${component}_module fortran_${component} restitute_${component}_module)
+    set(needs "")
+    if(component STREQUAL "table_files")
+      set(needs ", restitute-fortran_table = ${PROJECT_VERSION}")
+    endif()
+    restitute_install_pkg_config(restitute-fortran_component.pc restitute-fortran_${component}.pc)
+  endforeach()
 endif()
 if(RESTITUTE_WITH_COMMAND)
   install(TARGETS restitute_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

@@ -26,9 +26,10 @@
  *    of the contact time, with `bem-paper` as small a part of it as is stable.
  *  - options.tolerance: cells and steps are doubled, from 15 cells over the radius, until the
  *    estimate meets it. The limit is options.max_work: grids above it are not started, so the
- *    default ends at 120 or 240 cells. 1e-3 takes 0.06 s where much of the contact slips (psi from
- *    0.5 on), 0.3 s at psi = 0.01, 2 s without slip, and 20 s in the corner of chi = 4 and next to
- *    no slip; 1e-4 takes 3 s with psi from 0.5 on and is out of reach below.
+ *    default of 10 ends at 120 cells. 1e-3 takes 0.06 s where much of the contact slips (psi from
+ *    0.5 on), 0.3 s at psi = 0.01 and 2 s without slip; 1e-4 takes 3 s with psi from 0.5 on. In
+ *    the corner of chi = 4 and next to no slip 1e-3 takes 240 cells, 20 s and max_work = 30; 1e-4
+ *    is out of reach for psi below 0.5.
  *  - The result is extrapolated from two runs, the second with half the cells and twice the step;
  *    the estimates are what that changed, and a part for the grid (docs/bem.md).
  *  - A sphere that sinks in for good has NO_REBOUND, ez = 0 and an infinite contact time: it is

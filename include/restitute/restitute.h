@@ -488,7 +488,7 @@ RESTITUTE_SINCE_0_1 int restitute_solve_scene(restitute_solver *solver,
  *  @param results   optional: n results, each prepared by @ref restitute_result_init
  *  @param statuses  optional: n statuses, one a case
  *  @param error     optional: of the case that gave the return value, e.g. "impact[17]: psi = -1:
- *                   must be in [0, 1e12]"
+ *                   must be in [0, 1e+12] or inf"
  *  @return OK if all cases are OK; else the status of the first failed case by index; if none
  *          failed, that of the first with a remark. A call that is refused as a whole (ERROR_NULL,
  *          ERROR_MEMORY, ERROR_DOMAIN of options, ERROR_STRUCT_SIZE of options, impacts[0] or

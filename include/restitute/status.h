@@ -17,12 +17,13 @@
     X(ERROR_DOMAIN, -3, "a value lies outside its allowed range")                                                      \
     X(ERROR_MEMORY, -4, "out of memory")                                                                               \
     X(ERROR_UNSTABLE_STEP, -5, "the requested time step cannot be stable")                                             \
-    X(ERROR_TOO_MUCH_WORK, -6, "the impact needs more work than max_updates or time_limit allow")                      \
+    X(ERROR_TOO_MUCH_WORK, -6, "the impact needs more work than max_work or time_limit allow")                      \
     X(ERROR_FILE, -7, "a file cannot be read or written")                                                              \
     X(ERROR_FORMAT, -8, "a file does not have the expected form")                                                      \
     X(ERROR_INTERNAL, -9, "an internal check failed; please report it")                                                \
     X(ERROR_INTEGRATOR, -10, "the ODE integrator failed; see the message")                                             \
-    X(ERROR_INTERRUPTED, -11, "interrupted by the caller")
+    X(ERROR_INTERRUPTED, -11, "interrupted by the caller")                                                             \
+    X(ERROR_CONVERGENCE, -12, "an iteration did not converge")
 
 #define RESTITUTE_STATUS_ENUM(name, value, text) RESTITUTE_##name = (value),
 /** Status of a call; see @ref RESTITUTE_STATUS_LIST for the texts. */

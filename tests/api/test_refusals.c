@@ -299,6 +299,8 @@ static void null_and_unprepared_outputs_are_refused(void **state)
     CHECK(isnan(restitute_material_modulus(NULL, 1)) && isnan(restitute_material_modulus(rubber, 0)), "modulus");
     CHECK(restitute_material_terms(NULL) == 0 && isnan(restitute_material_poisson_ratio(NULL)), "NULL material");
     CHECK(restitute_method_name(NULL)[0] == '\0', "NULL method");
+    CHECK(restitute_material_series(NULL, NULL, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL material");
+    CHECK(strcmp(error.message, "material is NULL") == 0, "%s", error.message);
 }
 
 /* A comma would be read as the end of a number: "in [0,333, 200]". */

@@ -1,8 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT FORTRAN OPENMP
-# The working directory is used up.
+# Installs the package, moves the tree, and builds and runs the programs of project/ against it:
+#   run.sh shared|static
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_
+# FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND FORTRAN OPENMP. The working directory is used
+# up.
 set -eu
 
 kind=$1
@@ -35,7 +37,7 @@ else
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
         -DRESTITUTE_CONTACT="$WITH_CONTACT" -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
         -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" -DRESTITUTE_FIT="$WITH_FIT" \
-        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
+        -DRESTITUTE_COMMAND="$WITH_COMMAND" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
@@ -76,7 +78,7 @@ user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
 [ "$WITH_CONTACT" = OFF ] || user/consumer_contact
 [ "$WITH_TABLE" = OFF ] || user/consumer_table
-if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
+if [ "$WITH_TABLE_FILES" != OFF ] && [ "$WITH_COMMAND" != OFF ]; then
     second/bin/restitute table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
         --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
     user/consumer_table_files user/table.h5
@@ -93,15 +95,21 @@ echo "== find_package without components takes all that are installed"
 if [ "$WITH_FORTRAN" != OFF ]; then
     echo "== find_package from Fortran alone"
     "$CMAKE" -S "$SOURCE_DIR/tests/consume/project_fortran" -B user-fortran -G "$GENERATOR" \
-        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" -DCONSUMER_FIT="$WITH_FIT"
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_Fortran_COMPILER="$FC" \
+        -DCONSUMER_COMPONENTS="$(echo "$components" | sed 's/core/fortran/; s/;/;fortran_/g')"
     "$CMAKE" --build user-fortran
-    user-fortran/consumer_fortran
-    [ "$WITH_FIT" = OFF ] || user-fortran/consumer_fitting
+    for consumer in user-fortran/consumer*; do
+        case $consumer in
+        *_table_files) "$consumer" user-fortran/table.h5 ;;
+        *_files) "$consumer" "$SOURCE_DIR/examples/materials/polyisobutylene.json" ;;
+        *) "$consumer" ;;
+        esac
+    done
 
-    echo "== the installed source of the module, for another compiler than ours"
-    (mkdir user-fortran/source && cd user-fortran/source &&
-        "$FC" -c "$prefix/share/restitute/fortran/restitute.f90" \
-            "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90")
+    echo "== the installed sources of the module, for another compiler than ours"
+    (mkdir user-fortran/source && cd user-fortran/source && sources=$prefix/share/restitute/fortran &&
+        "$FC" -c "$sources/restitute_types.f90" "$sources/restitute_texts.f90" "$sources/restitute_core.f90" \
+            "$sources/restitute.f90" "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90")
 
     echo "== the module is missed by its name where there is no Fortran"
     if "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B missing -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -146,6 +154,13 @@ if [ "$WITH_FORTRAN" != OFF ]; then
     "$FC" -o user/fortran_by_pkg_config "$SOURCE_DIR/tests/consume/project_fortran/consumer.f90" \
         $(pkg-config --cflags --libs $static restitute-fortran)
     user/fortran_by_pkg_config
+    if [ "$WITH_TABLE_FILES" != OFF ]; then
+        # shellcheck disable=SC2046
+        "$FC" -o user/fortran_table_files_by_pkg_config \
+            "$SOURCE_DIR/tests/consume/project_fortran/consumer_table_files.f90" \
+            $(pkg-config --cflags --libs $static restitute-fortran_table_files)
+        user/fortran_table_files_by_pkg_config user/fortran.h5
+    fi
 fi
 if [ "$WITH_CVODE" != OFF ]; then
     # shellcheck disable=SC2046
@@ -170,7 +185,8 @@ if [ "$WITH_FILES" != OFF ]; then
     "$CC" -o user/files_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_files.c" \
         $(pkg-config --cflags --libs $static restitute-files)
     user/files_by_pkg_config "$SOURCE_DIR/examples/materials/polyisobutylene.json"
-
+fi
+if [ "$WITH_COMMAND" != OFF ]; then
     echo "== the installed command finds its libraries"
     unset LD_LIBRARY_PATH
     second/bin/restitute --version

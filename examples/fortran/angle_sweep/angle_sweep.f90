@@ -1,4 +1,5 @@
-!> A steel ball on rubber from steep to grazing: ex changes sign where sliding takes over. One solver serves all impacts.
+!> A steel ball on rubber from steep to grazing: ex changes sign where sliding dominates. One solver
+!> serves all impacts.
 program angle_sweep
   use restitute
   implicit none (type, external)
@@ -12,7 +13,7 @@ program angle_sweep
   integer :: angle, status
 
   status = restitute_material_standard_solid(1e6_rk, 3e6_rk, 300.0_rk, 0.5_rk, rubber) ! G1, G2 (Pa), eta (Pa s), nu
-  status = restitute_solver_create(solver)
+  status = restitute_solver_create(solver=solver)
   result = restitute_result()
   scene = restitute_scene()
   scene%material = rubber

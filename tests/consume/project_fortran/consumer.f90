@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A Fortran user's program: every kind of call of the module. Exit status 0 if all is what it should be.
+!> A Fortran user's program: every kind of call of the module. Exit status 0 if all is what it
+!> should be.
 program consumer
   use restitute
   implicit none (type, external)
@@ -15,22 +16,30 @@ program consumer
 
 contains
 
-  !> An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip limit of the
-  !> literature); the default tolerance is 1e-3.
+  !> The default is an impact without friction; psi = 0: it never slips.
+  function no_slip() result(impact)
+    type(restitute_impact) :: impact
+    impact = restitute_impact()
+    impact%psi = 0
+  end function no_slip
+
+  !> An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip
+  !> limit of the literature); the default tolerance is 1e-3.
   function no_slip_is_right() result(good)
     logical :: good
     type(restitute_solver) :: solver
     type(restitute_result) :: result
-    good = restitute_solver_create(solver) == RESTITUTE_OK
+    good = restitute_solver_create(solver=solver) == RESTITUTE_OK
     result = restitute_result()
-    good = good .and. restitute_solve(solver, restitute_impact(), result) == RESTITUTE_OK
+    good = good .and. restitute_solve(solver, no_slip(), result) == RESTITUTE_OK
     good = good .and. restitute_method_name(result) == restitute_method_name(restitute_method_euler())
     good = good .and. abs(result%ez - 1) < 1e-3_rk .and. abs(result%ex - 0.10397_rk) < 1e-3_rk
     call restitute_solver_destroy(solver)
     print "(3a, 2f8.5)", "restitute ", restitute_version(), ", elastic without slip:", result%ez, result%ex
   end function no_slip_is_right
 
-  !> The same limit by the precise method, to the five digits in which it is published; it takes no time step, and says so.
+  !> The same limit by the precise method, to the five digits in which it is published; it takes no
+  !> time step, and says so.
   function other_method_is_right() result(good)
     logical :: good
     type(restitute_solver) :: solver
@@ -41,12 +50,12 @@ contains
     options%method = restitute_method_sync()
     options%tolerance = 1e-7_rk
     options%time_step = 1e-2_rk
-    good = restitute_solver_create(solver, options, error) == RESTITUTE_ERROR_DOMAIN
+    good = restitute_solver_create(options, solver, error) == RESTITUTE_ERROR_DOMAIN
     good = good .and. index(restitute_message(error), "time_step = 0.01: must be 0 with the method sync") == 1
     options%time_step = 0
-    good = good .and. restitute_solver_create(solver, options) == RESTITUTE_OK
+    good = good .and. restitute_solver_create(options, solver) == RESTITUTE_OK
     result = restitute_result()
-    good = good .and. restitute_solve(solver, restitute_impact(), result) == RESTITUTE_OK
+    good = good .and. restitute_solve(solver, no_slip(), result) == RESTITUTE_OK
     good = good .and. restitute_method_name(result) == "sync" .and. result%error_ez <= 1e-7_rk
     good = good .and. abs(result%ex - 0.10397_rk) < 5.1e-6_rk .and. abs(result%ez - 1) < 1e-7_rk
     call restitute_solver_destroy(solver)
@@ -67,7 +76,7 @@ contains
     good = restitute_material_standard_solid(1e6_rk, 2e6_rk, 50.0_rk, 0.5_rk, rubber) == RESTITUTE_OK
     options = restitute_options()
     options%tolerance = 1e-2_rk
-    good = good .and. restitute_solver_create(solver, options, error) == RESTITUTE_OK
+    good = good .and. restitute_solver_create(options, solver, error) == RESTITUTE_OK
     result = restitute_result()
     ledger = restitute_ledger()
     call restitute_history_arrays(history, time=time, normal_force=force)
@@ -84,30 +93,37 @@ contains
     scene%normal_speed = 2
     good = good .and. restitute_solve_scene(solver, scene, result, ledger, history, error) == RESTITUTE_OK
     ! it is soft for that speed: what the model is strained by is named
-    good = good .and. index(restitute_message(error), "limit") > 0 .and. history%count == 20 .and. all(time(2:) > time(:19))
+    good = good .and. index(restitute_message(error), &
+      "limit") > 0 .and. history%count == 20 .and. all(time(2:) > time(:19))
     good = good .and. maxval(force) > 0 .and. ledger%rebound_z > 0 .and. result%ez > 0 .and. result%ez < 1
     print "(a, 2f8.4, i4, a)", "rubber ball:", result%ez, result%ex, history%count, " samples"
     call restitute_solver_destroy(solver)
     call restitute_material_destroy(rubber)
   end function rubber_ball_rebounds
 
-  !> Arrays with a stride, arrays of unlike length, and a pair, whose modulus at a time is that of the series.
+  !> Arrays with a stride, arrays of unlike length, and a pair, whose modulus at a time is that of
+  !> the series.
   function materials_are_right() result(good)
     logical :: good
     real(rk), parameter :: table(2, 2) = reshape([1e-4_rk, 5e6_rk, 1e-2_rk, 1e6_rk], [2, 2])
     type(restitute_material) :: polymer, pair
     type(restitute_error) :: error
-    real(rk) :: expected
+    real(rk) :: expected, at_rest
+    real(rk), allocatable :: tau(:), modulus(:)
     good = restitute_material_prony(0.0_rk, 0.0_rk, table(1, :), table(2, :1), 0.5_rk, polymer, error) == &
            RESTITUTE_ERROR_DOMAIN
     good = good .and. index(restitute_message(error), "relaxation_time") > 0
-    good = good .and. restitute_material_prony(1e6_rk, 0.0_rk, table(1, :), table(2, :), 0.5_rk, polymer) == RESTITUTE_OK
+    good = good .and. restitute_material_prony(1e6_rk, 0.0_rk, table(1, :), table(2, :), 0.5_rk, &
+      polymer) == RESTITUTE_OK
     good = good .and. restitute_material_terms(polymer) == 2
+    good = good .and. restitute_material_series(polymer, at_rest, relaxation_time=tau, modulus=modulus) == RESTITUTE_OK
+    ! What was given, to the bit: no difference.
+    good = good .and. .not. any(abs([at_rest, tau, modulus] - [1e6_rk, table(1, :), table(2, :)]) > 0)
     expected = 1e6_rk + 5e6_rk*exp(-10.0_rk) + 1e6_rk*exp(-0.1_rk)
     ! Rounding of three terms and two exponentials.
     good = good .and. abs(restitute_material_modulus(polymer, 1e-3_rk)/expected - 1) < 1e-14_rk
     ! A solid in series with itself has half the modulus; the root finder of the series leaves a few digits of rounding.
-    good = good .and. restitute_material_pair(polymer, polymer, pair) == RESTITUTE_OK
+    good = good .and. restitute_material_effective(polymer, polymer, pair) == RESTITUTE_OK
     good = good .and. abs(restitute_material_modulus(pair, 1e-3_rk)/expected - 0.5_rk) < 1e-10_rk
     good = good .and. abs(restitute_material_dundurs(pair)) < epsilon(1.0_rk)
     call restitute_material_destroy(pair)
@@ -115,11 +131,13 @@ contains
     call restitute_material_destroy(polymer) ! a second time does no harm
   end function materials_are_right
 
-  !> Every second element of an array, the results of single calls, a refused case, and lengths that do not fit.
+  !> Every second element of an array, the results of single calls, a refused case, and lengths that
+  !> do not fit.
   function batches_are_right() result(good)
     logical :: good
     integer, parameter :: n = 6
     type(restitute_impact) :: impacts(2*n)
+    type(restitute_options) :: options
     type(restitute_scene) :: scenes(n)
     type(restitute_material) :: rubber
     type(restitute_result) :: results(n), single
@@ -131,8 +149,8 @@ contains
       impacts(2*k)%psi = 0.5_rk*k
       results(k) = restitute_result()
     end do
-    good = restitute_solve_many(impacts(2::2), results, error=error) == RESTITUTE_OK
-    good = good .and. restitute_solver_create(solver) == RESTITUTE_OK
+    good = restitute_solve_many(impacts(2::2), results=results, error=error) == RESTITUTE_OK
+    good = good .and. restitute_solver_create(solver=solver) == RESTITUTE_OK
     single = restitute_result()
     do k = 1, n
       status = restitute_solve(solver, impacts(2*k), single)
@@ -149,10 +167,12 @@ contains
       scenes(k)%mass1 = 4e-3_rk
       scenes(k)%normal_speed = k - 4
     end do
-    status = restitute_solve_scenes(scenes, results, statuses, threads=2, error=error)
+    options = restitute_options()
+    options%threads = 2
+    status = restitute_solve_scene_many(scenes, options, results, statuses, error)
     good = good .and. status == RESTITUTE_ERROR_DOMAIN .and. all(statuses(:4) == status) .and. all(statuses(5:) == 0)
     good = good .and. index(restitute_message(error), "scene[0]: normal_speed (m/s) = -3") == 1
-    status = restitute_solve_scenes(scenes, results(2:), error=error)
+    status = restitute_solve_scene_many(scenes, options, results(2:), error=error)
     good = good .and. status == RESTITUTE_ERROR_DOMAIN
     good = good .and. restitute_message(error) == "results: must have as many values as scenes, 6; has 5"
     status = restitute_solve_many(impacts, statuses=statuses, error=error)
@@ -177,8 +197,8 @@ contains
     impact = restitute_impact()
     result = restitute_result()
     single = restitute_result()
-    good = restitute_solver_create(solver, options) == RESTITUTE_OK
-    good = good .and. restitute_plan_create(impact, plan, options) == RESTITUTE_OK
+    good = restitute_solver_create(options, solver) == RESTITUTE_OK
+    good = good .and. restitute_plan_create(impact, options, plan) == RESTITUTE_OK
     do k = 0, 4
       impact%psi = 0.7_rk*k
       good = good .and. restitute_solve(solver, impact, single) == RESTITUTE_OK
@@ -195,9 +215,9 @@ contains
     scene%radius1 = 0.01_rk
     scene%mass1 = 4e-3_rk
     scene%friction = 0.3_rk
-    good = good .and. restitute_plan_create_scene(scene, plan, options) == RESTITUTE_ERROR_DOMAIN
+    good = good .and. restitute_plan_create_scene(scene, options, plan) == RESTITUTE_ERROR_DOMAIN
     scene%normal_speed = 1
-    good = good .and. restitute_plan_create_scene(scene, plan, options) == RESTITUTE_OK
+    good = good .and. restitute_plan_create_scene(scene, options, plan) == RESTITUTE_OK
     good = good .and. restitute_plan_solve(plan, 0.5_rk, result) == RESTITUTE_OK
     scene%tangential_speed = 0.5_rk
     good = good .and. restitute_solve_scene(solver, scene, single) == RESTITUTE_OK
