@@ -60,7 +60,7 @@ int bench_bem_run(restitute_solver *sync, restitute_solver *bem, long index, con
     if (draw->kind == DRAWN_PRONY &&
         restitute_material_prony(draw->g_inf, 0, (size_t)draw->n_terms, draw->tau, draw->g, 0.5, &solid, NULL) < 0)
         return 1;
-    impact.solid = solid;
+    impact.material = solid;
     *row = (struct bench_bem_row){.index = index, .draw = *draw};
     row->seconds_sync = solve(sync, &impact, &result, &row->status_sync);
     row->ez_sync = result.ez, row->ex_sync = result.ex;

@@ -126,10 +126,10 @@ static int prepare(const struct bench_method *method, const struct variant *vari
     if (status) return status;
     restitute_impact_init(&r->impact);
     r->impact.psi = variant->psi;
-    r->impact.solid = r->solid;
+    r->impact.material = r->solid;
     make_scene(r->solid, &r->scene);
     status = restitute_solver_create(&options, &r->solver, error);
-    if (!status && variant->planned) status = restitute_plan_create(&options, &r->impact, &r->plan, error);
+    if (!status && variant->planned) status = restitute_plan_create(&r->impact, &options, &r->plan, error);
     return status ? status : solve(r, error);
 }
 

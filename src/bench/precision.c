@@ -14,7 +14,10 @@
 /* Work longer than this (s) is timed once. */
 static const double long_work = 0.01;
 
-/* No method does more element updates in a second, so this bounds the time of a call from below. */
+/* Of nominal seconds no method does more in a second; bounds the time of a call from below. */
+static const double work_per_second = 5;
+
+/* The bench's own methods update elements as euler does. */
 static const double updates_per_second = 1e9;
 
 /* A tenth of the tolerance costs at most this much more by a method of first order; taken where there is no earlier run
@@ -87,11 +90,11 @@ static int run_library(const struct bench_plan *plan, const struct bench_scene *
     restitute_result_init(&work.result);
     options.method = bench_methods[run->method].handle();
     options.tolerance = run->tolerance;
-    options.max_updates = (int64_t)fmax(1, plan->budget * updates_per_second);
+    options.max_work = plan->budget * work_per_second;
     options.time_limit = INFINITY;
     if (restitute_solver_create(&options, &work.solver, NULL)) return 1;
     const struct bench_time time = bench_time_work(solve_by_library, &work, long_work);
-    if (work.status >= 0) bench_read_work(work.solver, run);
+    if (work.status >= 0) bench_read_work(&options, &work.impact, run);
     restitute_solver_destroy(work.solver);
     run->seconds = time.seconds;
     run->repeats = time.repeats;
@@ -102,7 +105,7 @@ static int run_library(const struct bench_plan *plan, const struct bench_scene *
     run->estimate = fmax(work.result.error_ez, work.result.error_ex);
     run->elements = work.result.elements;
     run->steps = work.result.steps;
-    run->updates = work.result.updates;
+    run->work = work.result.work;
     judge(scene, run);
     return 0;
 }
@@ -135,7 +138,7 @@ static int run_paper(const struct bench_scene *scene, struct bench_run *run)
     run->ez = work.result.ez;
     run->ex = work.result.ex;
     run->steps = work.result.steps;
-    run->updates = work.result.updates;
+    run->work = (double)work.result.updates / updates_per_second;
     judge(scene, run);
     return 0;
 }
@@ -166,7 +169,8 @@ static struct bench_run new_run(size_t scene, int method)
                               .ex = NAN,
                               .error_ez = NAN,
                               .error_ex = NAN,
-                              .estimate = NAN};
+                              .estimate = NAN,
+                              .work = NAN};
 }
 
 static int sweep_tolerances(const struct bench_plan *plan, const struct bench_scene *scene, size_t number, int method,

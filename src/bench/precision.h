@@ -29,7 +29,8 @@ struct bench_run {
     double ez, ex, error_ez, error_ex; /* errors against the reference */
     double estimate;                   /* larger of the two; NaN if the method makes none */
     int status;
-    int64_t elements, steps, updates;
+    int64_t elements, steps;
+    double work;              /* nominal seconds */
     int64_t restarts, events; /* of the method cvode, with all its steps; 0: it has none */
 };
 

@@ -174,7 +174,7 @@ restitute_impact bench_scene_impact(const struct bench_scene *scene)
     impact.chi = scene->chi;
     impact.psi = scene->psi;
     if (scene->solid) {
-        impact.solid = scene->solid;
+        impact.material = scene->solid;
     } else {
         impact.delta1 = scene->delta1;
         impact.gamma = scene->gamma;
@@ -188,7 +188,7 @@ struct paper_problem bench_scene_paper(const struct bench_scene *scene)
                                   scene->n_terms, scene->g,   scene->tau};
 }
 
-static int solve(const struct bench_scene *scene, const restitute_method *method, double tolerance, int64_t max_updates,
+static int solve(const struct bench_scene *scene, const restitute_method *method, double tolerance, double max_work,
                  restitute_result *result, restitute_error *error)
 {
     restitute_options options;
@@ -197,7 +197,7 @@ static int solve(const struct bench_scene *scene, const restitute_method *method
     restitute_result_init(result);
     options.method = method;
     options.tolerance = tolerance;
-    options.max_updates = max_updates;
+    options.max_work = max_work;
     options.time_limit = INFINITY;
     int status = restitute_solver_create(&options, &solver, error);
     if (status) return status;
@@ -207,12 +207,12 @@ static int solve(const struct bench_scene *scene, const restitute_method *method
     return status;
 }
 
-int bench_scene_complete(struct bench_scene *scene, double tolerance, int64_t max_updates, restitute_error *error)
+int bench_scene_complete(struct bench_scene *scene, double tolerance, double max_work, restitute_error *error)
 {
     const struct bench_method *method = bench_reference_method();
     restitute_result result;
     if (scene->has_reference) tolerance = 1e-3; /* radius and contact time to about that are good enough */
-    const int status = solve(scene, method->handle(), tolerance, max_updates, &result, error);
+    const int status = solve(scene, method->handle(), tolerance, max_work, &result, error);
     if (status < 0) return status;
     scene->radius = result.max_contact_radius;
     scene->contact_time = result.contact_time;

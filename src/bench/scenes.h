@@ -52,8 +52,8 @@ void bench_scene_make(const char *name, enum bench_set set, double chi, double p
                       struct bench_scene *scene);
 
 /* Solve once for radius and contact time, and for the reference if the scene has none. `tolerance` is that of the
- * reference; `max_updates` what it may cost. Negative status: refused, no reference. */
-int bench_scene_complete(struct bench_scene *scene, double tolerance, int64_t max_updates, restitute_error *error);
+ * reference; `max_work` what it may cost. Negative status: refused, no reference. */
+int bench_scene_complete(struct bench_scene *scene, double tolerance, double max_work, restitute_error *error);
 
 restitute_impact bench_scene_impact(const struct bench_scene *scene);
 struct paper_problem bench_scene_paper(const struct bench_scene *scene);

@@ -43,7 +43,7 @@ void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs
 {
     fputs("set,scene,chi,psi,delta1,gamma,method,tolerance,elements_asked,steps_asked,seconds,"
           "repeats,ez,ex,error_ez,error_ex,estimate,"
-          "reference_error,reference,elements,steps,updates,restarts,events,status\n",
+          "reference_error,reference,elements,steps,work,restarts,events,status\n",
           stream);
     for (size_t i = 0; i < runs->count; i++) {
         const struct bench_run *r = &runs->runs[i];
@@ -64,7 +64,7 @@ void bench_write_runs(const struct bench_scenes *scenes, const struct bench_runs
         fprintf(stream, "%.3g,%s,", bench_scene_uncertainty(s), s->reference);
         write_whole(stream, r->elements, ',');
         write_whole(stream, r->steps, ',');
-        write_whole(stream, r->updates, ',');
+        write_number(stream, "%.3g", r->work, ',');
         write_whole(stream, r->restarts, ',');
         write_whole(stream, r->events, ',');
         write_text(stream, status_cell(r->status), '\n');

@@ -9,16 +9,27 @@
 #include <restitute/cvode.h>
 #endif
 
-void bench_read_work(const restitute_solver *solver, struct bench_run *run)
+void bench_read_work(const restitute_options *options, const restitute_impact *impact, struct bench_run *run)
 {
-    (void)solver;
     run->restarts = run->events = 0;
 #ifdef RESTITUTE_WITH_CVODE
+    restitute_options recorded = *options;
+    restitute_cvode_recorder *recorder;
+    restitute_solver *solver;
     restitute_cvode_work work;
     restitute_cvode_work_init(&work);
-    if (restitute_cvode_last_work(solver, &work, NULL) != RESTITUTE_OK) return; /* a solver of another method */
+    if (restitute_cvode_recorder_create(options->method, &recorder, NULL) < 0) return; /* another method */
+    recorded.method = restitute_cvode_recorder_method(recorder);
+    if (restitute_solver_create(&recorded, &solver, NULL) == RESTITUTE_OK) {
+        restitute_solve(solver, impact, NULL, NULL, NULL, NULL);
+        restitute_cvode_recorder_work(recorder, &work, NULL);
+        restitute_solver_destroy(solver);
+    }
+    restitute_cvode_recorder_destroy(recorder);
     run->restarts = work.restarts;
     run->events = work.events;
+#else
+    (void)options, (void)impact;
 #endif
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
+#include "files/number.h"
 
 struct poptOption *field_options(bool (*wanted)(enum field field), const struct poptOption *more)
 {
@@ -78,7 +78,7 @@ bool option_number(const char *name, const char *text, double low, double high, 
 {
     double number;
     if (!text) return true;
-    if (restitute_number_read(text, &number) != RESTITUTE_OK || !(number >= low && number <= high) ||
+    if (rst_number_read(text, &number) != RESTITUTE_OK || !(number >= low && number <= high) ||
         (whole && number != floor(number)))
         return refuse(why, "--%s = \"%.64s\": must be %s in [%g, %g]", name, text,
                       whole ? "a whole number" : "a number", low, high);
@@ -92,8 +92,8 @@ bool option_shard(const char *text, size_t *shard, size_t *shards, struct reason
     char first[32];
     double part = 1, parts = 1;
     snprintf(first, sizeof first, "%.*s", slash ? (int)(slash - text) : 0, text ? text : "");
-    if (text && (restitute_number_read(first, &part) != RESTITUTE_OK ||
-                 restitute_number_read(slash ? slash + 1 : "", &parts) != RESTITUTE_OK ||
+    if (text && (rst_number_read(first, &part) != RESTITUTE_OK ||
+                 rst_number_read(slash ? slash + 1 : "", &parts) != RESTITUTE_OK ||
                  !(part >= 1 && part <= parts && parts <= 10000) || part != floor(part) || parts != floor(parts)))
         return refuse(why, "--shard = \"%.64s\": must be I/K, 1 <= I <= K <= 10000", text);
     *shard = (size_t)part;

@@ -161,7 +161,7 @@ static void adapt_chunk(struct batch *batch, double seconds)
 static size_t threads_of(const struct settings *settings)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    if (settings->threads > 0) return (size_t)settings->threads;
+    if (settings->solver.threads > 0) return (size_t)settings->solver.threads;
     return processors > 0 ? (size_t)processors : 1;
 }
 

@@ -5,6 +5,7 @@
 #include "bench.h"
 
 #include <signal.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -149,7 +150,7 @@ static bool run_all(struct precision *p, struct reason *why)
         char text[120];
         snprintf(text, sizeof text, "scene %zu of %zu, %s: reference", i + 1, p->scenes.count, scene->name);
         bench_progress(text);
-        if (bench_scene_complete(scene, tolerance, INT64_MAX / 8, &error) < 0)
+        if (bench_scene_complete(scene, tolerance, INFINITY, &error) < 0)
             return refuse(why, "scene %s: %.300s", scene->name, error.message);
         for (int m = 0; m < BENCH_METHODS && !interrupted; m++) {
             if (!(plan->methods & 1u << m)) continue;

@@ -10,19 +10,19 @@
 
 const char *cases_name(const struct cases *cases, size_t column)
 {
-    return cases->csv ? restitute_csv_name(cases->csv, column) : cases->names[column];
+    return cases->csv ? rst_csv_name(cases->csv, column) : cases->names[column];
 }
 
 const char *cases_cell(const struct cases *cases, size_t row, size_t column)
 {
     row += cases->first;
-    return cases->csv ? restitute_csv_cell(cases->csv, row, column) : cases->cells[row * cases->columns + column];
+    return cases->csv ? rst_csv_cell(cases->csv, row, column) : cases->cells[row * cases->columns + column];
 }
 
 size_t cases_line(const struct cases *cases, size_t row)
 {
     row += cases->first;
-    return cases->csv ? restitute_csv_line(cases->csv, row) : row + 1;
+    return cases->csv ? rst_csv_line(cases->csv, row) : row + 1;
 }
 
 void cases_make(struct cases *cases, size_t rows, size_t columns, const char *const *names, size_t notes)
@@ -74,10 +74,10 @@ bool cases_open(const struct settings *settings, struct cases *cases, struct rea
     restitute_error error;
     memset(cases, 0, sizeof *cases);
     if (settings->text[TEXT_GRID]) return open_grid(settings->text[TEXT_GRID], cases, why);
-    if (restitute_csv_read(path, &cases->csv, &error) < 0) return refuse(why, "%s", error.message);
+    if (rst_csv_read(path, RST_BYTES_OF_TABLE, &cases->csv, &error) < 0) return refuse(why, "%s", error.message);
     cases->source = strcmp(path, "-") == 0 ? "standard input" : path;
-    cases->rows = cases->all = restitute_csv_rows(cases->csv);
-    cases->columns = restitute_csv_columns(cases->csv);
+    cases->rows = cases->all = rst_csv_rows(cases->csv);
+    cases->columns = rst_csv_columns(cases->csv);
     if (cases->rows == 0) {
         cases_release(cases);
         return refuse(why, "%.200s: has column names but no rows", cases->source);
@@ -87,7 +87,7 @@ bool cases_open(const struct settings *settings, struct cases *cases, struct rea
 
 void cases_release(struct cases *cases)
 {
-    restitute_csv_destroy(cases->csv);
+    rst_csv_destroy(cases->csv);
     cases->csv = NULL;
     for (size_t i = 0; cases->cells && i < cases->columns * cases->all; i++)
         free(cases->cells[i]);

@@ -3,15 +3,14 @@
 #ifndef CLI_CASES_H
 #define CLI_CASES_H
 
-#include <restitute/files.h>
-
+#include "files/csv_table.h"
 #include "options.h"
 
 enum { CASES_MADE_COLUMNS = 32 };
 
 struct cases {
     size_t rows, columns;
-    restitute_csv *csv;                    /* where they were read from; NULL for a grid */
+    struct rst_csv *csv;                   /* where they were read from; NULL for a grid */
     const char *source;                    /* name of the file for messages; NULL for a grid */
     char **cells;                          /* of a grid or a sweep, row by row; NULL for a file */
     const char *names[CASES_MADE_COLUMNS]; /* of these */

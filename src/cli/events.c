@@ -56,26 +56,35 @@ bool events_check(struct settings *settings, struct reason *why)
     return output_check(path, "--events", why);
 }
 
-static int solve_into(restitute_solver *solver, const struct problem *problem, restitute_result *result,
-                      restitute_history *history, restitute_cvode_events *events, restitute_error *error)
+bool events_begin(const struct settings *settings, restitute_options *options, struct event_keeper **keeper,
+                  struct reason *why)
 {
-    return problem->physical
-               ? restitute_cvode_solve_scene(solver, &problem->scene, result, NULL, history, events, error)
-               : restitute_cvode_solve(solver, &problem->impact, result, NULL, history, events, error);
+    restitute_cvode_recorder *recorder;
+    restitute_error error;
+    *keeper = NULL;
+    if (!settings->text[TEXT_EVENTS]) return true;
+    if (restitute_cvode_recorder_create(options->method, &recorder, &error) < 0) return refuse(why, "%s", error.message);
+    options->method = restitute_cvode_recorder_method(recorder);
+    *keeper = (struct event_keeper *)recorder;
+    return true;
 }
 
-int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
-                 restitute_history *history, struct event_table *table, restitute_error *error)
+void events_end(struct event_keeper *keeper)
 {
+    restitute_cvode_recorder_destroy((restitute_cvode_recorder *)keeper);
+}
+
+bool events_take(const struct event_keeper *keeper, struct event_table *table, struct reason *why)
+{
+    const restitute_cvode_recorder *recorder = (const restitute_cvode_recorder *)keeper;
+    restitute_error error;
     restitute_cvode_events events;
     restitute_cvode_events_init(&events);
-    int status;
-    do { /* the number is known after the first time */
-        free(events.event);
-        events.capacity = events.count ? events.count : 4096;
-        events.event = allocate(events.capacity, sizeof *events.event);
-        status = solve_into(solver, problem, result, history, &events, error);
-    } while (status >= 0 && events.count > events.capacity);
+    if (!keeper) return true;
+    int status = restitute_cvode_recorder_events(recorder, &events, &error); /* the number */
+    events.capacity = events.count;
+    events.event = allocate(events.capacity, sizeof *events.event);
+    if (status >= 0) status = restitute_cvode_recorder_events(recorder, &events, &error);
     const size_t n = status >= 0 ? events.count : 0;
     table->count = n;
     table->kind = allocate(n, sizeof *table->kind);
@@ -93,7 +102,7 @@ int events_solve(restitute_solver *solver, const struct problem *problem, restit
         table->number[EVENT_ELEMENTS][i] = event->elements;
     }
     free(events.event);
-    return status;
+    return status >= 0 || refuse(why, "%s", error.message);
 }
 #else
 bool events_check(struct settings *settings, struct reason *why)
@@ -103,12 +112,23 @@ bool events_check(struct settings *settings, struct reason *why)
                   "--events needs the component cvode, which is not in this build (SUNDIALS; Debian: libsundials-dev)");
 }
 
-/* Never reached: events_check() refuses first. */
-int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
-                 restitute_history *history, struct event_table *table, restitute_error *error)
+bool events_begin(const struct settings *settings, restitute_options *options, struct event_keeper **keeper,
+                  struct reason *why)
 {
-    (void)table;
-    return problem_solve(solver, problem, result, NULL, history, error);
+    (void)settings, (void)options, (void)why;
+    *keeper = NULL;
+    return true;
+}
+
+void events_end(struct event_keeper *keeper)
+{
+    (void)keeper;
+}
+
+bool events_take(const struct event_keeper *keeper, struct event_table *table, struct reason *why)
+{
+    (void)keeper, (void)table, (void)why;
+    return true;
 }
 #endif
 

@@ -33,9 +33,14 @@ const char *event_column_unit(int column, bool physical);
  * known; without --method, take cvode. */
 bool events_check(struct settings *settings, struct reason *why);
 
-/* Solve, with the events. Returns the library's status. */
-int events_solve(restitute_solver *solver, const struct problem *problem, restitute_result *result,
-                 restitute_history *history, struct event_table *table, restitute_error *error);
+/* Where events are wanted, `options` get a method that keeps them. NULL: not wanted. */
+struct event_keeper;
+bool events_begin(const struct settings *settings, restitute_options *options, struct event_keeper **keeper,
+                  struct reason *why);
+void events_end(struct event_keeper *keeper);
+
+/* Those of the impact that was solved. */
+bool events_take(const struct event_keeper *keeper, struct event_table *table, struct reason *why);
 
 /* The table as an output for `path`, not yet finished: HDF5 if it ends in .h5 or .hdf5, else CSV;
  * "-" is standard output. */

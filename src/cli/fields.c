@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include <restitute/files.h>
+#include "files/number.h"
 
 #define POSITIVE 0.0, INFINITY, false, false
 #define POSITIVE_OR_INFINITE 0.0, INFINITY, false, true
@@ -75,7 +75,7 @@ bool field_read(enum field field, const char *text, const char *place, double *v
 {
     const struct field_rule *rule = &field_rules[field];
     double number;
-    const int status = restitute_number_read(text, &number);
+    const int status = rst_number_read(text, &number);
     if (status == RESTITUTE_ERROR_DOMAIN)
         return refuse(why, "%s = %.64s is too large or too small for a double: %s", place, text, rule->range);
     if (status != RESTITUTE_OK) return refuse(why, "%s = \"%.64s\" is not a number: %s", place, text, rule->range);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files/number.h"
 #include "fit_settings.h"
 
 /* Columns that are no fields of a scene. Heights of a drop stand for the speed and ez: v = sqrt(2 g h). */
@@ -22,7 +23,7 @@ static const double gravity = 9.80665;
 static bool at_line(const struct fit_input *input, size_t row, struct reason *why)
 {
     const struct reason inner = *why;
-    return refuse(why, "%.120s line %zu (row %zu): %s", input->source, restitute_csv_line(input->csv, row), row + 1,
+    return refuse(why, "%.120s line %zu (row %zu): %s", input->source, rst_csv_line(input->csv, row), row + 1,
                   inner.text);
 }
 
@@ -35,20 +36,20 @@ static bool of_scene(const char *name)
 
 static bool has(const struct fit_input *input, const char *name)
 {
-    for (size_t i = 0; i < restitute_csv_columns(input->csv); i++)
-        if (strcmp(restitute_csv_name(input->csv, i), name) == 0) return true;
+    for (size_t i = 0; i < rst_csv_columns(input->csv); i++)
+        if (strcmp(rst_csv_name(input->csv, i), name) == 0) return true;
     return false;
 }
 
 /* All columns with these names into input->numbers, one behind the other; empty cells and missing columns: NaN. */
 static bool read_numbers(struct fit_input *input, const char *const *names, size_t count, struct reason *why)
 {
-    const restitute_csv *csv = input->csv;
+    const struct rst_csv *csv = input->csv;
     input->numbers = allocate(count * input->n, sizeof *input->numbers);
     for (size_t i = 0; i < count * input->n; i++)
         input->numbers[i] = NAN;
-    for (size_t column = 0; column < restitute_csv_columns(csv); column++) {
-        const char *name = restitute_csv_name(csv, column);
+    for (size_t column = 0; column < rst_csv_columns(csv); column++) {
+        const char *name = rst_csv_name(csv, column);
         size_t k = 0;
         while (k < count && strcmp(names[k], name) != 0)
             k++;
@@ -56,8 +57,8 @@ static bool read_numbers(struct fit_input *input, const char *const *names, size
         if (k == count)
             return refuse(why, "%.100s: unknown column \"%.40s\"; known are listed by --help", input->source, name);
         for (size_t row = 0; row < input->n; row++) {
-            const char *text = restitute_csv_cell(csv, row, column);
-            if (*text && restitute_number_read(text, &input->numbers[k * input->n + row]) != RESTITUTE_OK) {
+            const char *text = rst_csv_cell(csv, row, column);
+            if (*text && rst_number_read(text, &input->numbers[k * input->n + row]) != RESTITUTE_OK) {
                 refuse(why, "%s = \"%.64s\" is not a number", name, text);
                 return at_line(input, row, why);
             }
@@ -67,17 +68,17 @@ static bool read_numbers(struct fit_input *input, const char *const *names, size
 }
 
 /* Columns of the scene, over what the options gave for all rows. */
-static bool scene_cells(const restitute_csv *csv, size_t row, const struct fit_settings *s, struct values *values,
+static bool scene_cells(const struct rst_csv *csv, size_t row, const struct fit_settings *s, struct values *values,
                         struct reason *why)
 {
     *values = s->values;
-    for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
-        const char *name = restitute_csv_name(csv, i);
+    for (size_t i = 0; i < rst_csv_columns(csv); i++) {
+        const char *name = rst_csv_name(csv, i);
         const enum field field = field_of_column(name);
         if (!of_scene(name)) continue;
         if (field < FIELD_COUNT && s->values.given[field])
             return refuse(why, "column %s and option --%s both give the value", name, field_rules[field].option);
-        if (!values_take(name, restitute_csv_cell(csv, row, i), values, why)) return false;
+        if (!values_take(name, rst_csv_cell(csv, row, i), values, why)) return false;
     }
     return true;
 }
@@ -98,7 +99,8 @@ static bool take_heights(double drop, double rebound, double *ez, struct values 
 }
 
 /* The scene is built as `pair` builds it, with a stand-in for the solid that is looked for. */
-static bool build_scene(struct values *values, struct fit_input *input, restitute_fit_point *p, struct reason *why)
+static bool build_scene(struct values *values, struct fit_input *input, bool with_ex, restitute_scene *scene,
+                        struct reason *why)
 {
     struct problem problem;
     const struct material_entry *partner = NULL;
@@ -109,9 +111,9 @@ static bool build_scene(struct values *values, struct fit_input *input, restitut
     values->number[FIELD_MODULUS1] = 1;
     if (fitted) values->number[FIELD_FRICTION] = 0;
     if (!problem_build(values, NAME_COLUMNS, &input->materials, &problem, why)) return false;
-    p->scene = problem.scene;
-    p->scene.material = partner ? partner->material : NULL;
-    if (fitted && !isnan(p->ex)) p->scene.friction = NAN;
+    *scene = problem.scene;
+    scene->material = partner ? partner->material : NULL;
+    if (fitted && with_ex) scene->friction = NAN;
     return true;
 }
 
@@ -131,7 +133,8 @@ static bool read_point(const struct fit_settings *s, struct fit_input *input, si
     p->sigma_ez = s->options.noise_known ? number[SIGMA_EZ] : from_weight;
     p->sigma_ex = s->options.noise_known ? number[SIGMA_EX] : from_weight;
     p->sigma_contact_time = s->options.noise_known ? number[SIGMA_TIME] : from_weight * number[TIME];
-    return build_scene(&values, input, p, why);
+    p->scene = &input->scenes[row];
+    return build_scene(&values, input, !isnan(p->ex), &input->scenes[row], why);
 }
 
 /* Only ratios of weights count: over their mean, so that the noise is that of a usual row. No weight: 1. */
@@ -161,6 +164,7 @@ static bool read_points(struct fit_settings *s, struct fit_input *input, struct 
     if (s->options.noise_known && has(input, "weight"))
         return refuse(why, "%.200s: columns weight and sigma_...: give one kind", input->source);
     input->points = allocate(input->n, sizeof *input->points);
+    input->scenes = allocate(input->n, sizeof *input->scenes);
     if (has(input, "weight") && !scale_weights(input, why)) return false;
     for (size_t row = 0; row < input->n; row++)
         if (!read_point(s, input, row, why)) return at_line(input, row, why);
@@ -183,8 +187,8 @@ bool fit_input_read(struct fit_settings *s, struct fit_input *input, struct reas
     const bool impacts = s->text[FIT_INPUT];
     restitute_error error;
     *input = (struct fit_input){.source = impacts ? s->text[FIT_INPUT] : s->text[FIT_DMA]};
-    if (restitute_csv_read(input->source, &input->csv, &error) < 0) return refuse(why, "%s", error.message);
-    input->n = restitute_csv_rows(input->csv);
+    if (rst_csv_read(input->source, RST_BYTES_OF_TABLE, &input->csv, &error) < 0) return refuse(why, "%s", error.message);
+    input->n = rst_csv_rows(input->csv);
     if (input->n == 0) return refuse(why, "%.200s: has column names but no rows", input->source);
     if ((s->text[FIT_WLF] || s->text[FIT_REFERENCE]) && !has(input, "temperature_C"))
         return refuse(why, "--wlf, --reference-temperature: %.200s has no column temperature_C", input->source);
@@ -196,9 +200,10 @@ bool fit_input_read(struct fit_settings *s, struct fit_input *input, struct reas
 void fit_input_release(struct fit_input *input)
 {
     free(input->points);
+    free(input->scenes);
     free(input->numbers);
     materials_release(&input->materials);
-    restitute_csv_destroy(input->csv);
+    rst_csv_destroy(input->csv);
 }
 
 /* The column for a field that the library names at the beginning of a message; the rest follows in *after. */

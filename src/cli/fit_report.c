@@ -53,7 +53,7 @@ static void add_terms(json_t *file, const restitute_material *material)
     const size_t n = restitute_material_terms(material);
     double *tau = allocate(2 * n, sizeof *tau), *g = tau + n, equilibrium;
     json_t *terms = json_array();
-    restitute_material_series(material, &equilibrium, NULL, tau, g);
+    restitute_material_series(material, &equilibrium, NULL, tau, g, NULL);
     for (size_t k = 0; k < n; k++)
         json_array_append_new(terms, json_pack("{s:f, s:f}", "tau_s", tau[k], "modulus_pa", g[k]));
     free(tau);
@@ -222,7 +222,7 @@ static bool figure(const struct fit_settings *s, const struct fit_input *input, 
         for (size_t i = 0; i < n; i++) {
             const restitute_fit_point *p = &input->points[i];
             const double value = kind == 0 ? p->ez : kind == 1 ? p->ex : p->contact_time;
-            if (!isnan(value)) pairs[used++] = (struct pairs){p->scene.normal_speed, value, fitted[kind * n + i]};
+            if (!isnan(value)) pairs[used++] = (struct pairs){p->scene->normal_speed, value, fitted[kind * n + i]};
         }
         plot(chart, pairs, used, kind, names[kind], kind < 2, kind == 2);
     }

@@ -6,6 +6,7 @@
 #include <restitute/fit.h>
 
 #include "arguments.h"
+#include "files/csv_table.h"
 #include "problem.h"
 
 enum fit_text {
@@ -52,11 +53,12 @@ void fit_options_release(struct fit_settings *settings);
 /* The measurements of --input or --dma. */
 struct fit_input {
     const char *source;
-    restitute_csv *csv;
+    struct rst_csv *csv;
     struct materials materials; /* of partners */
     size_t n;
     double *numbers; /* of the columns */
     restitute_fit_point *points;
+    restitute_scene *scenes; /* of the points */
     const double *frequency, *storage, *loss, *temperature; /* of --dma; temperature NULL: no such column */
 };
 

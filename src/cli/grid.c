@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
+#include "files/number.h"
 
 static const double most_points = 10000;    /* on an axis */
 static const double most_impacts = 1000000; /* they are kept in memory, for the figure */
@@ -49,7 +49,7 @@ static bool read_numbers(const char *name, char *text, struct grid_axis *axis, s
         !field_read(axis->field, part[1], place, &axis->to, why))
         return false;
     double count;
-    if (restitute_number_read(part[2], &count) != RESTITUTE_OK || !(count >= 1 && count <= most_points) ||
+    if (rst_number_read(part[2], &count) != RESTITUTE_OK || !(count >= 1 && count <= most_points) ||
         count != floor(count))
         return refuse(why, "%s: N = \"%.40s\": must be a whole number in [1, %g]", place, part[2], most_points);
     axis->count = (size_t)count;

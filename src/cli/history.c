@@ -95,17 +95,22 @@ static bool solve(const struct settings *settings, const struct problem *problem
     restitute_error error;
     restitute_options options = settings->solver;
     struct bem_fields_keeper *fields;
+    struct event_keeper *log;
     restitute_result_init(&result);
-    if (!bem_fields_begin(settings, &options, &fields, why)) return false;
+    if (!events_begin(settings, &options, &log, why)) return false;
+    if (!bem_fields_begin(settings, &options, &fields, why)) {
+        events_end(log);
+        return false;
+    }
     bool done = restitute_solver_create(&options, &solver, &error) >= 0;
     if (done) {
-        *status = settings->text[TEXT_EVENTS] ? events_solve(solver, problem, &result, history, events, &error)
-                                              : problem_solve(solver, problem, &result, NULL, history, &error);
+        *status = problem_solve(solver, problem, &result, NULL, history, &error);
         restitute_solver_destroy(solver);
         done = *status >= 0;
     }
     if (!done) refuse(why, "%s", error.message);
-    if (done) done = bem_fields_write(settings, fields, why);
+    if (done) done = events_take(log, events, why) && bem_fields_write(settings, fields, why);
+    events_end(log);
     bem_fields_release(fields);
     if (!done) return false;
     if (error.message[0]) complain("remark: %s", error.message);

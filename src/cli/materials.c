@@ -58,7 +58,7 @@ static struct material_entry *read_entry(const char *path)
     restitute_error error;
     entry->path = copy_of(path);
     restitute_material_info_init(&entry->info);
-    if (restitute_material_read_info(path, &entry->material, &entry->info, &error) < 0) {
+    if (restitute_material_read(path, &entry->material, &entry->info, &error) < 0) {
         entry->material = NULL;
         refuse(&entry->why, "%s", error.message);
     }
@@ -91,7 +91,7 @@ const restitute_material *materials_pair(struct materials *materials, const stru
     if (pair) return pair->material;
     pair = allocate(1, sizeof *pair);
     restitute_error error;
-    if (restitute_material_pair(entry->material, second->material, &pair->material, &error) < 0) {
+    if (restitute_material_effective(entry->material, second->material, &pair->material, &error) < 0) {
         free(pair);
         refuse(why, "%.100s with %.100s: %s", entry->path, partner, error.message);
         return NULL;
@@ -109,7 +109,7 @@ static int shift_times(const struct solid_numbers *numbers, restitute_material *
     const restitute_material *base = numbers->base->material;
     const size_t terms = restitute_material_terms(base);
     double *tau = allocate(2 * terms, sizeof *tau), equilibrium, viscosity;
-    restitute_material_series(base, &equilibrium, &viscosity, tau, tau + terms);
+    restitute_material_series(base, &equilibrium, &viscosity, tau, tau + terms, NULL);
     for (size_t i = 0; i < terms; i++)
         tau[i] *= numbers->shift;
     const int status = restitute_material_prony(equilibrium, viscosity * numbers->shift, terms, tau, tau + terms,

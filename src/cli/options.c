@@ -30,7 +30,7 @@ static const char *const text_names[TEXT_COUNT] = {
     [TEXT_TOLERANCE] = "tolerance",
     [TEXT_ELEMENTS] = "elements",
     [TEXT_TIME_STEP] = "time-step",
-    [TEXT_MAX_UPDATES] = "max-updates",
+    [TEXT_MAX_WORK] = "max-work",
     [TEXT_TIME_LIMIT] = "time-limit",
     [TEXT_FORMAT] = "format",
     [TEXT_INPUT] = "input",
@@ -63,14 +63,15 @@ static struct poptOption solution_options[] = {
     OPTION("method", CODE_TEXT + TEXT_METHOD, "NAME",
           "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
           "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode); "
-          "bem, bem-paper, bem-both: boundary elements, an independent check (component bem)"),
+          "bem, bem-paper: boundary elements, an independent check (component bem)"),
     OPTION("tolerance", CODE_TEXT + TEXT_TOLERANCE, "ERROR",
           "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3"),
     OPTION("elements", CODE_TEXT + TEXT_ELEMENTS, "N",
           "elements over the largest contact radius, 4 to 1000000; default chosen"),
     OPTION("time-step", CODE_TEXT + TEXT_TIME_STEP, "STEP",
           "in T, or in s with a material; > 0; default chosen; not with sync"),
-    OPTION("max-updates", CODE_TEXT + TEXT_MAX_UPDATES, "N", "most element updates an impact may cost; default 1e10"),
+    OPTION("max-work", CODE_TEXT + TEXT_MAX_WORK, "SECONDS",
+          "most work an impact may take, in nominal seconds, the same on every machine; default 10"),
     OPTION("time-limit", CODE_TEXT + TEXT_TIME_LIMIT, "SECONDS",
           "processor time an impact may take; 0 (default): 1, no limit with --elements, --time-step or bem"),
     OPTION("speed-limit", CODE_TEXT + TEXT_SPEED_LIMIT, "RATIO",
@@ -199,14 +200,13 @@ static bool read_bounded(const struct settings *settings, enum text_option optio
 static bool read_solver(struct settings *settings, struct reason *why)
 {
     restitute_options *solver = &settings->solver;
-    double elements = 0, samples = 500, threads = 0, updates;
+    double elements = 0, samples = 500, threads = 0;
     double step = 0;
     restitute_options_init(solver);
-    updates = (double)solver->max_updates;
     if (!read_bounded(settings, TEXT_TOLERANCE, 1e-8, 0.1, false, &solver->tolerance, why) ||
         !read_bounded(settings, TEXT_ELEMENTS, 4, 1e6, true, &elements, why) ||
         !read_bounded(settings, TEXT_TIME_STEP, 1e-300, 1e300, false, &step, why) ||
-        !read_bounded(settings, TEXT_MAX_UPDATES, 1, 1e18, true, &updates, why) ||
+        !read_bounded(settings, TEXT_MAX_WORK, 1e-9, INFINITY, false, &solver->max_work, why) ||
         !read_bounded(settings, TEXT_TIME_LIMIT, 0, INFINITY, false, &solver->time_limit, why) ||
         !read_bounded(settings, TEXT_SAMPLES, 2, 1e6, true, &samples, why) ||
         !read_bounded(settings, TEXT_THREADS, 1, 1024, true, &threads, why) ||
@@ -217,9 +217,8 @@ static bool read_solver(struct settings *settings, struct reason *why)
         return false;
     solver->elements = (int64_t)elements;
     solver->time_step = step;
-    solver->max_updates = (int64_t)updates;
+    solver->threads = (int)threads;
     settings->samples = (size_t)samples;
-    settings->threads = (int)threads;
     return true;
 }
 
@@ -238,7 +237,7 @@ static const restitute_method *(*const methods[])(void) = {
     restitute_method_cvode, restitute_method_cvode_bdf, restitute_method_cvode_adams,
 #endif
 #ifdef RESTITUTE_WITH_BEM
-    restitute_method_bem,   restitute_method_bem_paper, restitute_method_bem_both,
+    restitute_method_bem, restitute_method_bem_paper,
 #endif
 };
 enum { METHODS = sizeof methods / sizeof *methods };

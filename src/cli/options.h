@@ -14,7 +14,7 @@ enum text_option {
     TEXT_TOLERANCE,
     TEXT_ELEMENTS,
     TEXT_TIME_STEP,
-    TEXT_MAX_UPDATES,
+    TEXT_MAX_WORK,
     TEXT_TIME_LIMIT,
     TEXT_FORMAT,
     TEXT_INPUT,
@@ -45,7 +45,6 @@ struct settings {
     restitute_options solver;
     enum format format;
     size_t samples;
-    int threads; /* 0: all */
     bool resume;
     bool contours;
     size_t shard, shards; /* part `shard` of `shards`, from 1; 1/1: all */

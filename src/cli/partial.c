@@ -50,23 +50,23 @@ static bool same_settings(const char *path, const char *option, const json_t *se
 }
 
 /* The columns are those that this run writes. */
-static bool same_columns(const restitute_csv *csv, const char *path, const struct cases *cases, struct reason *why)
+static bool same_columns(const struct rst_csv *csv, const char *path, const struct cases *cases, struct reason *why)
 {
-    const size_t wanted = cases->columns + ROW_NUMBERS + 2, found = restitute_csv_columns(csv);
+    const size_t wanted = cases->columns + ROW_NUMBERS + 2, found = rst_csv_columns(csv);
     if (found != wanted) return refuse(why, "%.200s: has %zu columns: must be %zu", path, found, wanted);
     for (size_t k = 0; k < wanted; k++)
-        if (strcmp(restitute_csv_name(csv, k), row_column_name(cases, k)) != 0)
+        if (strcmp(rst_csv_name(csv, k), row_column_name(cases, k)) != 0)
             return refuse(why, "%.200s: column %zu is \"%.64s\": must be %.64s", path, k + 1,
-                          restitute_csv_name(csv, k), row_column_name(cases, k));
+                          rst_csv_name(csv, k), row_column_name(cases, k));
     return true;
 }
 
 /* The cells of a row are those of the case. */
-static bool same_case(const restitute_csv *csv, size_t row, const struct cases *cases, size_t number)
+static bool same_case(const struct rst_csv *csv, size_t row, const struct cases *cases, size_t number)
 {
     bool same = number < cases->rows;
     for (size_t k = 0; k < cases->columns && same; k++)
-        same = strcmp(restitute_csv_cell(csv, row, k), cases_cell(cases, number, k)) == 0;
+        same = strcmp(rst_csv_cell(csv, row, k), cases_cell(cases, number, k)) == 0;
     return same;
 }
 
@@ -74,12 +74,12 @@ static bool same_case(const restitute_csv *csv, size_t row, const struct cases *
 static bool read_done(const char *path, const struct cases *cases, const struct settings *settings, struct row *rows,
                       size_t first, size_t *count, struct reason *why)
 {
-    restitute_csv *csv;
+    struct rst_csv *csv;
     restitute_error error;
     struct reason inner;
-    if (restitute_csv_read(path, &csv, &error) < 0) return refuse(why, "%s", error.message);
+    if (rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, &error) < 0) return refuse(why, "%s", error.message);
     bool good = same_columns(csv, path, cases, why);
-    for (size_t i = 0; i < restitute_csv_rows(csv) && good; i++) {
+    for (size_t i = 0; i < rst_csv_rows(csv) && good; i++) {
         if (!same_case(csv, i, cases, first + i))
             good = refuse(&inner, "%s",
                           settings->text[TEXT_JOIN] ? "is not the next shard: give all, in their order"
@@ -89,9 +89,9 @@ static bool read_done(const char *path, const struct cases *cases, const struct 
         if (good)
             *count = i + 1;
         else
-            refuse(why, "%.200s line %zu (row %zu): %s", path, restitute_csv_line(csv, i), i + 1, inner.text);
+            refuse(why, "%.200s line %zu (row %zu): %s", path, rst_csv_line(csv, i), i + 1, inner.text);
     }
-    restitute_csv_destroy(csv);
+    rst_csv_destroy(csv);
     return good;
 }
 

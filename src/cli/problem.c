@@ -271,7 +271,7 @@ static bool build_scene(const struct values *values, enum naming naming, struct 
     problem->info = &entry->info;
     scene->material = values->partner ? materials_pair(materials, entry, values->partner, why) : entry->material;
     if (!scene->material) return false;
-    if (!isnan(entry->info.density)) scene->density = entry->info.density;
+    if (!isnan(entry->info.density)) scene->wave_density = entry->info.density;
     if (values->deformable) scene->deformable = values->deformable;
     scene->rotation_blocked = values->rotation_blocked > 0;
     scene->friction = number[FIELD_FRICTION];

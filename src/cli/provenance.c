@@ -75,7 +75,7 @@ static json_t *given_input(const struct settings *settings, const struct cases *
                          (json_int_t)cases->all);
     if (!cases->csv) return json_pack("{s:s}", "grid", settings->text[TEXT_GRID]);
     return json_pack("{s:s, s:I, s:o}", "file", cases->source, "rows", (json_int_t)cases->all, "fingerprint",
-                     json_of_fingerprint(restitute_csv_fingerprint(cases->csv)));
+                     json_of_fingerprint(rst_csv_fingerprint(cases->csv)));
 }
 
 json_t *provenance_settings(const struct settings *settings, const struct cases *cases, struct materials *materials)
@@ -88,7 +88,7 @@ json_t *provenance_settings(const struct settings *settings, const struct cases 
     json_object_set_new(object, "elements", solver->elements ? json_integer(solver->elements) : json_string("chosen"));
     json_object_set_new(object, "time_step",
                         solver->time_step > 0 ? json_real(solver->time_step) : json_string("chosen"));
-    json_object_set_new(object, "max_updates", json_integer(solver->max_updates));
+    json_object_set_new(object, "max_work", json_of_number(solver->max_work));
     json_object_set_new(object, "time_limit_s",
                         solver->time_limit <= 0         ? json_string("default")
                         : solver->time_limit < INFINITY ? json_real(solver->time_limit)

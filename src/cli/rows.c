@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files/number.h"
 #include "provenance.h"
 
 /* What is written behind the inputs, and what a number that is read back must be: the least, the most, the same in
@@ -106,11 +107,9 @@ static void chunk_add(struct chunk *chunk, size_t index, const struct problem *p
 static void chunk_solve(struct chunk *chunk, const struct settings *settings)
 {
     if (chunk->physical)
-        restitute_solve_scenes(&settings->solver, chunk->n, chunk->scenes, chunk->results, chunk->statuses,
-                               settings->threads, NULL);
+        restitute_solve_scene_many(chunk->n, chunk->scenes, &settings->solver, chunk->results, chunk->statuses, NULL);
     else
-        restitute_solve_many(&settings->solver, chunk->n, chunk->impacts, chunk->results, chunk->statuses,
-                             settings->threads, NULL);
+        restitute_solve_many(chunk->n, chunk->impacts, &settings->solver, chunk->results, chunk->statuses, NULL);
 }
 
 /* A row that failed among the others is solved by itself: the batch tells a status a row, this tells why. */
@@ -204,23 +203,23 @@ static bool read_number(const char *cell, size_t column, bool solved, double *nu
 {
     const double low = result_columns[column].low, high = result_columns[column].high;
     const bool good =
-        solved ? restitute_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high : !*cell;
+        solved ? rst_number_read(cell, number) == RESTITUTE_OK && *number >= low && *number <= high : !*cell;
     return good || refuse(why, "%s = \"%.64s\": %s", result_columns[column].name, cell,
                           solved ? result_columns[column].range : "must be empty, since method is empty");
 }
 
-bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
+bool row_read(const struct rst_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
               struct reason *why)
 {
-    const char *method_cell = restitute_csv_cell(csv, index, first + ROW_NUMBERS);
-    const char *status = restitute_csv_cell(csv, index, first + ROW_NUMBERS + 1);
+    const char *method_cell = rst_csv_cell(csv, index, first + ROW_NUMBERS);
+    const char *status = rst_csv_cell(csv, index, first + ROW_NUMBERS + 1);
     row->solved = *method_cell != '\0';
     row->method = restitute_method_name(method);
     if (row->solved && strcmp(method_cell, row->method) != 0)
         return refuse(why, "method = \"%.64s\": must be %s", method_cell, row->method);
     if (!row->solved && !*status) return refuse(why, "method and status are empty: neither solved nor failed");
     for (size_t i = 0; i < ROW_NUMBERS; i++)
-        if (!read_number(restitute_csv_cell(csv, index, first + i), i, row->solved, &row->number[i], why)) return false;
+        if (!read_number(rst_csv_cell(csv, index, first + i), i, row->solved, &row->number[i], why)) return false;
     row->status = copy_of(status);
     return true;
 }
@@ -232,7 +231,7 @@ json_t *row_json(const struct cases *cases, size_t index, const struct row *row)
         const char *cell = cases_cell(cases, index, i);
         double number;
         json_t *value =
-            restitute_number_read(cell, &number) == RESTITUTE_OK ? json_of_number(number) : json_string(cell);
+            rst_number_read(cell, &number) == RESTITUTE_OK ? json_of_number(number) : json_string(cell);
         json_object_set_new(object, cases_name(cases, i), value ? value : json_null());
     }
     for (int i = 0; i < ROW_NUMBERS; i++)

@@ -39,7 +39,7 @@ void row_write_result(FILE *stream, const struct row *row);
 void cell_write(FILE *stream, const char *cell);
 
 /* Read back a written row: cells `first` and on of a table with that header. Refuses what no run could have written. */
-bool row_read(const restitute_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
+bool row_read(const struct rst_csv *csv, size_t index, size_t first, const restitute_method *method, struct row *row,
               struct reason *why);
 
 /* Name of a column as written: those of the cases, then ROW_NUMBERS numbers, method, status. */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "files/number.h"
 #include "hdf5_text.h"
 #include "output.h"
 
@@ -43,7 +44,7 @@ static bool write_column(hid_t file, const struct cases *cases, const struct row
     for (size_t i = 0; i < cases->rows; i++) {
         words[i] = input ? cases_cell(cases, i, column) : rows[i].status;
         numbers[i] = !input && !status && rows[i].solved ? rows[i].number[number] : NAN;
-        if (input && *words[i] && restitute_number_read(words[i], &numbers[i]) != RESTITUTE_OK) numeric = false;
+        if (input && *words[i] && rst_number_read(words[i], &numbers[i]) != RESTITUTE_OK) numeric = false;
     }
     const bool good =
         numeric ? hdf5_write_column(file, name, unit_of(record, name), H5T_NATIVE_DOUBLE, numbers, cases->rows)

@@ -150,7 +150,7 @@ static void text_numerics(FILE *stream, const struct single *single)
             physical ? "m" : "a_el");
     fprintf(stream, "  %-22s %lld of %.6g %s\n", "steps", (long long)result->steps, result->time_step,
             physical ? "s" : "T");
-    fprintf(stream, "  %-22s %lld\n", "element updates", (long long)result->updates);
+    fprintf(stream, "  %-22s %.3g nominal seconds\n", "work", result->work);
     fprintf(stream, "  %-22s %lld, bound on their effect %.1e\n", "relaxation times merged",
             (long long)result->terms_merged, result->merging_bound);
 }
@@ -220,6 +220,7 @@ static json_t *json_of_result(const struct single *single)
                                            {"max_normal_force", result->max_normal_force},
                                            {"element_spacing", result->element_spacing},
                                            {"time_step", result->time_step},
+                                           {"work", result->work},
                                            {"merging_bound", result->merging_bound},
                                            {"speed_ratio", result->speed_ratio},
                                            {"radius_ratio", result->radius_ratio},
@@ -228,7 +229,6 @@ static json_t *json_of_result(const struct single *single)
     json_t *object = json_of_numbers(numbers, sizeof numbers / sizeof numbers[0]);
     json_object_set_new(object, "elements", json_integer(result->elements));
     json_object_set_new(object, "steps", json_integer(result->steps));
-    json_object_set_new(object, "updates", json_integer(result->updates));
     json_object_set_new(object, "terms_merged", json_integer(result->terms_merged));
     json_t *flags = json_array();
     for (int flag = 1; flag <= result->flags; flag *= 2)
@@ -266,6 +266,7 @@ static json_t *make_record(struct single *single)
     json_object_set_new(units, "max_contact_radius", json_string(physical ? "m" : "a_el"));
     json_object_set_new(units, "max_normal_force", json_string(physical ? "N" : "m v_z0^2/d0"));
     json_object_set_new(units, "element_spacing", json_string(physical ? "m" : "a_el"));
+    json_object_set_new(units, "work", json_string("nominal s"));
     json_object_set_new(units, "time_step", json_string(physical ? "s" : "T"));
     return provenance_record(single->settings, provenance_settings(single->settings, NULL, &single->materials), units);
 }

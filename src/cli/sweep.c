@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "batch.h"
+#include "files/number.h"
 #include "gnuplot.h"
 #include "output.h"
 #include "places.h"
@@ -103,7 +104,7 @@ static char *table_of(const struct sweep *sweep, size_t shard, size_t shards)
 static char *shards_of(const struct sweep *sweep, const char *text, struct reason *why)
 {
     double shards;
-    if (restitute_number_read(text, &shards) != RESTITUTE_OK || !(shards >= 2 && shards <= 10000) ||
+    if (rst_number_read(text, &shards) != RESTITUTE_OK || !(shards >= 2 && shards <= 10000) ||
         shards != (double)(size_t)shards) {
         refuse(why, "--join = \"%.64s\": must be the number of shards, 2 to 10000", text);
         return NULL;

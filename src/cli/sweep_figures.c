@@ -104,7 +104,7 @@ restitute_impact sweep_impact(const struct sweep_numbers *numbers, restitute_mat
     impact.delta1 = numbers->delta1;
     impact.gamma = numbers->gamma;
     if (numbers->relaxation > 0 && restitute_material_maxwell(1, numbers->relaxation, 0.5, solid, NULL) == RESTITUTE_OK)
-        impact.solid = *solid;
+        impact.material = *solid;
     return impact;
 }
 
@@ -177,7 +177,7 @@ bool sweep_solve(const struct settings *settings, size_t count, const struct swe
         restitute_result_init(&results[i]);
         results[i].ez = results[i].ex = results[i].contact_time = NAN;
     }
-    const int status = restitute_solve_many(&options, count, impacts, results, NULL, settings->threads, &error);
+    const int status = restitute_solve_many(count, impacts, &options, results, NULL, &error);
     for (size_t i = 0; i < count; i++)
         restitute_material_destroy(solids[i]);
     free(impacts);

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
-
 #include "figure.h"
+#include "files/number.h"
 #include "output.h"
 #include "places.h"
 #include "table_settings.h"
@@ -21,8 +20,8 @@ static bool read_speed(const struct table_settings *s, double range[2], struct r
     const size_t length = strcspn(text, ":");
     const char *second = text[length] ? text + length + 1 : text;
     snprintf(first, sizeof first, "%.*s", (int)(length < sizeof first ? length : 0), text);
-    if (restitute_number_read(first, &range[0]) == RESTITUTE_OK &&
-        restitute_number_read(text[length] ? second : first, &range[1]) == RESTITUTE_OK)
+    if (rst_number_read(first, &range[0]) == RESTITUTE_OK &&
+        rst_number_read(text[length] ? second : first, &range[1]) == RESTITUTE_OK)
         return true;
     return refuse(why, "--speed = \"%.64s\": must be FROM:TO or one number", text);
 }

@@ -33,7 +33,8 @@ static void shade_slides(struct panel *panel, const restitute_table *table, cons
         double low = 0, high = steepest;
         for (int step = 0; step < 20; step++) {
             const double angle = 0.5 * (low + high);
-            const int flags = restitute_table_flags(table, v, v * tan(angle * degree));
+            int flags = 0;
+            restitute_table_flags(table, v, v * tan(angle * degree), &flags, NULL);
             *(flags & RESTITUTE_FLAG_LONG_SLIDE ? &high : &low) = angle;
         }
         series_add(s, v, high);
@@ -59,10 +60,10 @@ static void draw_ez(struct panel *panel, const restitute_table *table, const res
     shade(panel, i, i->large_contact_speed, 0, 2, "");
     struct series *s = chart_series(panel, MARK_LINE, 0, SPEEDS, "");
     for (size_t k = 0; k < SPEEDS; k++) {
-        restitute_table_value pair;
         const double v = speed_at(i, k, SPEEDS);
-        restitute_table_pair(table, v, 0, &pair);
-        series_add(s, v, pair.ez);
+        double ez;
+        restitute_table_pair(table, NULL, v, 0, &ez, NULL, NULL);
+        series_add(s, v, ez);
     }
 }
 
@@ -74,10 +75,9 @@ static void draw_ex(struct panel *panel, const restitute_table *table, const res
     for (size_t row = 0; row < ANGLES; row++) {
         h->y[row] = steepest * (double)row / (ANGLES - 1);
         for (size_t k = 0; k < HEIGHT_SPEEDS; k++) {
-            restitute_table_value pair;
-            h->x[k] = speed_at(i, k, HEIGHT_SPEEDS);
-            restitute_table_pair(table, h->x[k], h->x[k] * tan(h->y[row] * degree), &pair);
-            h->z[row * HEIGHT_SPEEDS + k] = pair.ex;
+            const double v = h->x[k] = speed_at(i, k, HEIGHT_SPEEDS);
+            restitute_table_pair(table, NULL, v, v * tan(h->y[row] * degree), NULL, &h->z[row * HEIGHT_SPEEDS + k],
+                                 NULL);
         }
     }
     shade(panel, i, i->fast_speed, 0, 1, "v/c_s");

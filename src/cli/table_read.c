@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <restitute/files.h>
-
+#include "files/csv_table.h"
+#include "files/number.h"
 #include "output.h"
 #include "places.h"
 #include "provenance.h"
@@ -137,11 +137,15 @@ struct query {
 };
 static const char *const columns[2] = {"normal_speed_m_s", "tangential_speed_m_s"};
 
-static int look_up(struct query *q, restitute_table_value *pair)
+struct pair {
+    double ez, ex;
+};
+
+static int look_up(struct query *q, struct pair *pair)
 {
-    const int flags = restitute_table_flags(q->table, q->value[0], q->value[1]);
-    if (flags > 0) q->flags |= flags;
-    return restitute_table_pair(q->table, q->value[0], q->value[1], pair);
+    int flags;
+    if (restitute_table_flags(q->table, q->value[0], q->value[1], &flags, NULL) >= 0) q->flags |= flags;
+    return restitute_table_pair(q->table, NULL, q->value[0], q->value[1], &pair->ez, &pair->ex, NULL);
 }
 
 /* The table takes such a speed as the end. That of a solid whose e_z is the same at all speeds says nothing. */
@@ -169,7 +173,7 @@ static bool check_query(const struct table_settings *s, struct reason *why)
     return s->text[TABLE_INPUT] ? refuse(why, "--format = text: not with --input, which gives csv") : true;
 }
 
-static bool find_one(const struct table_settings *s, struct query *q, restitute_table_value *pair, struct reason *why)
+static bool find_one(const struct table_settings *s, struct query *q, struct pair *pair, struct reason *why)
 {
     q->value[0] = NAN;
     if (!table_number(s, TABLE_NORMAL_SPEED, 0, 1e100, &q->value[0], why) ||
@@ -183,7 +187,7 @@ static int query_one(const struct table_settings *s, struct query *q)
 {
     struct reason why;
     struct output output;
-    restitute_table_value pair;
+    struct pair pair;
     const bool csv = s->text[TABLE_FORMAT] && strcmp(s->text[TABLE_FORMAT], "csv") == 0;
     if (!find_one(s, q, &pair, &why) || !check_places(s, &why) || !output_open(s->text[TABLE_OUTPUT], &output, &why))
         return complain("%s", why.text);
@@ -196,29 +200,29 @@ static int query_one(const struct table_settings *s, struct query *q)
 }
 
 /* Which column of the file gives which value; -1: 0. */
-static bool find_columns(const restitute_csv *csv, int column[2], struct reason *why)
+static bool find_columns(const struct rst_csv *csv, int column[2], struct reason *why)
 {
     for (int k = 0; k < 2; k++) {
         column[k] = -1;
-        for (size_t i = 0; i < restitute_csv_columns(csv); i++)
-            if (strcmp(restitute_csv_name(csv, i), columns[k]) == 0) column[k] = (int)i;
+        for (size_t i = 0; i < rst_csv_columns(csv); i++)
+            if (strcmp(rst_csv_name(csv, i), columns[k]) == 0) column[k] = (int)i;
     }
     return column[0] >= 0 ? true : refuse(why, "the column %s is missing", columns[0]);
 }
 
 /* One row: the values, and what came of them. */
-static bool answer_row(struct query *q, const restitute_csv *csv, size_t row, const int column[2], FILE *out)
+static bool answer_row(struct query *q, const struct rst_csv *csv, size_t row, const int column[2], FILE *out)
 {
-    restitute_table_value pair = {NAN, NAN};
+    struct pair pair = {NAN, NAN};
     bool good = true;
     q->value[1] = 0;
     for (int k = 0; k < 2; k++)
         if (column[k] >= 0)
             good &=
-                restitute_number_read(restitute_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
+                rst_number_read(rst_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
     const bool done = good && look_up(q, &pair) == RESTITUTE_OK;
-    for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
-        cell_write(out, restitute_csv_cell(csv, row, i));
+    for (size_t i = 0; i < rst_csv_columns(csv); i++) {
+        cell_write(out, rst_csv_cell(csv, row, i));
         fputc(',', out);
     }
     if (done)
@@ -230,29 +234,29 @@ static bool answer_row(struct query *q, const restitute_csv *csv, size_t row, co
 
 static int query_many(const struct table_settings *s, struct query *q)
 {
-    restitute_csv *csv;
+    struct rst_csv *csv;
     restitute_error error;
     struct reason why;
     struct output output;
     int column[2];
     size_t failed = 0, beyond = 0;
-    if (restitute_csv_read(s->text[TABLE_INPUT], &csv, &error) < 0) return complain("%s", error.message);
+    if (rst_csv_read(s->text[TABLE_INPUT], RST_BYTES_OF_TABLE, &csv, &error) < 0) return complain("%s", error.message);
     bool good = find_columns(csv, column, &why) && check_places(s, &why) &&
                 output_open(s->text[TABLE_OUTPUT], &output, &why);
     if (good) {
-        for (size_t i = 0; i < restitute_csv_columns(csv); i++) {
-            cell_write(output.stream, restitute_csv_name(csv, i));
+        for (size_t i = 0; i < rst_csv_columns(csv); i++) {
+            cell_write(output.stream, rst_csv_name(csv, i));
             fputc(',', output.stream);
         }
         fputs("ez,ex,status\n", output.stream);
-        for (size_t row = 0; row < restitute_csv_rows(csv); row++) {
+        for (size_t row = 0; row < rst_csv_rows(csv); row++) {
             const bool done = answer_row(q, csv, row, column, output.stream);
             failed += !done;
             beyond += done && outside(q);
         }
         good = output_finish(&output, &why);
     }
-    restitute_csv_destroy(csv);
+    rst_csv_destroy(csv);
     if (!good) return complain("%s", why.text);
     warn(q);
     if (beyond) complain("warning: rows outside the table's ranges, whose ends are taken: %zu", beyond);

@@ -11,8 +11,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include <restitute/status.h>
-
 /* strtod also takes leading blanks, hexadecimal and "nan(...)", none of which belongs in a table. */
 static int only_number_characters(const char *text)
 {

@@ -43,7 +43,7 @@ static int find_shift(const restitute_table_data *d, const restitute_material *m
 static int bind(const restitute_table *t, const struct rst_contact *c, restitute_table_contact *found,
                 restitute_error *error)
 {
-    const double largest_factor = 1e200, smallest_factor = 1e-200; /* times a speed neither overflows nor vanishes */
+    const double largest_ratio = 1e40; /* its fifth power times a speed neither overflows nor vanishes */
     const restitute_table_data *d = &t->d;
     struct shift shift;
     const int same = find_shift(d, c->scene.material, &shift);
@@ -58,13 +58,12 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
     if ((d->friction <= 0 || isinf(d->friction)) && c->friction != d->friction && c->friction > 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "friction = %g: must be %g, the only one of this table",
                           c->friction, d->friction);
-    const double ratio = d->duration * shift.time / c->numbers.time;
-    const double factor = c->timeless ? 1 : ratio * ratio * ratio * ratio * ratio;
-    if (!(factor <= largest_factor && factor >= smallest_factor))
+    const double ratio = c->timeless ? 1 : d->duration * shift.time / c->numbers.time;
+    if (!(ratio <= largest_ratio && ratio >= 1 / largest_ratio))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "speed_factor = %g of the scene: must be in [%g, %g]; it is too far from the table's contact",
-                          factor, smallest_factor, largest_factor);
-    found->speed_factor = factor;
+                          "speed_factor = %g^5 of the scene: must be in [%g, %g]^5; it is too far from the table's contact",
+                          ratio, 1 / largest_ratio, largest_ratio);
+    found->speed_factor = ratio * ratio * ratio * ratio * ratio;
     found->psi_factor = rst_psi_factor(c);
     found->radius = c->numbers.radius;
     found->mass = c->numbers.mass;

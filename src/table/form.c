@@ -19,10 +19,32 @@ static int check_counts(const restitute_table_data *d, restitute_error *error)
     if (!status) status = check_count(d->stick_cells, 1, rst_most_cells, "stick_cells", error);
     if (!status) status = check_count(d->slip_cells, 1, rst_most_cells, "slip_cells", error);
     if (!status) status = check_count(d->terms, 0, most_terms, "terms", error);
-    if (!status) status = rst_check_range(d->chi, rst_chi_range[0], rst_chi_range[1], "chi", error);
-    if (!status) status = rst_check_range(d->psi_factor, 0, INFINITY, "psi_factor", error);
-    if (!status) status = rst_check_range(d->low, rst_sizes.low, rst_largest_speed, "low", error);
-    return status ? status : rst_check_range(d->high, d->low, rst_largest_speed, "high", error);
+    return status;
+}
+
+/* Ranges of what contacts can have: no lookup overflows or divides by 0, for programs that trap that. */
+static int check_numbers(const restitute_table_data *d, restitute_error *error)
+{
+    const struct {
+        const char *name;
+        double value, low, high, besides;
+    } number[] = {{"chi", d->chi, rst_chi_range[0], rst_chi_range[1], NAN},
+                  {"psi_factor", d->psi_factor, 0, 1e31, INFINITY},
+                  {"low", d->low, rst_sizes.low, rst_largest_speed, NAN},
+                  {"high", d->high, d->low, rst_largest_speed, NAN},
+                  {"duration", d->duration, 1e-120, 1e120, NAN},
+                  {"friction", d->friction, 0, INFINITY, NAN},
+                  {"radius", d->radius, 0.1 * rst_sizes.low, rst_sizes.high, NAN},
+                  {"mass", d->mass, 0.1 * rst_sizes.low, rst_sizes.high, NAN},
+                  {"poisson_ratio", d->poisson_ratio, 0, 0.5, NAN},
+                  {"equilibrium_modulus", d->equilibrium_modulus, 0, rst_moduli.high, NAN},
+                  {"parallel_viscosity", d->parallel_viscosity, 0, rst_viscosities.high, NAN}};
+    int status = RESTITUTE_OK;
+    for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++) {
+        const struct rst_range range = {number[i].low, number[i].high};
+        status = rst_check_within(number[i].value, range, number[i].besides, number[i].name, error);
+    }
+    return status;
 }
 
 static int check_array(const double *value, int64_t n, double low, double high, const char *name, restitute_error *error)
@@ -51,7 +73,10 @@ static int check_values(const restitute_table_data *d, restitute_error *error)
                             speed[0], speed[n - 1], d->low, d->high);
     if (!status) status = check_array(d->ez, 2 * n, -steep, steep, "ez", error);
     if (!status) status = check_array(d->ex, 4 * n * rst_places(d), -steep, steep, "ex", error);
-    return status ? status : check_array(d->strain, 3 * n, 0, INFINITY, "strain", error);
+    if (!status) status = check_array(d->strain, 3 * n, 0, INFINITY, "strain", error);
+    if (!status) status = check_array(d->modulus, d->terms, rst_moduli.low, rst_moduli.high, "modulus", error);
+    if (status) return status;
+    return check_array(d->relaxation_time, d->terms, rst_times.low, rst_times.high, "relaxation_time", error);
 }
 
 /* Number of bins: one for the narrowest cell, so that few have more than one edge in them. */
@@ -149,7 +174,8 @@ static int check_data(const restitute_table_data *d, restitute_error *error)
 {
     const void *const array[] = {d->speed, d->ez, d->strain, d->ex, d->relaxation_time, d->modulus};
     static const char *const name[] = {"speed", "ez", "strain", "ex", "relaxation_time", "modulus"};
-    const int status = check_counts(d, error);
+    int status = check_counts(d, error);
+    if (!status) status = check_numbers(d, error);
     if (status) return status;
     for (int i = 0; i < (d->terms > 0 ? 6 : 4); i++)
         if (!array[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "data.%s is NULL", name[i]);

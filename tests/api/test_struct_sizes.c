@@ -199,7 +199,7 @@ static void files(void **state)
 {
     restitute_material *material = NULL;
     (void)state;
-    REFUSED(restitute_material_read_info(RESTITUTE_SOURCE_DIR "/examples/materials/steel.json", &material, with.old,
+    REFUSED(restitute_material_read(RESTITUTE_SOURCE_DIR "/examples/materials/steel.json", &material, with.old,
                                          &with.error));
 }
 #endif
@@ -208,6 +208,7 @@ static void files(void **state)
 static void measured_impacts(void **state)
 {
     restitute_fit_point points[4];
+    restitute_scene scenes[4];
     restitute_fit_result result;
     restitute_fitter *fitter = NULL;
     restitute_error *e = &with.error;
@@ -215,8 +216,8 @@ static void measured_impacts(void **state)
     (void)state;
     for (int i = 0; i < 4; i++) {
         restitute_fit_point_init(&points[i]);
-        points[i].scene = with.scene, points[i].scene.material = NULL;
-        points[i].scene.normal_speed = 1 + i, points[i].ez = 0.9 - 0.1 * i;
+        scenes[i] = with.scene, scenes[i].material = NULL, scenes[i].normal_speed = 1 + i;
+        points[i].scene = &scenes[i], points[i].ez = 0.9 - 0.1 * i;
     }
     restitute_fit_result_init(&result);
     REFUSED(restitute_fit(1, with.old, NULL, &result, e));

@@ -168,8 +168,9 @@ static void data_makes_the_same_table(void **state)
     static const char *const words[] = {"speeds = 1: must be in [2, 32768]", "stick_cells = 0", "slip_cells = 1048576",
                                         "terms = -1", "chi = nan: must be in [0.3, 1000]", "psi_factor = -1", "low = 0",
                                         "speed[1] = ", "ez[0] = nan", "to 10: must rise, and cover 0.01 to 11",
-                                        "data.ex is NULL", "data.modulus is NULL"};
-    for (int i = 0; i < 12; i++) {
+                                        "data.ex is NULL", "data.modulus is NULL", "duration = 0: must be in [1e-120",
+                                        "relaxation_time[0] = 0: must be in [1e-30"};
+    for (int i = 0; i < 14; i++) {
         restitute_table_data d = good;
         restitute_table *none = NULL;
         double turned[2] = {good.speed[1], good.speed[0]}, wild[2] = {NAN, 0};
@@ -185,7 +186,9 @@ static void data_makes_the_same_table(void **state)
         if (i == 9) d.high = 11;
         if (i == 10) d.ex = NULL;
         if (i == 11) d.modulus = NULL;
-        const int expected = i < 10 ? RESTITUTE_ERROR_DOMAIN : RESTITUTE_ERROR_NULL;
+        if (i == 12) d.duration = 0;
+        if (i == 13) d.relaxation_time = wild + 1;
+        const int expected = i != 10 && i != 11 ? RESTITUTE_ERROR_DOMAIN : RESTITUTE_ERROR_NULL;
         CHECK(restitute_table_create(&d, &none, &error) == expected && !none, "%d: %s", i, error.message);
         CHECK(strstr(error.message, words[i]), "\"%s\" does not say \"%s\"", error.message, words[i]);
     }
