@@ -34,7 +34,7 @@ static restitute_material *pair_of(const struct set *set)
     restitute_material *sphere = NULL, *wall = NULL, *pair = NULL;
     restitute_material_elastic(set->young_sphere / (2 + 2 * set->nu_sphere), set->nu_sphere, &sphere, NULL);
     restitute_material_elastic(set->young_wall / (2 + 2 * set->nu_wall), set->nu_wall, &wall, NULL);
-    restitute_material_pair(sphere, wall, &pair, NULL);
+    restitute_material_effective(sphere, wall, &pair, NULL);
     restitute_material_destroy(sphere);
     restitute_material_destroy(wall);
     return pair;

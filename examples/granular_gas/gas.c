@@ -50,11 +50,12 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-restitute_table_value gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed)
+struct gas_pair gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed)
 {
-    restitute_table_value pair = law->constant;
+    struct gas_pair pair = law->constant;
     if (law->table)
-        restitute_table_pair(law->table, normal_speed, tangential_speed, &pair); /* takes all finite speeds */
+        restitute_table_pair(law->table, NULL, normal_speed, tangential_speed, &pair.ez, &pair.ex,
+                             NULL); /* takes all finite speeds */
     return pair;
 }
 
@@ -89,7 +90,7 @@ static double collide(struct gas *gas, size_t i, size_t j, const double *g, cons
     ++gas->impacts;
     if (gas->law.table) {
         restitute_body first = body_of(gas, i, -1, k), second = body_of(gas, j, 1, k);
-        restitute_table_collide(gas->law.table, NULL, &first, &second, NULL, NULL); /* they touch and approach */
+        restitute_table_collide(gas->law.table, NULL, &first, &second, NULL, NULL, NULL); /* they touch and approach */
         take_back(gas, i, &first);
         take_back(gas, j, &second);
     } else

@@ -12,11 +12,15 @@
 
 #define GAS_INERTIA 0.4 /* q = J/(m R^2) of a solid sphere */
 
+struct gas_pair {
+    double ez, ex;
+};
+
 /* What an impact gives back: by a table for spheres of this radius and mass, or with table NULL the same ez always and
  * no friction. */
 struct gas_law {
     const restitute_table *table;
-    restitute_table_value constant;
+    struct gas_pair constant;
     double radius, mass; /* m, kg; not used without a table */
 };
 
@@ -31,7 +35,7 @@ struct gas {
 };
 
 /* (ez, ex) of an impact; speeds >= 0. */
-restitute_table_value gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed);
+struct gas_pair gas_pair(const struct gas_law *law, double normal_speed, double tangential_speed);
 
 /* n >= 2 spheres with Maxwell's velocities of temperature <v^2>/3 = translational, at rest as a whole, and such spins
  * that q <s^2>/3 = rotational. Returns 0, or -1 if there is no memory. */

@@ -206,7 +206,7 @@ int main(int argc, char **argv)
     }
     if (restitute_material_kelvin_voigt(1e7, 60, 0.5, &kelvin_voigt, &error) < 0 ||  /* G1 (Pa), eta (Pa s), nu */
         restitute_material_standard_solid(1e8, 2e8, 3e4, 0.5, &solid, &error) < 0 || /* G1, G2, eta, nu */
-        restitute_material_read(argv[1], &polymer, &error) < 0) {
+        restitute_material_read(argv[1], &polymer, NULL, &error) < 0) {
         fprintf(stderr, "granular_gas: %s\n", error.message);
         return 1;
     }

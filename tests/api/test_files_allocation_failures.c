@@ -11,6 +11,9 @@
 
 #include <restitute/files.h>
 
+#include "files/csv_table.h"
+#include "files/number.h"
+
 #define STEM "test_files_allocation_failures"
 #define JSON STEM ".json"
 #define CSV STEM ".csv"
@@ -35,7 +38,7 @@ static int material_read(struct given *given)
     restitute_material_info_init(&info);
     info.density = 7;
     const restitute_material_info fresh = info;
-    ARMED(status, restitute_material_read_info(path, &material, &info, &error));
+    ARMED(status, restitute_material_read(path, &material, &info, &error));
     CHECK(status >= 0 || (material == UNTOUCHED && memcmp(&info, &fresh, sizeof fresh) == 0), "output touched");
     CHECK(status >= 0 || strlen(error.message) > 5, "no message");
     if (status < 0) return status;
@@ -48,14 +51,14 @@ static int material_read(struct given *given)
 static int csv_read(struct given *given)
 {
     int status;
-    restitute_csv *csv = UNTOUCHED;
-    ARMED(status, restitute_csv_read(path, &csv, &error));
+    struct rst_csv *csv = UNTOUCHED;
+    ARMED(status, rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, &error));
     CHECK(status >= 0 || csv == UNTOUCHED, "output touched");
     if (status < 0) return status;
-    give(given, (double)restitute_csv_rows(csv));
-    give(given, (double)restitute_csv_columns(csv));
-    give(given, restitute_csv_cell(csv, 99, 1)[0]);
-    restitute_csv_destroy(csv);
+    give(given, (double)rst_csv_rows(csv));
+    give(given, (double)rst_csv_columns(csv));
+    give(given, rst_csv_cell(csv, 99, 1)[0]);
+    rst_csv_destroy(csv);
     return status;
 }
 
@@ -63,7 +66,7 @@ static int number_read(struct given *given)
 {
     int status;
     double number = 7;
-    ARMED(status, restitute_number_read("0.1234567890123456789012345678901234567890e-3", &number));
+    ARMED(status, rst_number_read("0.1234567890123456789012345678901234567890e-3", &number));
     CHECK(status >= 0 || number == 7, "output touched");
     give(given, number);
     return status;
@@ -88,7 +91,7 @@ static void materials(void **state)
                                "50}",
         HEAD("prony") ", \"terms\": [{\"tau_s\": 1e-3, \"modulus_pa\": 1e6}, {\"tau_s\": 1e-2, \"modulus_pa\": 2e6}]}",
         HEAD("prony") ", \"equilibrium_modulus_pa\": 1e5, \"prony_csv\": \"" CSV "\"}"};
-    const struct subject reading = {"material_read_info", NULL, material_read, NULL, 0, 0};
+    const struct subject reading = {"material_read", NULL, material_read, NULL, 0, 0};
     if (!CAN_FAIL) skip();
     write_text(CSV, "tau_s,G_Pa\n1e-3,1e6\n1e-2,2e6\n\"1e-1\",3e6\n");
     path = CSV;

@@ -4,6 +4,8 @@
 
 #include <restitute/files.h>
 
+#include "files/number.h"
+
 static void all_examples_are_read(void **state)
 {
     const char *const names[] = {"polyisobutylene.json", "polyisobutylene.csv",  "steel.json",
@@ -15,7 +17,7 @@ static void all_examples_are_read(void **state)
         restitute_error error;
         int status;
         snprintf(path, sizeof path, "%s/examples/materials/%s", RESTITUTE_SOURCE_DIR, names[i]);
-        WITHOUT_TRAPS(status, restitute_material_read(path, &material, &error), "%s", names[i]);
+        WITHOUT_TRAPS(status, restitute_material_read(path, &material, NULL, &error), "%s", names[i]);
         CHECK(status == RESTITUTE_OK, "%s", error.message);
         restitute_material_destroy(material);
     }
@@ -28,7 +30,7 @@ static void numbers_are_read(void **state)
     int status;
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        WITHOUT_TRAPS(status, restitute_number_read(texts[i], &value), "%s", texts[i]);
+        WITHOUT_TRAPS(status, rst_number_read(texts[i], &value), "%s", texts[i]);
 }
 
 int main(void)

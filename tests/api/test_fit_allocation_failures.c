@@ -11,12 +11,13 @@ enum { N = 4 };
 static int fit_with(size_t n, int model, int loss, struct given *given)
 {
     static const double times[N] = {3.0e-3, 2.62e-3, 2.40e-3, 2.28e-3};
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_options options = fit_options(model);
     restitute_fit_result r;
     restitute_error error;
     int status;
-    drops(n, 0.1, 0.4, points);
+    drops(n, 0.1, 0.4, scenes, points);
     for (size_t i = 0; i < n; i++)
         points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_MODEL_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
     restitute_fit_result_init(&r);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/comma_locale.h"
 #include "../support/fit.h"
+#include "../support/sized.h"
 
 enum { N = 20 };
 
@@ -10,9 +11,10 @@ static void round_trip_without_noise(void **state)
 {
     static const double truth[] = {1e6, 3e6, 300};
     restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     (void)state;
-    drops(N, 1e-3, 1, points);
+    drops(N, 1e-3, 1, scenes, points);
     measure(solid, N, points, 0, 1, 0, 1);
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
@@ -40,8 +42,9 @@ static void intervals_hold_the_truth(void **state)
     (void)state;
     for (uint64_t draw = 0; draw < 24; draw++) {
         restitute_material *solid = kelvin_voigt(1e6, 100);
+        restitute_scene scenes[N];
         restitute_fit_point points[N];
-        drops(N, 0.01, 1, points);
+        drops(N, 0.01, 1, scenes, points);
         measure(solid, N, points, draw % 2 ? 0.05 : 0.01, 1, 0, 1000 + draw);
         const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
         restitute_fit_result r = fitted(N, points, &options);
@@ -58,9 +61,10 @@ static void intervals_hold_the_truth(void **state)
 static void equal_input_gives_equal_bits(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     (void)state;
-    drops(N, 1e-3, 1, points);
+    drops(N, 1e-3, 1, scenes, points);
     measure(solid, N, points, 0.01, 1, 0, 7);
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result first = fitted(N, points, &options);
@@ -78,9 +82,10 @@ static void equal_input_gives_equal_bits(void **state)
 static void restitution_alone_gives_no_modulus(void **state)
 {
     restitute_material *solid = standard_solid(1e7, 2e7, 500);
+    restitute_scene scenes[N], other_scenes[N];
     restitute_fit_point points[N], others[N];
     (void)state;
-    drops(N, 0.01, 10, points);
+    drops(N, 0.01, 10, scenes, points);
     measure(solid, N, points, 0, 0, 0, 1);
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
@@ -90,20 +95,20 @@ static void restitution_alone_gives_no_modulus(void **state)
         assert_true(r.low[i] == 0 && isinf(r.high[i]));
     assert_non_null(strstr(r.remarks, "viscosity_pa_s x f^0.6"));
     /* The fitted solid has the e of other spheres all the same. */
-    drops(N, 0.01, 10, others);
+    drops(N, 0.01, 10, other_scenes, others);
     for (size_t i = 0; i < N; i++)
-        others[i].scene.radius1 = 0.02, others[i].scene.mass1 = 0.2;
+        other_scenes[i].radius1 = 0.02, other_scenes[i].mass1 = 0.2;
     memcpy(points, others, sizeof points);
     measure(solid, N, points, 0, 0, 0, 1);
     measure(r.material, N, others, 0, 0, 0, 1);
     for (size_t i = 0; i < N; i++)
-        CHECK_NEAR(others[i].ez, points[i].ez, 1e-4, "at %g m/s", points[i].scene.normal_speed);
+        CHECK_NEAR(others[i].ez, points[i].ez, 1e-4, "at %g m/s", scenes[i].normal_speed);
     /* Its contact times are those of 1 MPa: 2.943 T, here by the elastic solid itself. */
     restitute_material *elastic = NULL;
     double ratio = 0;
     assert_int_equal(restitute_material_elastic(1e6, 0.5, &elastic, NULL), RESTITUTE_OK);
-    drops(N, 0.01, 10, points);
-    drops(N, 0.01, 10, others);
+    drops(N, 0.01, 10, scenes, points);
+    drops(N, 0.01, 10, other_scenes, others);
     measure(r.material, N, points, 0, 1, 0, 1);
     measure(elastic, N, others, 0, 1, 0, 1);
     for (size_t i = 0; i < N; i++)
@@ -130,9 +135,10 @@ static void ambiguous_data_are_recognised(void **state)
     static const double tau[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
     static const double g[] = {2e6, 1e6, 1e6, 5e5, 5e5};
     restitute_material *damped = kelvin_voigt(1e6, 100), *series;
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     (void)state;
-    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, scenes, points);
     measure(damped, N, points, 0.01, 1, 0, 3);
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     restitute_fit_result r = fitted(N, points, &options);
@@ -142,7 +148,7 @@ static void ambiguous_data_are_recognised(void **state)
     CHECK_NEAR(r.value[0], 1e6, 5e4, "G1 is found all the same, within four standard deviations");
     restitute_material_destroy(r.material);
 
-    drops(N, 0.5, 0.5, points);
+    drops(N, 0.5, 0.5, scenes, points);
     measure(damped, N, points, 0.01, 0, 0, 3);
     r = fitted(N, points, &options);
     CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && r.rank == 1, "one speed alone: rank %zu", r.rank);
@@ -150,7 +156,7 @@ static void ambiguous_data_are_recognised(void **state)
     restitute_material_destroy(damped);
 
     assert_int_equal(restitute_material_prony(1e6, 0, 5, tau, g, 0.5, &series, NULL), RESTITUTE_OK);
-    drops(N, 0.1, 1, points);
+    drops(N, 0.1, 1, scenes, points);
     measure(series, N, points, 0.01, 1, 0, 3);
     options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     options.terms = 5, options.relaxation_time = tau;
@@ -164,9 +170,10 @@ static void ambiguous_data_are_recognised(void **state)
 static void a_wrong_model_is_called_wrong(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 3e6, 300);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     (void)state;
-    drops(N, 0.01, 10, points);
+    drops(N, 0.01, 10, scenes, points);
     measure(solid, N, points, 0.01, 1, 0, 5);
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_fit_result r = fitted(N, points, &options);
@@ -190,10 +197,11 @@ static void a_wrong_model_is_called_wrong(void **state)
 static void robust_losses_bear_outliers(void **state)
 {
     restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     double off[3];
     (void)state;
-    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, scenes, points);
     measure(solid, N, points, 0.01, 1, 0, 11);
     points[3].ez -= 0.3, points[9].ez -= 0.3, points[16].ez -= 0.3;
     for (int loss = RESTITUTE_FIT_LOSS_SQUARES; loss <= RESTITUTE_FIT_LOSS_CAUCHY; loss++) {
@@ -222,6 +230,7 @@ static void many_points_are_interpolated(void **state)
         {1e6, 2e6, 1e6, 1e6, 5e5, 5e5},
     };
     static const double tau[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+    static restitute_scene scenes[MANY];
     static restitute_fit_point points[MANY];
     (void)state;
     for (int model = RESTITUTE_FIT_MODEL_KELVIN_VOIGT; model <= RESTITUTE_FIT_MODEL_PRONY; model++) {
@@ -233,10 +242,10 @@ static void many_points_are_interpolated(void **state)
         if (model == RESTITUTE_FIT_MODEL_STANDARD_SOLID) solid = standard_solid(c[0], c[1], c[2]);
         if (model == RESTITUTE_FIT_MODEL_MAXWELL) restitute_material_maxwell(c[0], c[1], 0.5, &solid, NULL);
         if (model == RESTITUTE_FIT_MODEL_PRONY) restitute_material_prony(c[0], 0, 5, tau, c + 1, 0.5, &solid, NULL);
-        drops(MANY, 1e-4, 10, points);
+        drops(MANY, 1e-4, 10, scenes, points);
         for (size_t i = 0; i < MANY; i++) {
-            if (i % 3) points[i].scene.radius1 *= (double)(1 + i % 3), points[i].scene.mass1 *= 10;
-            if (i % 2) points[i].scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+            if (i % 3) scenes[i].radius1 *= (double)(1 + i % 3), scenes[i].mass1 *= 10;
+            if (i % 2) scenes[i].deformable = RESTITUTE_BOTH_BODIES_DEFORM;
         }
         measure(solid, MANY, points, 0, 1, 0, 1);
         for (size_t i = 0; i < MANY; i++) /* below, times have impacts of their own */
@@ -255,6 +264,7 @@ static void another_valley_is_named(void **state)
     enum { DROPS = 20 };
     static const double tau[] = {3e-5, 3e-3}, g[] = {1e6, 1e6}, known[] = {1e6, NAN, NAN};
     restitute_material *solid = NULL;
+    restitute_scene scenes[DROPS];
     restitute_fit_point points[DROPS];
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
@@ -262,7 +272,7 @@ static void another_valley_is_named(void **state)
     restitute_material_prony(1e6, 0, 2, tau, g, 0.5, &solid, NULL);
     for (int which = 0; which < 3; which++) {
         const double sigma = which == 1 ? 0.003 : 0.01;
-        drops(DROPS, 0.01, 10, points);
+        drops(DROPS, 0.01, 10, scenes, points);
         measure(solid, DROPS, points, 0, which == 2, 0, 1);
         for (size_t i = 0; i < DROPS; i++) {
             points[i].sigma_ez = sigma;
@@ -281,6 +291,7 @@ static void another_valley_is_named(void **state)
 static void many_angles(void **state)
 {
     enum { MANY = 200 };
+    static restitute_scene scenes[MANY];
     static restitute_fit_point points[MANY];
     restitute_material *solid = standard_solid(1e6, 3e6, 300);
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
@@ -288,8 +299,8 @@ static void many_angles(void **state)
     for (size_t k = 0; k < 4; k++)
         drops(MANY / 4, 0.01, 1, points + k * MANY / 4);
     for (size_t i = 0; i < MANY; i++) {
-        points[i].scene.friction = NAN;
-        points[i].scene.tangential_speed = (0.3 + 0.5 * (double)(4 * i / MANY)) * points[i].scene.normal_speed;
+        scenes[i].friction = NAN;
+        scenes[i].tangential_speed = (0.3 + 0.5 * (double)(4 * i / MANY)) * scenes[i].normal_speed;
     }
     measure(solid, MANY, points, 0, 1, 1, 1);
     restitute_fit_result r = fitted(MANY, points, &options);
@@ -305,13 +316,14 @@ static void times_of_slow_rebounds_are_not_interpolated(void **state)
 {
     enum { MANY = 60 };
     static const double known[] = {1e6, 300};
+    static restitute_scene scenes[MANY];
     static restitute_fit_point points[MANY];
     restitute_material *solid = NULL;
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_MAXWELL);
     (void)state;
     options.known = known;
     restitute_material_maxwell(known[0], known[1], 0.5, &solid, NULL);
-    drops(MANY, 0.5, 1.1, points);
+    drops(MANY, 0.5, 1.1, scenes, points);
     measure(solid, MANY, points, 0, 1, 0, 1);
     restitute_fit_result r = fitted(MANY, points, &options);
     CHECK(r.rms < 1e-5, "rms %g", r.rms);
@@ -324,15 +336,16 @@ static void times_of_slow_rebounds_are_not_interpolated(void **state)
 static void spheres_partners_and_friction(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 3e6, 300), *partner;
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     (void)state;
     assert_int_equal(restitute_material_elastic(4e6, 0.5, &partner, NULL), RESTITUTE_OK);
-    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, scenes, points);
     for (size_t i = 0; i < N; i++) {
-        points[i].scene.friction = NAN;
-        points[i].scene.tangential_speed = 0.6 * points[i].scene.normal_speed;
-        if (i % 2) points[i].scene.radius1 = 0.01, points[i].scene.mass1 = 0.03;
-        if (i % 3 == 0) points[i].scene.material = partner;
+        scenes[i].friction = NAN;
+        scenes[i].tangential_speed = 0.6 * scenes[i].normal_speed;
+        if (i % 2) scenes[i].radius1 = 0.01, scenes[i].mass1 = 0.03;
+        if (i % 3 == 0) scenes[i].material = partner;
     }
     measure(solid, N, points, 0, 1, 1, 1);
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
@@ -350,9 +363,10 @@ static void spheres_partners_and_friction(void **state)
 static void temperatures(void **state)
 {
     restitute_material *warm = standard_solid(1e6, 3e6, 300), *cold = standard_solid(1e6, 3e6, 900);
+    restitute_scene scenes[2 * N];
     restitute_fit_point points[2 * N];
     (void)state;
-    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, scenes, points);
     drops(N, 0.01, 1, points + N);
     measure(warm, N, points, 0, 1, 0, 1);
     measure(cold, N, points + N, 0, 1, 0, 1);
@@ -378,13 +392,14 @@ static void temperatures_from_every_seed(void **state)
 {
     enum { SPEEDS = 5, SOLIDS = 4 };
     static const double at[SOLIDS] = {20, 40, 60, 0}, shift[SOLIDS] = {1, 0.0559, 0.00694, 149};
+    restitute_scene scenes[SOLIDS * SPEEDS];
     restitute_fit_point points[SOLIDS * SPEEDS];
     (void)state;
     for (size_t k = 0; k < SOLIDS; k++) {
         restitute_material *solid = standard_solid(1e6, 3e6, 300 * shift[k]);
         drops(SPEEDS, 0.03, 3, points + k * SPEEDS);
         for (size_t i = k * SPEEDS; i < (k + 1) * SPEEDS; i++)
-            points[i].temperature = at[k], points[i].scene.radius1 = 0.01, points[i].scene.mass1 = 0.005;
+            points[i].temperature = at[k], scenes[i].radius1 = 0.01, scenes[i].mass1 = 0.005;
         measure(solid, SPEEDS, points + k * SPEEDS, 0.01, 1, 0, 100 + k);
         restitute_material_destroy(solid);
     }
@@ -415,10 +430,11 @@ static void refused(size_t n, const restitute_fit_point *points, const restitute
 
 static void refusals(void **state)
 {
+    restitute_scene scenes[4];
     restitute_fit_point points[4], bad[4];
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     (void)state;
-    drops(4, 0.1, 1, points);
+    drops(4, 0.1, 1, scenes, points);
     for (int i = 0; i < 4; i++)
         points[i].ez = 0.5;
 #define REFUSED(member, value, text)                                                                                   \
@@ -432,8 +448,11 @@ static void refusals(void **state)
     REFUSED(ez, NAN, "points[2]: ez, ex or contact_time must be measured");
     REFUSED(contact_time, -1e-3, "points[2].contact_time = -0.001");
     REFUSED(sigma_ez, 0, "points[2].sigma_ez = 0");
-    REFUSED(scene.normal_speed, -1, "points[2].scene.normal_speed = -1");
-    REFUSED(scene.radius1, 0, "points[2]: radius1 (m) = 0");
+    scenes[2].normal_speed = -1;
+    REFUSED(ez, 0.5, "points[2].scene.normal_speed = -1");
+    scenes[2].normal_speed = 1, scenes[2].radius1 = 0;
+    REFUSED(ez, 0.5, "points[2]: radius1 (m) = 0");
+    scenes[2].radius1 = 0.005;
     REFUSED(temperature, 20, "points[2].temperature = 20");
     REFUSED(temperature, INFINITY, "points[2].temperature = inf: must be finite");
     for (int i = 0; i < 4; i++)
@@ -452,18 +471,78 @@ static void refusals(void **state)
     static const double twice[] = {1e-3, 1e-3};
     options.terms = 2, options.relaxation_time = twice;
     refused(4, points, &options, RESTITUTE_ERROR_DOMAIN, "options.relaxation_time[1] = 0.001: is there twice");
-    options.struct_size = 8;
-    refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE, "options.struct_size = 8");
+}
+
+/* The size of the first is the distance to the next. */
+static void structs_of_other_sizes_are_refused_and_not_touched(void **state)
+{
+    static const double f[] = {1, 10, 100, 1000}, moduli[] = {1e6, 2e6, 3e6, 4e6};
+    static _Alignas(16) unsigned char place[guarded_bytes];
+    void *const old = place;
+    restitute_scene scenes[4];
+    restitute_fit_point points[4];
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
+    restitute_fit_result result;
+    restitute_dma_result series;
+    restitute_error error, *e = &error;
+    (void)state;
+    drops(4, 0.1, 1, scenes, points);
+    for (int i = 0; i < 4; i++)
+        points[i].ez = 0.9 - 0.1 * i;
+    restitute_fit_result_init(&result);
+    restitute_dma_result_init(&series);
+    CHECK_SIZES(fit_point, sigma_contact_time, place, e, restitute_fit(1, old, &options, &result, e));
+    CHECK_SIZES(fit_options, interrupted_data, place, e, restitute_fit(4, points, old, &result, e));
+    CHECK_SIZES(fit_result, material, place, e, restitute_fit(4, points, &options, old, e));
+    CHECK_SIZES(dma_options, wlf_c2, place, e, restitute_dma_fit(4, f, moduli, moduli, NULL, old, &series, e));
+    CHECK_SIZES(dma_result, material, place, e, restitute_dma_fit(4, f, moduli, moduli, NULL, NULL, old, e));
+    points[2].scene = old;
+    CHECK_SIZES(scene, wave_density, place, e, restitute_fit(4, points, &options, &result, e));
+    CHECK(strstr(error.message, "points[2]: restitute_scene"), "%s", error.message);
+    points[2].scene = NULL;
+    refused(4, points, &options, RESTITUTE_ERROR_NULL, "points[2].scene is NULL");
+    points[2].scene = &scenes[2], points[3].struct_size += 8;
+    refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE, "points[3].struct_size = 80: must be 72, as of the first");
+}
+
+/* The scenes may go, as the points and the options may. */
+static void a_fitter_has_copies(void **state)
+{
+    restitute_scene scenes[N];
+    restitute_fit_point points[N];
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
+    restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_fitter *fitter;
+    restitute_fit_result r;
+    double done = 0;
+    (void)state;
+    drops(N, 0.01, 1, scenes, points);
+    measure(solid, N, points, 0, 1, 0, 1);
+    const restitute_fit_result expected = fitted(N, points, &options);
+    assert_int_equal(restitute_fitter_create(N, points, &options, &fitter, NULL), RESTITUTE_OK);
+    memset(scenes, 0xff, sizeof scenes);
+    memset(points, 0xff, sizeof points);
+    memset(&options, 0xff, sizeof options);
+    while (done < 1)
+        assert_int_equal(restitute_fitter_run(fitter, &done, NULL), RESTITUTE_OK);
+    restitute_fit_result_init(&r);
+    assert_int_equal(restitute_fitter_result(fitter, &r, NULL), RESTITUTE_OK);
+    CHECK(r.value[0] == expected.value[0] && r.value[1] == expected.value[1], "%.17g, %.17g", r.value[0], r.value[1]);
+    restitute_fitter_destroy(fitter);
+    restitute_material_destroy(r.material);
+    restitute_material_destroy(expected.material);
+    restitute_material_destroy(solid);
 }
 
 /* Names of constants are keys for programs; remarks have them and numbers, too. */
 static void names_have_a_point_in_every_locale(void **state)
 {
     static const double tau[] = {1e-3};
+    restitute_scene scenes[6];
     restitute_fit_point points[6];
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
-    drops(6, 0.1, 10, points);
+    drops(6, 0.1, 10, scenes, points);
     for (int i = 0; i < 6; i++)
         points[i].ez = 0.9 - 0.05 * i, points[i].temperature = i % 2 ? 20.5 : 30;
     options.terms = 1, options.relaxation_time = tau;
@@ -479,13 +558,14 @@ static void names_have_a_point_in_every_locale(void **state)
 static void the_handle(void **state)
 {
     restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_result result;
     restitute_fitter *fitter;
     restitute_error error;
     double done = 0, last = 0, ez[N];
     (void)state;
-    drops(N, 0.01, 1, points);
+    drops(N, 0.01, 1, scenes, points);
     measure(solid, N, points, 0, 1, 0, 1);
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     assert_int_equal(restitute_fitter_create(N, points, &options, &fitter, &error), RESTITUTE_OK);
@@ -512,10 +592,11 @@ static void residuals_in_order_are_a_misfit(void **state)
     static const char text[] = "neighbours along speed, angle or temperature have like residuals";
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_material *solid = kelvin_voigt(1e6, 100);
+    restitute_scene scenes[FEW];
     restitute_fit_point points[FEW];
     int alarms = 0;
     (void)state;
-    drops(FEW, 0.03, 3, points);
+    drops(FEW, 0.03, 3, scenes, points);
     measure(solid, FEW, points, 0.002, 1, 0, 77);
     for (int i = 0; i < FEW; i++)
         points[i].ez -= 0.04 * (2.0 * i / (FEW - 1) - 1);
@@ -535,10 +616,11 @@ static void residuals_in_order_are_a_misfit(void **state)
 /* e of an elastic solid is 1 whatever its modulus: nothing is determined, and that is not 0/0. */
 static void data_that_determine_nothing_have_no_condition(void **state)
 {
+    restitute_scene scenes[5];
     restitute_fit_point points[5];
     const restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_ELASTIC);
     (void)state;
-    drops(5, 0.1, 4, points);
+    drops(5, 0.1, 4, scenes, points);
     for (int i = 0; i < 5; i++)
         points[i].ez = 0.9 - 0.05 * i;
     restitute_fit_result r = fitted(5, points, &options);
@@ -553,12 +635,13 @@ static void data_that_determine_nothing_have_no_condition(void **state)
 static void wide_intervals_reach_as_far_as_the_likelihood(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 6e6, 600);
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     double known[] = {1e6, NAN, NAN};
     (void)state;
     options.known = known;
-    drops(N, 0.01, 10, points);
+    drops(N, 0.01, 10, scenes, points);
     measure(solid, N, points, 0.03, 0, 0, 1);
     restitute_fit_result r = fitted(N, points, &options);
     known[1] = r.high[1];
@@ -583,12 +666,13 @@ static void a_valley_that_noise_made_the_second_is_named(void **state)
 {
     static const double tau[] = {3e-5, 3e-3}, g[] = {4.3e5, 3.25e5}, known[] = {3.15e5, NAN, NAN};
     restitute_material *solid = NULL;
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_PRONY);
     (void)state;
     options.terms = 2, options.relaxation_time = tau, options.known = known;
     restitute_material_prony(3.15e5, 0, 2, tau, g, 0.5, &solid, NULL);
-    drops(N, 0.01, 10, points);
+    drops(N, 0.01, 10, scenes, points);
     measure(solid, N, points, 0.03, 0, 0, 41);
     restitute_fit_result r = fitted(N, points, &options);
     for (int i = 1; i < 3; i++)
@@ -606,11 +690,11 @@ static int interrupts_at(void *data)
     return ++asked == *(const int *)data;
 }
 
-static restitute_fit_options with_callback(size_t n, restitute_fit_point *points, int *at)
+static restitute_fit_options with_callback(size_t n, restitute_scene *scenes, restitute_fit_point *points, int *at)
 {
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_material *solid = kelvin_voigt(1e6, 100);
-    drops(n, 0.01, 1, points);
+    drops(n, 0.01, 1, scenes, points);
     measure(solid, n, points, 0.01, 1, 0, 1);
     restitute_material_destroy(solid);
     options.starts = 1;
@@ -623,9 +707,10 @@ static restitute_fit_options with_callback(size_t n, restitute_fit_point *points
 static void a_callback_is_asked_every_200_impacts(void **state)
 {
     enum { MANY = 401 };
+    static restitute_scene scenes[MANY];
     static restitute_fit_point points[MANY];
     int at = 0;
-    restitute_fit_options options = with_callback(MANY, points, &at), alone = options;
+    restitute_fit_options options = with_callback(MANY, scenes, points, &at), alone = options;
     restitute_fit_result r;
     restitute_fitter *fitter;
     restitute_error error;
@@ -654,9 +739,10 @@ static void a_callback_is_asked_every_200_impacts(void **state)
 /* Wherever it interrupts, the fit ends, and it is not asked again. A fitter then stays so. */
 static void a_callback_interrupts_a_fit(void **state)
 {
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     int at = 0, status;
-    restitute_fit_options options = with_callback(N, points, &at);
+    restitute_fit_options options = with_callback(N, scenes, points, &at);
     restitute_fit_result r;
     restitute_fitter *fitter;
     restitute_error error;
@@ -700,6 +786,8 @@ int main(void)
                                        cmocka_unit_test(temperatures),
                                        cmocka_unit_test(temperatures_from_every_seed),
                                        cmocka_unit_test(refusals),
+        cmocka_unit_test(structs_of_other_sizes_are_refused_and_not_touched),
+        cmocka_unit_test(a_fitter_has_copies),
                                        cmocka_unit_test(names_have_a_point_in_every_locale),
                                        cmocka_unit_test(the_handle),
                                        cmocka_unit_test(residuals_in_order_are_a_misfit),

@@ -207,6 +207,7 @@ static void files(void **state)
 #ifdef RESTITUTE_WITH_FIT
 static void measured_impacts(void **state)
 {
+    restitute_scene scenes[4];
     restitute_fit_point points[4];
     restitute_scene scenes[4];
     restitute_fit_result result;

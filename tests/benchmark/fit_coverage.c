@@ -41,17 +41,20 @@ static restitute_material *draw(int model, uint64_t *state, double *c)
 
 /* Solids whose e comes within three standard deviations of 0 or 1 are refused: the noise would be cut off there. */
 static int measure(const restitute_material *material, double noise, int with_time, restitute_solver *solver,
-                   uint64_t *state, restitute_fit_point *points)
+                   uint64_t *state, restitute_scene *scenes, restitute_fit_point *points)
 {
     for (int i = 0; i < POINTS; i++) {
         restitute_fit_point *p = &points[i];
+        restitute_scene *scene = &scenes[i];
         restitute_result r;
         restitute_fit_point_init(p);
+        restitute_scene_init(scene);
+        p->scene = scene;
         restitute_result_init(&r);
-        p->scene.radius1 = 0.005, p->scene.mass1 = 0.004, p->scene.material = material;
-        p->scene.normal_speed = 0.01 * pow(1000, i / (POINTS - 1.0));
-        restitute_solve_scene(solver, &p->scene, &r, NULL, NULL, NULL);
-        p->scene.material = NULL;
+        scene->radius1 = 0.005, scene->mass1 = 0.004, scene->material = material;
+        scene->normal_speed = 0.01 * pow(1000, i / (POINTS - 1.0));
+        restitute_solve_scene(solver, scene, &r, NULL, NULL, NULL);
+        scene->material = NULL;
         if (!(r.ez > 3 * noise && r.ez < 1 - 3 * noise)) return 0;
         p->ez = fmin(1, fmax(0, r.ez + noise * gauss(state))); /* one in a thousand */
         if (with_time) p->contact_time = r.contact_time * (1 + noise * gauss(state));
@@ -61,6 +64,7 @@ static int measure(const restitute_material *material, double noise, int with_ti
 
 static void campaign(int model, double noise, int with_time, int draws, uint64_t seed)
 {
+    restitute_scene scenes[POINTS];
     restitute_fit_point points[POINTS];
     restitute_options precise;
     restitute_solver *solver;
@@ -81,7 +85,7 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
         if (model == RESTITUTE_FIT_MODEL_PRONY) options.terms = 2, options.relaxation_time = prony_times;
         known[0] = truth[0];
         if (!with_time) options.known = known;
-        if (!measure(material, noise, with_time, solver, &seed, points)) {
+        if (!measure(material, noise, with_time, solver, &seed, scenes, points)) {
             restitute_material_destroy(material);
             k--;
             continue;

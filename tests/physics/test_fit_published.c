@@ -10,13 +10,14 @@ static restitute_fit_result fit_ice(int model, double from)
 {
     enum { N = 20 };
     static const double known[] = {3.5e9, NAN, NAN};
+    restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_options options = fit_options(model);
-    drops(N, from / 100, 0.05, points);
+    drops(N, from / 100, 0.05, scenes, points);
     for (int i = 0; i < N; i++) {
-        points[i].scene.radius1 = 0.0275, points[i].scene.mass1 = 0.0799;
-        points[i].scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
-        points[i].ez = 0.34 * pow(100 * points[i].scene.normal_speed, -0.234);
+        scenes[i].radius1 = 0.0275, scenes[i].mass1 = 0.0799;
+        scenes[i].deformable = RESTITUTE_BOTH_BODIES_DEFORM;
+        points[i].ez = 0.34 * pow(100 * scenes[i].normal_speed, -0.234);
     }
     options.known = known, options.poisson_ratio = 0.33;
     return fitted(N, points, &options);
@@ -45,12 +46,13 @@ static void golf_ball(void **state)
 {
     static const double drop[] = {0.80, 0.90, 1.00, 1.10}, rebound[] = {0.6383, 0.7198, 0.7902, 0.8677},
                         sigma[] = {0.00148, 0.00135, 0.00232, 0.00205};
+    restitute_scene scenes[4];
     restitute_fit_point points[4];
     (void)state;
-    drops(4, 1, 1, points);
+    drops(4, 1, 1, scenes, points);
     for (int i = 0; i < 4; i++) {
-        points[i].scene.radius1 = 0.021, points[i].scene.mass1 = 0.0415;
-        points[i].scene.normal_speed = sqrt(2 * 9.80665 * drop[i]);
+        scenes[i].radius1 = 0.021, scenes[i].mass1 = 0.0415;
+        scenes[i].normal_speed = sqrt(2 * 9.80665 * drop[i]);
         points[i].ez = sqrt(rebound[i] / drop[i]);
         points[i].sigma_ez = 0.5 * points[i].ez * sigma[i] / rebound[i];
     }

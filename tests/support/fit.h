@@ -10,12 +10,14 @@
 #include "check.h"
 
 /* A steel ball of 10 mm at speeds even in the logarithm, not yet measured. */
-static inline void drops(size_t n, double low, double high, restitute_fit_point *points)
+static inline void drops(size_t n, double low, double high, restitute_scene *scenes, restitute_fit_point *points)
 {
     for (size_t i = 0; i < n; i++) {
         restitute_fit_point_init(&points[i]);
-        points[i].scene.radius1 = 0.005, points[i].scene.mass1 = 0.004;
-        points[i].scene.normal_speed = low * pow(high / low, n > 1 ? (double)i / (double)(n - 1) : 0);
+        restitute_scene_init(&scenes[i]);
+        points[i].scene = &scenes[i];
+        scenes[i].radius1 = 0.005, scenes[i].mass1 = 0.004;
+        scenes[i].normal_speed = low * pow(high / low, n > 1 ? (double)i / (double)(n - 1) : 0);
     }
 }
 
@@ -35,11 +37,11 @@ static inline void measure(const restitute_material *material, size_t n, restitu
     options.method = restitute_method_sync(), options.tolerance = 1e-7;
     assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
     for (size_t i = 0; i < n; i++) {
-        restitute_scene scene = points[i].scene;
+        restitute_scene scene = *points[i].scene;
         restitute_result r;
         restitute_result_init(&r);
         restitute_material *pair = NULL;
-        if (scene.material) restitute_material_pair(material, scene.material, &pair, NULL);
+        if (scene.material) restitute_material_effective(material, scene.material, &pair, NULL);
         scene.material = pair ? pair : material;
         if (isnan(scene.friction)) scene.friction = 0.3;
         assert_true(restitute_solve_scene(solver, &scene, &r, NULL, NULL, NULL) >= 0);

@@ -8,7 +8,7 @@
 
 #include "check.h"
 
-enum { guarded_bytes = 1024 };
+enum { guarded_bytes = 16384 };
 
 /* `call` of a struct restitute_NAME at `place`, of which `why` is the error: it refuses one that is shorter than in the
  * first release and one that is longer than the library's, says which, and touches nothing of them. Nor does the init

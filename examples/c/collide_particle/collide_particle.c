@@ -9,7 +9,7 @@ int main(void)
     restitute_material *rubber = NULL;
     restitute_solver *solver = NULL;
     restitute_body ball, floor;
-    restitute_contact contact;
+    restitute_collision collision;
     restitute_result result;
     restitute_error error;
     restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &rubber, NULL); /* G1, G2 (Pa), eta (Pa s), nu */
@@ -22,10 +22,10 @@ int main(void)
     ball.position[2] = 0.01;
     ball.velocity[0] = 1.0, ball.velocity[1] = 0.5, ball.velocity[2] = -2.0; /* m/s */
     ball.spin[1] = 150.0, ball.spin[2] = 20.0;                               /* rad/s; about z: a twist, which stays */
-    restitute_contact_init(&contact);
-    contact.material = rubber, contact.deformable = RESTITUTE_ONE_BODY_DEFORMS, contact.friction = 0.4;
+    restitute_collision_init(&collision);
+    collision.material = rubber, collision.friction = 0.4;
     restitute_result_init(&result);
-    if (restitute_collide(solver, &contact, &ball, &floor, &result, &error) < 0) {
+    if (restitute_collide(solver, &collision, &ball, &floor, &result, &error) < 0) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }

@@ -12,6 +12,7 @@ int main(void)
     restitute_material *rubber = NULL;
     restitute_scene scenes[ALL];
     restitute_result results[ALL];
+    restitute_options options;
     restitute_error error;
     restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL); /* G1, G2 (Pa), eta (Pa s), nu */
     for (int i = 0; i < ALL; i++) {
@@ -23,7 +24,9 @@ int main(void)
         scenes[i].normal_speed = speed * cos(angle * degree);
         scenes[i].tangential_speed = speed * sin(angle * degree);
     }
-    const int status = restitute_solve_scenes(NULL, ALL, scenes, results, NULL, 0, &error); /* 0: all processors */
+    restitute_options_init(&options);
+    options.threads = 0; /* all processors */
+    const int status = restitute_solve_scene_many(ALL, scenes, &options, results, NULL, &error);
     restitute_material_destroy(rubber);
     if (status < 0) {
         fprintf(stderr, "%s\n", error.message);

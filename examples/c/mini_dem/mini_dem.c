@@ -2,7 +2,7 @@
  * A box of two hundred rubber spheres of two sizes that fly, spin and hit one another and the walls: an event-driven
  * simulation whose impacts take both restitutions, of the normal speed and of the angle, from a table.
  *
- *   start      one table for the material; it serves large and small, and the walls by restitute_table_contact_of
+ *   start      one table for the material; it serves large and small, and the walls by restitute_table_contact_set
  *   event      the next impact of all: fly there, let the two collide by the table, predict anew
  *   accounts   momentum against what the walls took; no impact gains energy
  *
@@ -72,7 +72,7 @@ static int prepare_table(struct box *box, const restitute_material *rubber, rest
     if (restitute_table_build(&scene, &options, table, error) < 0) return -1;
     scene.radius2 = scene.mass2 = INFINITY, scene.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     restitute_table_contact_init(&box->with_wall);
-    if (restitute_table_contact_of(*table, &scene, &box->with_wall, error) < 0) return -1;
+    if (restitute_table_contact_set(*table, &scene, &box->with_wall, error) < 0) return -1;
     box->table = *table;
     return 0;
 }
@@ -97,7 +97,8 @@ static int hit(struct box *box, struct sphere *a, struct sphere *b, const double
         wall.position[k] = a->body.position[k] - a->body.radius * normal[k];
         box->wall_impulse[k] -= b ? 0 : a->body.mass * a->body.velocity[k];
     }
-    if (restitute_table_collide(box->table, b ? NULL : &box->with_wall, &a->body, b ? &b->body : &wall, NULL, NULL) < 0)
+    if (restitute_table_collide(box->table, b ? NULL : &box->with_wall, &a->body, b ? &b->body : &wall, NULL, NULL,
+                                NULL) < 0)
         return -1;
     for (int k = 0; k < 3; ++k)
         box->wall_impulse[k] += b ? 0 : a->body.mass * a->body.velocity[k];

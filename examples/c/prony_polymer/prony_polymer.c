@@ -10,7 +10,7 @@ int main(int argc, char **argv)
     restitute_scene scene;
     restitute_error error;
     double ez, ex;
-    if (argc != 2 || restitute_material_read(argv[1], &polymer, &error) < 0) {
+    if (argc != 2 || restitute_material_read(argv[1], &polymer, NULL, &error) < 0) {
         fprintf(stderr, "%s\n", argc == 2 ? error.message : "usage: prony_polymer FILE");
         return 1;
     }

@@ -68,7 +68,7 @@ static int touch(const restitute_contact_law *law, const restitute_contact_rates
     m.half_step_over_tangential_mass = 3.5 * m.half_step_over_mass; /* 1 + m R^2/J of a solid sphere */
     m.radius = radius / bodies, m.friction = friction;
     if (restitute_contact_step(law, rates, &m, memory, &f, &error) < 0 ||
-        restitute_contact_energies_of(law, m.radius, memory, &e, &error) < 0)
+        restitute_contact_energies_get(law, m.radius, memory, &e, &error) < 0)
         return printf("%d and %d: %s\n", i, j, error.message);
     for (int k = 0; k < 3; k++) {
         one->force[k] += f.tangential[k] - f.normal * m.normal[k];
@@ -98,6 +98,8 @@ int main(void)
     restitute_contact_rates rates;
     double h, start = 0, off = 0, kinetic = 0;
     restitute_contact_law_options_init(&options);
+    restitute_contact_rates_init(&rates);
+    options.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
     options.energies = 1;
     if (restitute_material_standard_solid(2e7, 4e7, 5e3, 0.5, &rubber, NULL) < 0 ||
         restitute_contact_law_create(rubber, &options, &law, NULL) < 0 || restitute_contact_law_state_size(law) != doubles ||

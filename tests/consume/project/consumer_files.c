@@ -12,7 +12,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: consumer_files MATERIAL_FILE\n");
         return 2;
     }
-    if (restitute_material_read(argv[1], &material, &error) != RESTITUTE_OK) {
+    if (restitute_material_read(argv[1], &material, NULL, &error) != RESTITUTE_OK) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }

@@ -7,6 +7,7 @@
 int main(void)
 {
     static const double times[] = {3e-3, 2.611652e-3, 2.408224e-3, 2.273575e-3}; /* they fall with speed^(-1/5) */
+    restitute_scene scenes[4];
     restitute_fit_point points[4];
     restitute_fit_options options;
     restitute_fit_result result;
@@ -16,8 +17,9 @@ int main(void)
     options.model = RESTITUTE_FIT_MODEL_ELASTIC;
     for (int i = 0; i < 4; i++) {
         restitute_fit_point_init(&points[i]);
-        points[i].scene.radius1 = 0.005, points[i].scene.mass1 = 0.004, points[i].scene.normal_speed = 0.1 * (i + 1);
-        points[i].contact_time = times[i];
+        restitute_scene_init(&scenes[i]);
+        scenes[i].radius1 = 0.005, scenes[i].mass1 = 0.004, scenes[i].normal_speed = 0.1 * (i + 1);
+        points[i].scene = &scenes[i], points[i].contact_time = times[i];
     }
     if (restitute_fit(4, points, &options, &result, &error) < 0) {
         puts(error.message);
