@@ -111,7 +111,7 @@ contains
     real(rk) :: expected, at_rest
     real(rk), allocatable :: tau(:), modulus(:)
     good = restitute_material_prony(0.0_rk, 0.0_rk, table(1, :), table(2, :1), 0.5_rk, polymer, error) == &
-           RESTITUTE_ERROR_DOMAIN
+      RESTITUTE_ERROR_DOMAIN
     good = good .and. index(restitute_message(error), "relaxation_time") > 0
     good = good .and. restitute_material_prony(1e6_rk, 0.0_rk, table(1, :), table(2, :), 0.5_rk, polymer) == 0
     good = good .and. restitute_material_terms(polymer) == 2

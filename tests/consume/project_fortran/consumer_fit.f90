@@ -21,9 +21,9 @@ program consumer_fit
     drops(i) = restitute_scene()
     drops(i)%radius1 = 0.005_rk
     drops(i)%mass1 = 0.004_rk
-    drops(i)%normal_speed = 0.1_rk * i
+    drops(i)%normal_speed = 0.1_rk*i
     points(i) = restitute_fit_point(drops(i))
-    points(i)%contact_time = 3e-3_rk * real(i, rk)**(-0.2_rk)
+    points(i)%contact_time = 3e-3_rk*real(i, rk)**(-0.2_rk)
   end do
   options = restitute_fit_options()
   options%model = RESTITUTE_FIT_MODEL_ELASTIC
@@ -31,7 +31,7 @@ program consumer_fit
   again = restitute_fit_result()
   series = restitute_dma_result()
   good = restitute_fit(points, options, result, error) == RESTITUTE_OK
-  good = good .and. restitute_text(result%name(:, 1)) == "modulus_pa" .and. result%high(1) < 1.01_rk * result%low(1)
+  good = good .and. restitute_text(result%name(:, 1)) == "modulus_pa" .and. result%high(1) < 1.01_rk*result%low(1)
   good = good .and. restitute_fitter_create(points, options, fitter, error) == RESTITUTE_OK
   done = 0
   do while (good .and. done < 1)
@@ -43,15 +43,15 @@ program consumer_fit
   good = good .and. restitute_message(error) == "contact_time: must have as many values as there are points, 4; has 3"
   ! The times follow the law of an elastic solid; the forward model is within 1e-5 of it (fit.h).
   good = good .and. restitute_fitter_values(fitter, contact_time=times, error=error) == RESTITUTE_OK
-  good = good .and. all(abs(times / points%contact_time - 1) < 2e-5_rk)
+  good = good .and. all(abs(times/points%contact_time - 1) < 2e-5_rk)
   call restitute_fitter_destroy(fitter)
   options%interrupted = c_funloc(stop_now)
   good = good .and. restitute_fit(points, options, again, error) == RESTITUTE_ERROR_INTERRUPTED
   points(2)%ez = 1.5_rk
   good = good .and. restitute_fit(points, options, again, error) == RESTITUTE_ERROR_DOMAIN
   good = good .and. index(restitute_message(error), "points[1].ez = 1.5") == 1
-  x = [(10.0_rk**(0.5_rk * (i - 5)), i = 1, 9)]
-  status = restitute_dma_fit(x / 6.283185307179586_rk, x**2 / (1 + x**2), x / (1 + x**2), result=series)
+  x = [(10.0_rk**(0.5_rk*(i - 5)), i=1, 9)]
+  status = restitute_dma_fit(x/6.283185307179586_rk, x**2/(1 + x**2), x/(1 + x**2), result=series)
   good = good .and. status == RESTITUTE_OK
   good = good .and. series%terms == 1 .and. abs(series%relaxation_time(1) - 1) < 1e-3_rk
   print "(2a, es12.4, a, es12.4)", restitute_text(result%name(:, 1)), " =", result%value(1), ", tau =", &
