@@ -1,18 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the Debian packages that are missing: cmake/install-packages.sh [run|test|ci|package|docs]
+# Installs the Debian packages that are missing: cmake/install-packages.sh
+# [run|test|ci|package|docs]
 #   run   what building and running the command needs (the default)
 #   test  run, and what the tests need
 #   ci    test, make, and a second compiler with its sanitizers
 #   package  run, and what cpack needs to make the Debian package
 #   docs  run, and what building the reference, checking the man page and converting figures needs
-# OpenMP comes with gcc; clang builds without it, unless libomp-dev is there. Debian 12's clang is clang-14.
-# Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
+# OpenMP comes with gcc; clang builds without it, unless libomp-dev is there. Debian 12's clang is
+# clang-14. Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 
 run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
     libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox"
-test_packages="abigail-tools g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
+test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Decides which optional parts are built, and says by name and package what is missing for those that are not.
-# Sets RESTITUTE_WITH_<part> for each of RESTITUTE_PARTS.
+# Decides which optional parts are built, and says by name and package what is missing for those
+# that are not. Sets RESTITUTE_WITH_<part> for each of RESTITUTE_PARTS.
 
 # The packages that the wanted parts need. Each leaves <name>_FOUND.
 macro(restitute_find_pkg_config_library prefix module)
@@ -60,7 +60,8 @@ restitute_decide(RESTITUTE_CONTACT "the component contact" RESTITUTE_WITH_CONTAC
 
 restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
 
-# The serial HDF5 goes before whatever stands under the plain name, which may want MPI. The command takes it too where it is there.
+# The serial HDF5 goes before whatever stands under the plain name, which may want MPI. The command
+# takes it too where it is there.
 if(RESTITUTE_TABLE_FILES OR RESTITUTE_COMMAND)
   set(RESTITUTE_HDF5_MODULE hdf5-serial)
   restitute_find_pkg_config_library(HDF5 hdf5-serial)
@@ -73,9 +74,11 @@ restitute_decide(RESTITUTE_TABLE_FILES "the component table_files" RESTITUTE_WIT
                  RESTITUTE_WITH_TABLE "the component table (RESTITUTE_TABLE)" #
                  HDF5_FOUND "HDF5 (Debian: libhdf5-dev, found by pkg-config)")
 
-# Only the version is looked at here: from 6.4 on the interface is the same but for what src/cvode/integrator.c knows.
+# Only the version is looked at here: from 6.4 on the interface is the same but for what
+# src/cvode/integrator.c knows.
 if(RESTITUTE_CVODE)
-  # Packages made with OpenMP ask for it, though the two libraries taken here do not use it; clang often has none.
+  # Packages made with OpenMP ask for it, though the two libraries taken here do not use it; clang
+  # often has none.
   if(NOT TARGET OpenMP::OpenMP_C)
     add_library(OpenMP::OpenMP_C INTERFACE IMPORTED)
   endif()
@@ -111,7 +114,8 @@ restitute_decide(RESTITUTE_COMMAND "the command restitute" RESTITUTE_WITH_COMMAN
                  RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
                  POPT_FOUND "popt (Debian: libpopt-dev, found by pkg-config)")
 
-# The kernel needs a Fortran compiler and no more; the module is for programs that need its run-time library.
+# The kernel needs a Fortran compiler and no more; the module is for programs that need its run-time
+# library.
 if(RESTITUTE_FORTRAN)
   include(CheckSourceCompiles)
   check_source_compiles(Fortran "program hello\n  print '(a)', 'hello'\nend program hello\n"

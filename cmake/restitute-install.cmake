@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installation: libraries, headers, command, man page, and what CMake and pkg-config need to find them. All paths in
-# the installed files are relative to those files, so the tree may be moved.
+# Installation: libraries, headers, command, man page, and what CMake and pkg-config need to find
+# them. All paths in the installed files are relative to those files, so the tree may be moved.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/restitute")
 string(REGEX MATCH "^[0-9]+" fortran_major "${CMAKE_Fortran_COMPILER_VERSION}")

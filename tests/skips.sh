@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Prints why tests were skipped:  skips.sh JUNIT, which ctest --output-junit wrote
-# A skipped test says why in the last line of its output; a test that leaves a part out, in a line "skipped: REASON".
-# Exit status 1 if a skipped test says nothing.
+# Prints why tests were skipped:  skips.sh JUNIT, which ctest --output-junit wrote A skipped test
+# says why in the last line of its output; a test that leaves a part out, in a line "skipped:
+# REASON". Exit status 1 if a skipped test says nothing.
 awk '
     function skip(reason) {
         if (!(reason in tests)) order[++count] = reason

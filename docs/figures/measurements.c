@@ -1,5 +1,5 @@
-/* Curves and tables of docs/measurements.md: what the library says to the impacts of tests/data/kharaz_oblique.csv and
- * fem_oblique.csv.
+/* Curves and tables of docs/records/measurements.md: what the library says to the impacts of
+ * tests/data/kharaz_oblique.csv and fem_oblique.csv.
  *
  *     measurements kharaz|fem               the curve, x,y a line, for gnuplot
  *     measurements kharaz|fem DATA.csv      the points of the data as rows of a table: x, data, computed, difference
@@ -51,7 +51,8 @@ static restitute_scene scene_of(const struct set *set, const restitute_material 
     return scene;
 }
 
-/* The ordinate at x: by angle the e_t of the centre, else R w'/(mu V_n). NaN if the impact could not be solved. */
+/* The ordinate at x: by angle the e_t of the centre, else R w'/(mu V_n). NaN if the impact could
+ * not be solved. */
 static double ordinate(restitute_solver *solver, const struct set *set, restitute_scene scene, double x)
 {
     restitute_result result;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The figures of docs/measurements.md from the curves of `measurements` and the points of tests/data:
+# The figures of docs/records/measurements.md from the curves of `measurements` and the points of
+# tests/data:
 #   gnuplot -e "curves='DIR'; data='DIR'; figures='DIR'" measurements.gp
 set terminal svg size 640,420 font "Helvetica,14" background "white"
 set datafile separator ","

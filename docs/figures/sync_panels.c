@@ -1,4 +1,5 @@
-/* The curves of docs/figures/sync-panels.svg: one impact as the method `sync` sees it, in the plane of time and radius.
+/* The curves of docs/figures/sync-panels.svg: one impact as the method `sync` sees it, in the plane
+ * of time and radius.
  *
  *     sync_panels curves   s, A, c a line; empty lines between pieces
  *     sync_panels points   s, A of the points of the panels and, third, 1 at an end of a panel
@@ -9,20 +10,20 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sync/sync_kernels.h"
+#include "sync/kernels.h"
 
 enum { arms = 2, room = 64, samples = 24 };
 
-/* chi, psi, delta1, gamma: stick, slip from the edge, gross slip */
-static const double chi = 7.0 / 6, psi = 0.6, delta1 = 0.8, gamma_ = 1.5;
+/* gross slip until the contact sticks, stick, slip from the edge, gross slip */
+static const double chi = 7.0 / 6, psi = 1.4, delta1 = 0.8, gamma_ = 1.5;
 
 static struct sync_panel panel[room];
 static struct sync_record record[room];
 static struct sync_piece piece[room];
 static double memory[rst_points * arms * room], loading[rst_points * arms * room],
-    held[rst_values * rst_points * arms * room];
+    corrective[rst_values * rst_points * arms * room];
 static double kernel[rst_stages * rst_points * arms * room], entry[2 * rst_stages * arms],
-    kernel_of_piece[rst_stages * rst_points * arms], now_z[rst_points * arms], now_x[rst_points * arms], now_l[rst_points * arms];
+    room_of_piece[(rst_stages + 3) * rst_points * arms];
 
 static double at(double x, const double y[rst_points])
 {
@@ -33,13 +34,20 @@ static double at(double x, const double y[rst_points])
 
 static void print_curves(const struct sync_store *store)
 {
+    const double start = panel[piece[0].panel - 1].from +
+                         piece[0].from * (panel[piece[0].panel - 1].to - panel[piece[0].panel - 1].from);
+    for (int64_t p = 0; p < piece[0].panel; p++) /* gross slip */
+        for (int i = 0; i <= samples; i++) {
+            double x = fmin(1, (start - panel[p].from) / (panel[p].to - panel[p].from)) * i / samples;
+            printf("%.6g %.6g 0\n", at(x, panel[p].time), at(x, panel[p].radius));
+        }
     for (int64_t p = 0; p < store->n_pieces; p++) {
         const struct sync_piece *on = &piece[p];
         for (int i = 0; i <= samples; i++) {
             double y = (double)i / samples, left = on->rooted ? (1 - y) * (1 - y) : 1 - y;
             double x = on->to - (on->to - on->from) * left;
             const struct sync_panel *of = &panel[on->panel - 1];
-            printf("%.6g %.6g %.6g\n", at(x, of->time), at(x, of->radius), fmax(0, at(y, on->stick)));
+            printf("%.6g %.6g %.6g\n", at(x, of->time), at(x, of->radius), fmax(0, at(y, on->stick_radius)));
         }
     }
 }
@@ -73,7 +81,7 @@ int main(int argc, char **argv)
     const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8,
                                          .closeness = 1e-12, .stress = 1};
     struct sync_normal normal = {.n_arms = arms,
-                                 .radius = sqrt(0.4 * 0.84), /* about r of the largest indentation */
+                                 .scale = sqrt(0.4 * 0.84), /* about r of the largest indentation */
                                  .closeness = 1e-12,
                                  .g = g,
                                  .rate = rate,
@@ -85,11 +93,8 @@ int main(int argc, char **argv)
     struct sync_store store = {.capacity = room,
                                .record = record,
                                .piece = piece,
-                               .held = held,
-                               .room = kernel_of_piece,
-                               .now_z = now_z,
-                               .now_x = now_x,
-                               .now_l = now_l};
+                               .corrective = corrective,
+                               .room = room_of_piece};
     rst_follow_normal(&control, &normal, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);

@@ -11,7 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* In units of the rms of a component of g. Of Maxwell's pairs one of 1e6 is faster, and collides a little too seldom. */
+/* In units of the rms of a component of g. Of Maxwell's pairs one of 1e6 is faster, and collides
+ * slightly too seldom. */
 static const double FASTEST = 5.5;
 
 /* splitmix64: small, and the same on every machine. Uniform in [0, 1). */
@@ -64,7 +65,8 @@ static double energy(const struct gas *gas, size_t i)
     return 0.5 * (dot(gas->v[i], gas->v[i]) + GAS_INERTIA * dot(gas->s[i], gas->s[i]));
 }
 
-/* Sphere i as a body at `side` k; its mass is the table's contact's, and s is R times its spin. */
+/* Sphere i as a body at `side` k; its mass is that of the contact of the table, and s is R times
+ * its spin. */
 static restitute_body body_of(const struct gas *gas, size_t i, double side, const double *k)
 {
     restitute_body body;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * How a granular gas cools, by what its spheres are made of: five gases by DSMC (gas.h), the impacts from tables, beside
- * the theory where there is one (theory.h).
+ * How a granular gas cools, by what its spheres are made of: five gases by DSMC (gas.h), the
+ * impacts from tables, beside the theory where there is one (theory.h).
  *
  *   granular_gas POLYMER [SPHERES [OUTPUT.csv]]     POLYMER: examples/materials/polyisobutylene.json; default 100000
  *
@@ -16,7 +16,7 @@
 enum { MOST_RECORDS = 1000 };
 
 static const double RADIUS = 1e-3, DENSITY = 1000; /* m, kg/m^3, of all spheres */
-static const double ROUNDING = 1e-10; /* of energies: up to 1e8 impacts, 1e-16 each, of random sign, make 1e-12 */
+static const double ROUNDING = 1e-10; /* of energies: 1e8 impacts of 1e-16 each, random sign */
 
 struct experiment {
     const char *name;
@@ -25,7 +25,7 @@ struct experiment {
     double speed;    /* m/s: a component's rms at the start */
     double end;      /* stop where T/T0 has fallen below it */
     double late[2];  /* T ~ t^-p: range of p over the last decade of time */
-    double steepest; /* what p over a decade must reach on the way */
+    double steepest; /* value that p over a decade must reach before */
 };
 
 struct record {
@@ -35,11 +35,11 @@ struct record {
 struct course {
     struct record record[MOST_RECORDS];
     int count;
-    double energy_error; /* relative: what the impacts do not account for */
+    double energy_error; /* relative energy error */
     double spin;         /* median of R times the spin over that of the speed */
 };
 
-/* ------------------------------------------------------------------------------------------------------ one gas */
+/* ---- one gas */
 
 static double sphere_mass(void)
 {
@@ -70,8 +70,8 @@ static struct record take(const struct gas *gas, const struct record *last, int 
     return now;
 }
 
-/* Cool until e->end; a record whenever the time has grown by a tenth of a decade. A gas whose energy does not add up
- * might never cool: that ends it, too. */
+/* Cool until e->end; a record whenever the time has grown by a tenth of a decade. It also ends if
+ * the energy balance fails, since such a gas might never cool. */
 static void cool(const struct experiment *e, struct gas *gas, struct course *course)
 {
     const double start = gas_translational(gas), energy = 1.5 * (start + gas_rotational(gas)) * (double)gas->n;
@@ -115,7 +115,7 @@ static int run(const struct experiment *e, size_t spheres, struct course *course
     return status;
 }
 
-/* ---------------------------------------------------------------------------------------------------- what came out */
+/* ---- what came out */
 
 /* p = -d ln T/d ln t between two records. */
 static double exponent(const struct record *a, const struct record *b)
@@ -140,10 +140,11 @@ static int say(const char *what, double found, double least, double most, double
     return good ? 0 : 1;
 }
 
-/* The noise of ln T has a standard deviation of 0.6/sqrt(N) (measured with 40 seeds); five of it are allowed. The same for p: the
- * noise of a ratio of two, over ln 10, is smaller.
- * Theory: with Haff's law the third Sonine coefficient is left out, which is below 0.5 %. Otherwise the velocities are
- * taken as Maxwell's; the second coefficient is then below 0.1, of which 3/16 goes into the rate and T with its square. */
+/* The noise of ln T has a standard deviation of 0.6/sqrt(N) (measured with 40 seeds); five of it
+ * are allowed. The same for p: the noise of a ratio of two, over ln 10, is smaller. Theory: with
+ * Haff's law the third Sonine coefficient is left out, which is below 0.5 %. Otherwise the
+ * velocities are taken as Maxwell's; the second coefficient is then below 0.1, of which 3/16 goes
+ * into the rate and T with its square. */
 static int judge(const struct experiment *e, const struct course *course, size_t spheres)
 {
     const struct record *last = &course->record[course->count - 1];
@@ -217,9 +218,10 @@ int main(int argc, char **argv)
     if (file)
         fprintf(file, "# restitute %s, %.0f spheres\ngas,time,T,T_rot,T_theory,exponent\n", restitute_version(),
                 spheres);
-    /* Kelvin-Voigt: losses go as v^(1/5), whence p = 5/3; the next power of v makes p larger by 0.28 times what 1 - ez is
-     * still. With friction p = 2, less what the viscous losses still are. The standard solid: losses go as v^(-1/5) far
-     * above the worst speed, whence p tends to 5/2 before it falls, past 2, to 5/3. The polymer: ez(v) falls, so p < 2. */
+    /* Kelvin-Voigt: losses are proportional to v^(1/5), so p = 5/3; the next power of v makes p
+     * larger by 0.28 times what 1 - ez is still. With friction p = 2, less what the viscous losses
+     * still are. The standard solid: losses go as v^(-1/5) far above the worst speed, whence p
+     * tends to 5/2 before it falls, past 2, to 5/3. The polymer: ez(v) falls, so p < 2. */
     struct experiment experiments[] = {
         {"constant ez = 0.8", NULL, 0.8, 0, 1, 1e-6, {1.99, 2}, 0},
         {"Kelvin-Voigt without friction", kelvin_voigt, 0, 0, 0.1, 1e-12, {1.667, 1.68}, 0},

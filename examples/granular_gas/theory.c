@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Cooling of smooth spheres, see theory.h. Impacts: omega = <|g|> = 4 sqrt(T/pi) a sphere and time. An impact takes
- * (1 - ez^2) v_n^2/4, where v_n = 2 sqrt(T) y has the density 2 y exp(-y^2) among impacts, so that <v_n^2>/4 = T. With
- * (3/2) dT/dt = -(omega/2) <(1 - ez^2) v_n^2/4> follows dT/dt = -(omega/3) A T. */
+ * Cooling of smooth spheres, see theory.h. Impacts: omega = <|g|> = 4 sqrt(T/pi) a sphere and time.
+ * An impact takes (1 - ez^2) v_n^2/4, where v_n = 2 sqrt(T) y has the density 2 y exp(-y^2) among
+ * impacts, so that <v_n^2>/4 = T. With (3/2) dT/dt = -(omega/2) <(1 - ez^2) v_n^2/4> follows dT/dt
+ * = -(omega/3) A T. */
 #include "theory.h"
 
 #include <math.h>
@@ -19,7 +20,8 @@ double theory_haff(double ez, double start, double time)
     return start / ((1 + rate * time) * (1 + rate * time));
 }
 
-/* A(T), weighted by energy: integral of (1 - ez^2) 2 y^3 exp(-y^2) by Simpson's rule; beyond y = 6 lie 1e-14 of it. */
+/* A(T), weighted by energy: integral of (1 - ez^2) 2 y^3 exp(-y^2) by Simpson's rule; beyond y = 6
+ * lie 1e-14 of it. */
 static double loss(const struct gas_law *law, double temperature)
 {
     enum { CELLS = 120 };
@@ -39,7 +41,8 @@ static double slope(const struct gas_law *law, double logarithm)
     return -4.0 / 3 * sqrt(temperature / pi()) * loss(law, temperature);
 }
 
-/* Runge and Kutta, fourth order, in steps of a twentieth of the time in which T falls by e: its error is below 1e-6. */
+/* Runge and Kutta, fourth order, in steps of a twentieth of the time in which T falls by e: its
+ * error is below 1e-6. */
 double theory_frictionless(const struct gas_law *law, double start, double time)
 {
     double logarithm = log(start);

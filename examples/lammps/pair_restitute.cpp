@@ -26,7 +26,7 @@ using restitute_dem::Record;
 PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 {
     restartinfo = 1;
-    single_enable = 0; /* LAMMPS refuses what asks for the force of one pair without its memory */
+    single_enable = 0; /* LAMMPS refuses commands that need the force of one pair without its memory */
     no_virial_fdotr_compute = 1;
     centroidstressflag = CENTROID_NOTAVAIL;
     finitecutflag = 1;
@@ -36,7 +36,7 @@ PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
     history_id = "NEIGH_HISTORY_RESTITUTE"; /* by this name a restart file finds its fix */
     while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
         history_id += "_MORE";                        /* of pair_style hybrid */
-    modify->add_fix(history_id + "_DUMMY all DUMMY"); /* keeps its place, before fixes that migrate atoms */
+    modify->add_fix(history_id + "_DUMMY all DUMMY"); /* keeps its position before fixes that migrate atoms */
 }
 
 PairRestitute::~PairRestitute()
@@ -263,7 +263,7 @@ double PairRestitute::change_of_box()
     return domain->deform_vremap ? 0 : change;
 }
 
-/* Contacts of a larger sphere may not be found. */
+/* LAMMPS may not find the contacts of a larger sphere. */
 void PairRestitute::check_radius(int i)
 {
     const double largest = largest_radius[atom->type[i]];
@@ -340,8 +340,8 @@ void PairRestitute::transfer_history(double *source, double *target, int, int)
     std::copy_n(source, history_size, target);
 }
 
-/* Of each pair of types the words, one a line, and the hash of the law. The fix writes the states
- * of contacts. */
+/* For each pair of types the arguments, one a line, and the hash of the law. The fix writes the
+ * states of contacts. */
 void PairRestitute::write_restart(FILE *file)
 {
     for (const Model &its : table) {

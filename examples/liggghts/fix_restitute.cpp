@@ -141,7 +141,7 @@ void FixRestitute::read_laws()
 
 /* ---- before a run */
 
-/* PairGran keeps its fix to itself. An explicit instantiation may name what is private. */
+/* The fix of PairGran is private. An explicit instantiation may name private members. */
 template <FixContactHistory *PairGran::*member> struct Open {
     friend void give_history(PairGran *pair, FixContactHistory *history)
     {
@@ -201,8 +201,8 @@ Body FixRestitute::sphere(int i) const
 }
 
 /* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS
- * computes a second contact with the edge behind which a convex mesh turns away. It is none: its
- * point is on the first triangle, too. */
+ * computes a second contact with a convex edge. It is not a separate one: its point is on the first
+ * triangle, too. */
 static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
 {
     TriMesh *mesh = met.mesh;
@@ -254,8 +254,8 @@ void FixRestitute::compute(const Meeting &met, int offset, double f[3])
     if (swapped) std::transform(f, f + 3, f, std::negate<double>());
 }
 
-/* LIGGGHTS does not say when two spheres part and keeps the history while they are neighbors. The
- * step in it tells. */
+/* LIGGGHTS does not report when two spheres separate, and keeps the history while they are
+ * neighbors. The stored step shows it. */
 const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool on_record, int offset, double f[3])
 {
     ContactModel &its = *model(met.itype, met.jtype);
@@ -264,7 +264,7 @@ const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool o
     if (met.is_wall && met.mesh && !follow_mesh(met, now, offset, history)) return nullptr;
     if (met.is_wall && history[0] != 0) {
         const double *before = history + states + NORMAL;
-        const bool jumped = dot(before, now.normal) < 0.999; /* 2.6 degrees. What is less the law follows by itself */
+        const bool jumped = dot(before, now.normal) < 0.999; /* 2.6 degrees; the law itself follows smaller turns */
         if (const char *problem = jumped ? its.turn(before, now.normal, history) : nullptr) return problem;
     }
     const auto density = [this](int i) { return atom->rmass[i] / (4.1887902047863910 * std::pow(atom->radius[i], 3)); };
@@ -314,7 +314,7 @@ void FixRestitute::end_of_step()
     }
 }
 
-/* ---- what a run met, and restarts */
+/* ---- record of a run, and restarts */
 
 Record FixRestitute::own_record() const
 {
@@ -336,9 +336,9 @@ Record FixRestitute::record() const
     return all;
 }
 
-/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS takes
- * each run for the first with it, makes new neighbor lists and loses the histories in the old ones.
- * Said again they are known to it. */
+/* The limits shown are those of the first law. After `neigh_modify page` or `one` LIGGGHTS treats
+ * every run as the first one with it: it makes new neighbor lists and loses the histories in the
+ * old ones. Setting both values again prevents this. */
 void FixRestitute::post_run()
 {
     std::string page = std::to_string(neighbor->pgsize), one = std::to_string(neighbor->oneatom);

@@ -42,7 +42,7 @@ class FixRestitute : public Fix
      * of the host. */
     void compute(const Meeting &met, int offset, double force[3]);
 
-    double tangential[3] = {}; /* of the contact at hand: the normal model leaves it to the tangential one */
+    double tangential[3] = {}; /* of the present contact: from the normal model for the tangential one */
 
   private:
     using Model = std::shared_ptr<restitute_dem::ContactModel>; /* shared by types with the same words */

@@ -1,6 +1,6 @@
 /* librestitute_liggghts.so, preloaded into LIGGGHTS: registers model restitute, tangential
- * restitute and fix restitute. Built into LIGGGHTS they are registered by its own build instead,
- * and this file is not needed.
+ * restitute and fix restitute. If they are built into LIGGGHTS, its build registers them, and this
+ * file is not needed.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 /* These first: the headers of LIGGGHTS do not include all that they use. */
 #include "comm.h"
@@ -18,8 +18,8 @@ using namespace LAMMPS_NS;
 using namespace LIGGGHTS;
 using namespace LIGGGHTS::ContactModels;
 
-/* Modify keeps the map of the styles of fixes to itself. An explicit instantiation may name what is
- * private. */
+/* The map of the fix styles is private in Modify. An explicit instantiation may name private
+ * members. */
 using FixStyles = std::map<std::string, Fix *(*)(LAMMPS *, int, char **)> *;
 FixStyles styles_of(Modify *modify);
 template <FixStyles Modify::*styles> struct Open {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Saturn's rings with REBOUND: ice boulders in a patch that goes round the planet, whose impacts
- * take their restitution from a table. REBOUND asks for it by the speed, through its callback
+ * Saturn's rings with REBOUND: ice boulders in a patch in orbit, whose impacts take their
+ * restitution from a table. REBOUND gets it as a function of speed, from its callback
  * `coefficient_of_restitution`.
  *
  *   ring [ORBITS]          default 40, some ten seconds
@@ -24,8 +24,8 @@ struct impacts {
     double count, sum_ez, energy, energy_ez2; /* energy: sum of v^2 */
 };
 
-/* What REBOUND calls. Its speed is negative: bodies that approach. The simulation's `extras` is
- * ours. */
+/* The callback of REBOUND. Its speed is negative for approaching bodies. The pointer `extras` of
+ * the simulation is our table. */
 static double restitution(const struct reb_simulation *const r, double v)
 {
     struct impacts *impacts = r->extras;
@@ -48,7 +48,7 @@ static int build_table(restitute_table **table, restitute_error *error)
     restitute_material *ice = NULL;
     restitute_scene scene;
     restitute_table_options options;
-    /* E = 9 GPa; a viscosity that makes ez fall to 0.6 at some mm/s, as frosty ice does */
+    /* E = 9 GPa; with this viscosity ez falls to 0.6 at some mm/s, as for frosty ice */
     int status = restitute_material_kelvin_voigt(3.4e9, 1e7, 0.33, &ice, error);
     restitute_scene_init(&scene);
     scene.material = ice, scene.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
@@ -56,7 +56,7 @@ static int build_table(restitute_table **table, restitute_error *error)
     restitute_table_options_init(&options);
     options.speed[0] = 1e-7, options.speed[1] = 1; /* m/s */
     if (status >= 0) status = restitute_table_build(&scene, &options, table, error);
-    restitute_material_destroy(ice); /* the table does not need it any more */
+    restitute_material_destroy(ice); /* the table no longer needs it */
     return status;
 }
 
@@ -116,7 +116,7 @@ static int check(const restitute_table *table)
         if (restitute_table_pair(table, NULL, before, 0, &ez, NULL, NULL) < 0) return -1;
         worst = fmax(worst, fabs(after / before - ez));
     }
-    /* REBOUND turns the line onto an axis and back, by two angles: some ten roundings of 1e-16. */
+    /* REBOUND rotates the line to an axis and back, by two angles: about ten roundings of 1e-16. */
     const int good = impacts.count == pairs && worst < 1e-14;
     printf("%d pairs: speed after over before is the table's ez to rounding: %s\n", pairs, good ? "yes" : "NO");
     if (!good) printf("%.0f impacts, off by up to %.1e\n", impacts.count, worst);

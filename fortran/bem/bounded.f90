@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The loops over cells of a conjugate gradient method with bounds: K x = rhs where low < x < high, residual >= 0 where x = high,
-!> <= 0 where x = low. The normal problem (Polonsky & Keer 1999) has 0 <= p, the tangential one |tau| <= mu p. A cell is free where
-!> its residual can move it. Fields are m x m cells in lines of length ld.
+!> The loops over cells of a conjugate gradient method with bounds: K x = rhs where low < x < high,
+!> residual >= 0 where x = high, <= 0 where x = low. The normal problem (Polonsky & Keer 1999) has
+!> 0 <= p, the tangential one |tau| <= mu p. A cell is free where its residual can move it. Fields
+!> are m x m cells in lines of length ld.
 module rst_bem_bounded
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -23,7 +24,8 @@ contains
     end do
   end subroutine clamp_start
 
-  !> r: the residual on free cells, 0 elsewhere. free: 1 and 0. changed: cells whose freedom changed.
+  !> r: the residual on free cells, 0 elsewhere. free: 1 and 0. changed: cells whose freedom
+  !> changed.
   pure subroutine free_residual(ld, m, low, high, rhs, x, u, free, r, squares, count, changed) bind(c, name="rst_bem_free_residual")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), dimension(ld, m) :: low, high, rhs, x, u
@@ -49,7 +51,8 @@ contains
     end do
   end subroutine free_residual
 
-  !> d = z + beta d on free cells, beta = r z/rz unless that is a restart (rz = 0). z comes from the preconditioner, on all cells.
+  !> d = z + beta d on free cells, beta = r z/rz unless that is a restart (rz = 0). z comes from the
+  !> preconditioner, on all cells.
   pure subroutine new_direction(ld, m, free, r, z, rz, d) bind(c, name="rst_bem_new_direction")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), dimension(ld, m) :: free, r, z
@@ -74,7 +77,8 @@ contains
     end do
   end subroutine new_direction
 
-  !> x + alpha d between its bounds, alpha by the least energy along d. Where a bound stops it, d becomes the step taken over alpha.
+  !> x + alpha d between its bounds, alpha by the least energy along d. Where a bound stops it, d
+  !> becomes the step over alpha.
   pure subroutine take_step(ld, m, low, high, r, kd, d, x, alpha, stopped) bind(c, name="rst_bem_take_step")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), dimension(ld, m) :: low, high, r, kd

@@ -1,14 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The work around the Fourier transforms of a convolution of fields that are even in x and y. Only a quarter of such a field
-!> is kept, m x m cells with centres at (i + 1/2, j + 1/2); its transform is a cosine transform (DCT-II) of length n: n = 2m with
-!> zeros behind the field for a convolution without images, n = m where images do not matter.
+!> The work around the Fourier transforms of a convolution of fields that are even in x and y. Only
+!> a quarter of such a field is kept, m x m cells with centres at (i + 1/2, j + 1/2); its transform
+!> is a cosine transform (DCT-II) of length n: n = 2m with zero padding for a convolution without
+!> images, n = m where images do not matter.
 !>
-!> A DCT-II of length n is a complex transform of length n of the reordered sequence (even places forward, odd places backward;
-!> Makhoul 1980): X_k = w_k V_k + conj(w_k) V_(n-k), w_k = exp(-i pi k/(2n)). All is linear with real results, so two rows go
-!> through one complex transform. With A = w_k V_k and B = conj(w_k) V_(n-k): X_k = A + B, X_(n-k) = i (A - B), and back
-!> V_k = conj(w_k) (X_k - i X_(n-k))/2, V_(n-k) = w_k (X_k + i X_(n-k))/2.
+!> A DCT-II of length n is a complex transform of length n of the reordered sequence (even places
+!> forward, odd places backward; Makhoul 1980): X_k = w_k V_k + conj(w_k) V_(n-k), w_k = exp(-i pi
+!> k/(2n)). The map is linear with real results, so one complex transform carries two rows. With A =
+!> w_k V_k and B = conj(w_k) V_(n-k): X_k = A + B, X_(n-k) = i (A - B), and back V_k = conj(w_k)
+!> (X_k - i X_(n-k))/2, V_(n-k) = w_k (X_k + i X_(n-k))/2.
 !>
-!> A convolution: lay_rows, transform along x, turn, transform along y, filter, back along y, turn_back, back along x, take_rows.
+!> A convolution: lay_rows, transform along x, turn, transform along y, filter, back along y,
+!> turn_back, back along x, take_rows.
 module rst_bem_cosine
   use rst_precision, only: dp, ip
   implicit none (type, external)

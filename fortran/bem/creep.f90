@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From relaxation to creep. The modulus G(t) = G_inf + sum_k g_k exp(-t/tau_k) has the compliance
 !>   J(t) = J_0 + sum_k J_k (1 - exp(-t/lambda_k)) + flow t,
-!> with the transforms' product 1. With a_k = 1/tau_k the retardation rates x are the zeros of the secular equation
+!> with the transforms' product 1. With a_k = 1/tau_k the retardation rates x are the zeros of the
+!> secular equation
 !>   G_inf + sum_k g_k x/(x - a_k) = 0:
-!> one between 0 and the smallest a if G_inf > 0 (else a flow term stands for it) and one between each two neighbouring a; the
-!> left side falls in each interval, so bisection finds them. J_k = 1/sum_i g_i (a_i/x_k) (x_k/(a_i - x_k))^2, all of order 1
-!> where rates are extreme.
+!> one between 0 and the smallest a if G_inf > 0 (else a flow term takes its place) and one between
+!> each two neighbouring a; the left side falls in each interval, so bisection finds them. J_k =
+!> 1/sum_i g_i (a_i/x_k) (x_k/(a_i - x_k))^2, all of order 1 where rates are extreme.
 module rst_bem_creep
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -49,7 +50,8 @@ contains
     end do
   end function next_rate
 
-  !> The zero between two neighbouring rates, sought as a distance from the nearer one, so that a_i - x keeps its digits.
+  !> The zero between two neighbouring rates, sought as a distance from the nearer one, so that a_i
+  !> - x keeps its digits.
   pure subroutine find_root(g_inf, n, g, tau, below, above, compliance, lambda)
     integer(ip), intent(in) :: n
     real(dp), intent(in) :: g_inf, g(n), tau(n), below, above

@@ -1,9 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Influence coefficients of the incompressible half-space (18): the displacement of one cell of a square grid under a uniform
-!> traction on another, in closed form, for unit shear modulus and unit spacing.
+!> Influence coefficients of the incompressible half-space (18): the displacement of one cell of a
+!> square grid under a uniform traction on another, in closed form, for unit shear modulus and unit
+!> spacing.
 !>
-!> The kernels are 1/(4 pi r) (normal) and (1/r + x^2/r^3)/(4 pi) (along x under a traction along x). With S1 = x asinh(y/|x|)
-!> and S2 = y asinh(x/|y|) their integrals over a cell are signed sums over its corners of S1 + S2 and S1 + 2 S2.
+!> The kernels are 1/(4 pi r) (normal), (1/r + x^2/r^3)/(4 pi) (along x under a traction along x),
+!> (x y/r^3)/(4 pi) (along y under a traction along x). With S1 = x asinh(y/|x|) and S2 = y
+!> asinh(x/|y|) their integrals over a cell are signed sums over its corners of S1 + S2, S1 + 2 S2
+!> and -r.
 module rst_bem_influence
   use rst_precision, only: dp, ip
   implicit none (type, external)

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The loops over cells of one time step (docs/bem.md). Units: a_el along the surface, d0 into it and along it over mu, moduli
-!> in G_r.
-!> With f = K p, the displacement is u = C f - h, where C and h (the memory of the solid) are known when the step begins.
+!> The loops over cells of one time step (docs/bem.md). Units: a_el along the surface, d0 into it
+!> and along it over mu, moduli in G_r. With f = K p, the displacement is u = C f - h, where C and h
+!> (the memory of the solid) are known when the step begins.
 module rst_bem_step
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -12,7 +13,7 @@ module rst_bem_step
 
 contains
 
-  !> Where the search for p begins: extrapolated from the last two steps.
+  !> First guess of p: extrapolated from the last two steps.
   pure subroutine start_normal(ld, m, p, p_before, start, low, high) bind(c, name="rst_bem_start_normal")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), dimension(ld, m) :: p, p_before
@@ -27,7 +28,7 @@ contains
     end do
   end subroutine start_normal
 
-  !> The same for tau; cells that slipped begin at the limit, which has moved with the pressure.
+  !> The same for tau; cells that slipped start at the limit, which has changed with the pressure.
   pure subroutine start_shear(ld, m, p, tau, tau_before, high, start) bind(c, name="rst_bem_start_shear")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), dimension(ld, m) :: p, tau, tau_before, high
@@ -72,7 +73,7 @@ contains
     end do
   end subroutine remember
 
-  !> What K p shall be in contact: (D - r^2/2 + h)/C.
+  !> Target of K p in contact: (D - r^2/2 + h)/C.
   pure subroutine normal_target(ld, m, spacing, depth, c, h, target) bind(c, name="rst_bem_normal_target")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), value :: spacing, depth, c
@@ -88,9 +89,10 @@ contains
     end do
   end subroutine normal_target
 
-  !> Anchors of the cells that entered in the step. The anchor a is u_x - 1.5 U of a cell that sticks. Before it enters, both its
-  !> gap and its s = u_x - 1.5 U move as under a growing flat punch, in proportion, so s where the gap closes is extrapolated
-  !> from the last two steps. In the first step the load is proportional: s = -1.5 (U/D) r^2/2.
+  !> Anchors of the cells that entered in the step. The anchor a is u_x - 1.5 U of a cell that
+  !> sticks. Before it enters, both its gap and its s = u_x - 1.5 U move as under a growing flat
+  !> punch, in proportion, so s where the gap closes is extrapolated from the last two steps. In the
+  !> first step the load is proportional: s = -1.5 (U/D) r^2/2.
   pure subroutine enter(ld, m, spacing, first_ratio, p, p_before, gap, gap_before, s, s_before, a) bind(c, name="rst_bem_enter")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), value :: spacing, first_ratio !! first_ratio: U/D in the first step, else negative
@@ -113,21 +115,21 @@ contains
   end subroutine enter
 
   !> |tau| <= p, or any in contact without slip.
-  pure subroutine shear_bounds(ld, m, no_slip, p, low, high) bind(c, name="rst_bem_shear_bounds")
-    integer(ip), intent(in), value :: ld, m, no_slip
+  pure subroutine shear_bounds(ld, m, mode, p, low, high) bind(c, name="rst_bem_shear_bounds")
+    integer(ip), intent(in), value :: ld, m, mode
     real(dp), intent(in) :: p(ld, m)
     real(dp), intent(inout), dimension(ld, m) :: low, high
     integer(ip) :: i, j
     do j = 1, m
       do i = 1, m
         high(i, j) = p(i, j)
-        if (no_slip /= 0 .and. p(i, j) > 0) high(i, j) = huge(1.0_dp)
+        if (mode == mode_no_slip .and. p(i, j) > 0) high(i, j) = huge(1.0_dp)
         low(i, j) = -high(i, j)
       end do
     end do
   end subroutine shear_bounds
 
-  !> What K tau shall be where it sticks: (1.5 U + a + h)/C.
+  !> Target of K tau where it sticks: (1.5 U + a + h)/C.
   pure subroutine shear_target(ld, m, shift, c, a, h, target) bind(c, name="rst_bem_shear_target")
     integer(ip), intent(in), value :: ld, m
     real(dp), intent(in), value :: shift, c
@@ -141,7 +143,8 @@ contains
     end do
   end subroutine shear_target
 
-  !> The gap after the normal problem, the one before kept; force: sum of p over the quarter; contact: number of its cells.
+  !> The gap after the normal problem; the one before is kept; force: sum of p over the quarter;
+  !> contact: number of its cells.
   pure subroutine measure(ld, m, near, c, f, target, p, gap, gap_before, force, contact) &
     bind(c, name="rst_bem_measure")
     integer(ip), intent(in), value :: ld, m, near !! near: contact is within the first so many
@@ -167,7 +170,8 @@ contains
     end do
   end subroutine measure
 
-  !> After the tangential problem: s of all cells, anchors of those that slipped. work: sum of mean tau times slip over the quarter.
+  !> After the tangential problem: s of all cells, anchors of those that slipped. work: sum of mean
+  !> tau times slip over the quarter.
   pure subroutine settle(ld, m, near, shift, c, h, f, p, tau_before, tau, low, high, a, s, s_before, force, &
                          stick, work) &
     bind(c, name="rst_bem_settle")

@@ -8,11 +8,13 @@ module rst_dimensionless
 
 contains
 
-  !> a_el (24): largest contact radius of the elastic impact with shear modulus g, pair mass m and radius r.
+  !> a_el (24): largest contact radius of the elastic impact with shear modulus g, pair mass m and
+  !> radius r.
   pure function elastic_contact_radius(m, r, speed, g, nu) result(a_el)
     real(dp), intent(in) :: m, r, speed, g, nu
     real(dp) :: a_el
-    ! fifth roots are taken one by one: the product of the bases leaves the range of a double for grains of 1 nm
+    ! fifth roots are taken one by one: the product of the bases leaves the range of a double for
+    ! grains of 1 nm
     a_el = (15*(1 - nu)/32)**0.2_dp*m**0.2_dp*speed**0.4_dp*r**0.4_dp/g**0.2_dp
   end function elastic_contact_radius
 
@@ -30,8 +32,8 @@ contains
     psi = (2 - 2*nu)/(2 - nu)*abs(sliding_speed)/normal_speed/friction
   end function sliding_ratio
 
-  !> Reference modulus at which a mere dashpot has theta = eta/(G T) = 1. T = a_el^2/(R v) and a_el ~ G^(-1/5), so
-  !> theta ~ G^(-3/5).
+  !> Reference modulus at which a mere dashpot has theta = eta/(G T) = 1. T = a_el^2/(R v) and a_el
+  !> ~ G^(-1/5), so theta ~ G^(-3/5).
   pure function damping_modulus(m, r, speed, eta, nu) result(g)
     real(dp), intent(in) :: m, r, speed, eta, nu
     real(dp) :: g

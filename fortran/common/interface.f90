@@ -1,4 +1,5 @@
-!> The procedures of this folder that C calls, under their C names. Arguments are described where they are computed.
+!> The procedures of this folder that C calls, under their C names. Arguments are described where
+!> they are computed.
 module rst_common_interface
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_relaxation, only: relaxation_modulus, step_coefficients, largest_stable_step
@@ -7,10 +8,21 @@ module rst_common_interface
   use rst_merging, only: merge_terms
   use rst_series, only: chain_type, series_chain
   use rst_profile, only: plane_profile
-  use rst_look_ahead, only: likely_depth, scout_compression
+  use rst_look_ahead, only: likely_depth, scout_compression, recoverable_energy
+  use rst_motion_factors, only: mass_factor, elastic_contact_time
   implicit none (type, external)
   private
 contains
+
+  pure function rst_mass_factor() result(factor) bind(c, name="rst_mass_factor")
+    real(c_double) :: factor
+    factor = mass_factor
+  end function rst_mass_factor
+
+  pure function rst_elastic_contact_time() result(time) bind(c, name="rst_elastic_contact_time")
+    real(c_double) :: time
+    time = elastic_contact_time
+  end function rst_elastic_contact_time
 
   pure function rst_relaxation_modulus(t, g_inf, n_terms, g, tau) result(modulus) bind(c, name="rst_relaxation_modulus")
     real(c_double), intent(in), value :: t, g_inf
@@ -80,14 +92,14 @@ contains
     height = plane_profile(x, radius)
   end function rst_plane_profile
 
-  pure subroutine rst_merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound) &
+  pure subroutine rst_merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound) &
     bind(c, name="rst_merge_terms")
-    real(c_double), intent(in), value :: chi, window, depth, allowed
+    real(c_double), intent(in), value :: share, window, depth, allowed
     real(c_double), intent(inout) :: g_inf, eta
     integer(c_int64_t), intent(inout) :: n_terms
     real(c_double), intent(inout) :: g(n_terms), tau(n_terms)
     real(c_double), intent(out) :: slow_rate, fast_bound
-    call merge_terms(chi, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
+    call merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
   end subroutine rst_merge_terms
 
   pure subroutine rst_series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau) &
@@ -118,4 +130,12 @@ contains
     real(c_double) :: depth
     depth = likely_depth(g_inf, eta, n_terms, g, tau)
   end function rst_likely_depth
+
+  pure function rst_recoverable_energy(depth, g_inf, n_terms, g, stress) result(energy) bind(c, name="rst_recoverable_energy")
+    real(c_double), intent(in), value :: depth, g_inf
+    integer(c_int64_t), intent(in), value :: n_terms
+    real(c_double), intent(in) :: g(n_terms), stress(n_terms)
+    real(c_double) :: energy
+    energy = recoverable_energy(depth, g_inf, n_terms, g, stress)
+  end function rst_recoverable_energy
 end module rst_common_interface

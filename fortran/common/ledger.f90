@@ -1,8 +1,10 @@
-!> Where the impact energy goes (docs/theory.md, section 8), one account for z and one for x, kept only on request.
+!> Where the impact energy goes (docs/theory.md, section 8), one account for z and one for x, kept
+!> only on request.
 !>
-!> In z the unit is the normal impact energy: 1 = D'(end)^2 + viscous + left_behind. In x it is that energy too, with U in
-!> place of D: psi^2 = U'(end)^2 + friction + viscous + left_behind. `left_behind` is what elements still hold when
-!> they leave the contact; it relaxes later and is lost.
+!> In z the unit is the normal impact energy: 1 = D'(end)^2 + viscous + left_behind. In x it is that
+!> energy too, with U in place of D: psi^2 = U'(end)^2 + friction + viscous + left_behind.
+!> `left_behind` is the energy in elements when they leave the contact; it relaxes later and is
+!> lost.
 module rst_ledger
   use rst_precision, only: dp
   implicit none (type, external)

@@ -1,21 +1,23 @@
-!> The compression phase without elements (docs/sync.md, section 1): how deep, how long.
+!> The compression phase without elements (docs/sync.md, section 1): its depth and its duration.
 !>
-!> While the contact grows, P_k = int_0^A y_k dX obeys P_k' = g_k A D' - P_k/tau_k with A = sqrt(D), and the force
-!> per unit of dX is (2/3) G_inf D^(3/2) + eta A D' + sum P_k. One state a relaxation time, whatever the foundation.
+!> While the contact grows, P_k = int_0^A y_k dX obeys P_k' = g_k A D' - P_k/tau_k with A = sqrt(D),
+!> and the force per unit of dX is (2/3) G_inf D^(3/2) + eta A D' + sum P_k. One state for each
+!> relaxation time, without elements.
 module rst_look_ahead
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: likely_depth, scout_compression
+  public :: likely_depth, scout_compression, recoverable_energy
 
-  real(dp), parameter :: growth = 0.01_dp  !! steps grow with the time elapsed: decades cost alike
+  real(dp), parameter :: growth = 0.01_dp  !! steps grow with the elapsed time: every decade takes the same number
 
 contains
 
   !> Largest indentation, roughly (a few per cent): the energy balance with the modulus at that age,
-  !> 1 = D^(5/2) (G_inf + sum g_k/(1 + 0.8 D/tau_k) + (5/4) eta/D), which has the elastic and the viscous limit right.
-  !> It starts from the solid's own scale, so that scaled moduli give the same steps.
+  !> 1 = D^(5/2) (G_inf + sum g_k/(1 + 0.8 D/tau_k) + (5/4) eta/D), which is exact in the elastic
+  !> and the viscous limit. The iteration starts from a scale of the solid, so that scaled moduli
+  !> give the same steps.
   pure function likely_depth(g_inf, eta, n_terms, g, tau) result(depth)
     real(dp), intent(in) :: g_inf, eta
     integer(ip), intent(in) :: n_terms
@@ -37,11 +39,13 @@ contains
     end do
   end function likely_depth
 
-  !> Follow the compression with steps of 1 % of the time elapsed, all forces implicit in the velocity, so that no
-  !> relaxation time, however short, limits the step. About 1 % accurate: it sizes the foundation and its steps.
+  !> Follow the compression with steps of 1 % of the time elapsed, all forces implicit in the
+  !> velocity, so that no relaxation time, however short, limits the step. About 1 % accurate: it
+  !> sizes the foundation and its steps.
   !>
-  !> `stress` is workspace for n_terms values. `sinks` is 1 when the kinetic energy and all that the foundation
-  !> could still give back are below rest_speed**2: such a sphere rebounds slower than rest_speed, if ever (theory.md, 6).
+  !> `stress` is workspace for n_terms values. `sinks` is 1 when the kinetic energy plus the energy
+  !> in the foundation is below rest_speed**2: such a sphere rebounds more slowly than rest_speed,
+  !> if at all (docs/theory.md, section 6).
   pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
     real(dp), intent(in) :: g_inf, eta, rest_speed
     integer(ip), intent(in) :: n_terms, can_sink
@@ -102,8 +106,9 @@ contains
                (small/(eta + tiny(1.0_dp)))**(2.0_dp/3.0_dp), 1.0_dp)
   end function first_step
 
-  !> Upper bound, in units where the impact energy is 1, of what the springs hold: with y_k <= its mean over the
-  !> contact P/A at the centre twice over, (15/8) sum 2 P^2/(g A) covers the parabolic profile (exact factor 6/5).
+  !> Upper bound of the energy in the springs, in units of the impact energy. With y_k at the centre
+  !> at most twice its mean P/A over the contact, (15/8) sum 2 P^2/(g A) covers the parabolic
+  !> profile (exact factor 6/5).
   pure function recoverable_energy(depth, g_inf, n_terms, g, stress) result(energy)
     real(dp), intent(in) :: depth, g_inf
     integer(ip), intent(in) :: n_terms

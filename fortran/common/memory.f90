@@ -1,7 +1,8 @@
-!> Fading memory over one step: int_0^x exp(-(x-t)/tau) y(t) dt in closed form for linear y, for any tau.
+!> Fading memory over one step: int_0^x exp(-(x-t)/tau) y(t) dt in closed form for linear y, for any
+!> tau.
 !>
-!> phi_1(z) = (1-exp(-z))/z, phi_2 = (1-phi_1)/z with z = x/tau: finite for tau -> 0 (the dashpot limit) and
-!> tau -> infinity (the elastic one), so that no relaxation time limits a step.
+!> phi_1(z) = (1-exp(-z))/z, phi_2 = (1-phi_1)/z with z = x/tau: finite for tau -> 0 (the dashpot
+!> limit) and tau -> infinity (the elastic one), so no relaxation time limits the step.
 module rst_memory
   use rst_precision, only: dp
   implicit none (type, external)

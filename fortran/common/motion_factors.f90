@@ -1,10 +1,11 @@
-!> The factors of the equations of motion in the units of docs/theory.md, section 2.
+!> The factors of the equations of motion in the units of docs/theory.md, section 2, and how long an elastic impact lasts.
 module rst_motion_factors
   use rst_precision, only: dp
   implicit none (type, external)
   private
-  public :: mass_factor, shear_factor
+  public :: mass_factor, shear_factor, elastic_contact_time
 
-  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp   !! D'' = -(15/8) int_0^A f dX
-  real(dp), parameter :: shear_factor = 15.0_dp/4.0_dp  !! U'' = -(15/4) chi int_0^A q dX
+  real(dp), parameter :: mass_factor = 15.0_dp/8.0_dp       !! D'' = -(15/8) int_0^A f dX
+  real(dp), parameter :: shear_factor = 2*mass_factor       !! U'' = -(15/4) chi int_0^A q dX
+  real(dp), parameter :: elastic_contact_time = 2.9432751843_dp  !! over the largest indentation, at unit speed: Hertz
 end module rst_motion_factors

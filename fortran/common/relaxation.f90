@@ -1,8 +1,9 @@
 !> Relaxation modulus G(t) = G_inf + sum_k g_k exp(-t/tau_k) + eta delta(t) and its one-step update.
 !>
-!> Every rheology of the library is a case of it: elastic (no terms), standard solid (1), Kelvin-Voigt (2)
-!> (no terms, eta > 0), Maxwell (G_inf = 0), Prony. The state of a term is its stress y_k = g_k w_k, not the
-!> elongation w_k: the stress keeps a limit for tau -> 0 at constant g tau, the elongation does not.
+!> All solids of the library have this form: elastic (no terms), standard solid (1), Kelvin-Voigt
+!> (2) (no terms, eta > 0), Maxwell (G_inf = 0), Prony. The state of a term is its stress y_k = g_k
+!> w_k, not the elongation w_k: the stress keeps a limit for tau -> 0 at constant g tau, the
+!> elongation does not.
 module rst_relaxation
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -38,8 +39,9 @@ contains
     end do
   end subroutine step_coefficients
 
-  !> Stiffness with which the material answers an oscillation of period 2h, the fastest that a step h can show.
-  !> At z = -1 a term y <- a y + b du has the stiffness 2b/(1+a) = 2 g tau/(2 tau + h), a dashpot 2 eta/h.
+  !> Stiffness with which the material answers an oscillation of period 2h, the fastest that a step
+  !> h can show. At z = -1 a term y <- a y + b du has the stiffness 2b/(1+a) = 2 g tau/(2 tau + h),
+  !> a dashpot 2 eta/h.
   pure function step_stiffness(h, g_inf, eta, n_terms, g, tau) result(stiffness)
     real(dp), intent(in) :: h, g_inf, eta
     integer(ip), intent(in) :: n_terms
@@ -54,9 +56,10 @@ contains
 
   !> Largest step at which the explicitly coupled sphere does not oscillate with growing amplitude.
   !>
-  !> For position-first Euler, v <- v - h K f, the characteristic polynomial
-  !> (z-1)^2 + h^2 K z [g_inf + sum b (z-1)/(z-a)] passes z = -1 at h^2 K step_stiffness(h) = 4
-  !> (elastic: h omega = 2; Kelvin-Voigt: h K eta = 2, docs/theory.md, section 4). The left side grows with h: bisection in log h.
+  !> For position-first Euler, v <- v - h K f, the characteristic polynomial (z-1)^2 + h^2 K z
+  !> [g_inf + sum b (z-1)/(z-a)] passes z = -1 at h^2 K step_stiffness(h) = 4 (elastic: h omega = 2;
+  !> Kelvin-Voigt: h K eta = 2, docs/theory.md, section 4). The left side grows with h: bisection in
+  !> log h.
   pure function largest_stable_step(coupling, g_inf, eta, n_terms, g, tau) result(h)
     real(dp), intent(in) :: coupling, g_inf, eta  !! coupling K: velocity change per unit of time and stiffness
     integer(ip), intent(in) :: n_terms

@@ -1,17 +1,20 @@
-!> Two generalised Maxwell chains in series, as one chain: what two bodies of unlike materials are to each other (theory.md, 10).
+!> Two generalised Maxwell chains in series as one chain: the effective solid of two unlike bodies
+!> (docs/theory.md, section 10).
 !>
-!> With the operational modulus M(s) = m_inf + sum_k m_k s/(s + p_k) + eta s, p_k = 1/tau_k, compliances add:
-!> 1/M = 1/M_1 + 1/M_2. The relaxation rates of the pair are the zeros x of F(x) = M_1(-x) + M_2(-x). F falls from +inf to
-!> -inf between neighbouring rates of the two chains taken together, so that exactly one zero lies between two of them; one
-!> more lies below the lowest if F(0) = m_inf1 + m_inf2 > 0, and one above the highest if eta_1 + eta_2 > 0. A rate that both chains
-!> share is one of the pair, too.
+!> With the operational modulus M(s) = m_inf + sum_k m_k s/(s + p_k) + eta s, p_k = 1/tau_k,
+!> compliances add: 1/M = 1/M_1 + 1/M_2. The relaxation rates of the pair are the zeros x of F(x) =
+!> M_1(-x) + M_2(-x). F falls from +inf to -inf between neighbouring rates of the two chains taken
+!> together, so that exactly one zero lies between two of them; one more lies below the lowest if
+!> F(0) = m_inf1 + m_inf2 > 0, and one above the highest if eta_1 + eta_2 > 0. A rate that both
+!> chains share is one of the pair, too.
 module rst_series
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
   public :: chain_type, series_chain
 
-  !> Size and ends of a chain. Twin of `struct rst_chain` in C; its terms come as arrays, tau ascending.
+  !> Size and ends of a chain. Twin of `struct rst_chain` in C; its terms come as arrays, tau
+  !> ascending.
   type, bind(c) :: chain_type
     real(dp) :: m_inf, eta
     integer(ip) :: n
@@ -19,8 +22,9 @@ module rst_series
 
 contains
 
-  !> Chains a and b in series: `pair` has at most a%n + b%n + 1 terms, tau ascending. `times`, `from_a` and `from_b` are
-  !> workspace: the times of both chains, descending, and the term of each chain that has that time, 0 for none.
+  !> Chains a and b in series: `pair` has at most a%n + b%n + 1 terms, tau ascending. `times`,
+  !> `from_a` and `from_b` are workspace: the times of both chains, descending, and the term of each
+  !> chain that has that time, 0 for none.
   pure subroutine series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n)
@@ -59,7 +63,7 @@ contains
     if (x > 0 .and. y > 0) z = x/(x + y)*y
   end function in_series
 
-  !> tau ascends, so both chains are read from behind.
+  !> tau ascends, so both chains are read from the end.
   pure subroutine merge_times(n_a, tau_a, n_b, tau_b, times, from_a, from_b, n)
     integer(ip), intent(in) :: n_a, n_b
     real(dp), intent(in) :: tau_a(n_a), tau_b(n_b)
@@ -90,8 +94,8 @@ contains
     end do
   end subroutine merge_times
 
-  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k) at x = p (1 + offset), p = 1/tau_p. Written with the offset from a rate p,
-  !> it keeps all digits where x is next to p, or p next to another rate.
+  !> M(-x) = m_inf - eta x + sum m_k x/(x - p_k) at x = p (1 + offset), p = 1/tau_p. Written with
+  !> the offset from a rate p, it keeps all digits where x is next to p, or p next to another rate.
   pure function value_at(chain, m, tau, tau_p, offset) result(value)
     type(chain_type), intent(in) :: chain
     real(dp), intent(in) :: m(chain%n), tau(chain%n), tau_p, offset
@@ -103,7 +107,8 @@ contains
     end do
   end function value_at
 
-  !> Its derivative with respect to s = -x, times near**2: with near = |offset| it does not overflow next to p.
+  !> Its derivative with respect to s = -x, times near**2: with near = |offset| it does not overflow
+  !> next to p.
   pure function slope_at(chain, m, tau, tau_p, offset, near) result(slope)
     type(chain_type), intent(in) :: chain
     real(dp), intent(in) :: m(chain%n), tau(chain%n), tau_p, offset, near
@@ -130,7 +135,8 @@ contains
     total = value_at(a, m_a, tau_a, tau_p, offset) + value_at(b, m_b, tau_b, tau_p, offset)
   end function sum_at
 
-  !> Twice some x above the highest zero, where F -> -eta x: not next to the zero, as a rate of the chains may be.
+  !> Twice some x above the highest zero, where F -> -eta x: not next to the zero, as a rate of the
+  !> chains may be.
   pure function upper_end(a, m_a, tau_a, b, m_b, tau_b, slow) result(x)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow
@@ -143,10 +149,11 @@ contains
     x = 2*x
   end function upper_end
 
-  !> The zero of F between the rates 1/slow and 1/fast, as a term of the pair; slow = 0: there is no slower rate. F falls: its
-  !> sign in the middle tells which end is nearer. The zero is sought by its offset from that end, in the logarithm, since a
-  !> stiff partner or a neighbouring rate puts it as close as 1e-30 of a rate. The residue of M there is
-  !> -M_1^2/(M_1' + M_2'), hence m = M_1^2/(x (M_1' + M_2')).
+  !> The zero of F between the rates 1/slow and 1/fast, as a term of the pair; slow = 0: there is no
+  !> slower rate. F falls: its sign in the middle tells which end is nearer. The zero is sought by
+  !> its offset from that end, in the logarithm, since a stiff partner or a neighbouring rate puts
+  !> it as close as 1e-30 of a rate. The residue of M there is -M_1^2/(M_1' + M_2'), hence m =
+  !> M_1^2/(x (M_1' + M_2')).
   pure subroutine add_zero(a, m_a, tau_a, b, m_b, tau_b, slow, fast, pair, m, tau)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), slow, fast
@@ -176,7 +183,8 @@ contains
     call add_term((value_a/x)*(-value_b/slope), x, a%n + b%n + 1, pair, m, tau)
   end subroutine add_zero
 
-  !> Offset of the zero from the rate 1/tau_p, up to `reach` above it (side 1) or below it (side -1).
+  !> Offset of the zero from the rate 1/tau_p, up to `reach` above it (side 1) or below it (side
+  !> -1).
   pure function search(a, m_a, tau_a, b, m_b, tau_b, tau_p, side, reach) result(offset)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), tau_p, side, reach
@@ -197,7 +205,8 @@ contains
     end do
   end function search
 
-  !> 1/x of a zero below half of the slowest rate 1/fast: there x itself is sought, in the logarithm.
+  !> 1/x of a zero below half of the slowest rate 1/fast: there x itself is sought, in the
+  !> logarithm.
   pure function search_slow(a, m_a, tau_a, b, m_b, tau_b, fast) result(tau_p)
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n), fast
@@ -217,7 +226,8 @@ contains
     end do
   end function search_slow
 
-  !> A term too weak for its zero to be told from a neighbouring rate has no positive modulus, and is none.
+  !> If a term is so weak that its zero coincides with a neighbouring rate, its modulus is not
+  !> positive, and it is left out.
   pure subroutine add_term(modulus, x, capacity, pair, m, tau)
     real(dp), intent(in) :: modulus, x
     integer(ip), intent(in) :: capacity

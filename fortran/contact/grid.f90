@@ -20,7 +20,7 @@ contains
   end function weight
 
   !> Set the layout of the state and the grid. Nodes are half-way between evenly spaced ones and
-  !> those of sin, which are dense at the rim.
+  !> those of sin, which are dense at the edge.
   pure subroutine place_nodes(law) bind(c, name="rst_law_grid")
     type(law_type), intent(inout) :: law
     real(dp), parameter :: half_pi = acos(0.0_dp)

@@ -1,6 +1,7 @@
 !> One step of one contact, as C calls it (src/contact/kernels.h), its force and its frame.
 module rst_contact_interfaces
   use, intrinsic :: iso_c_binding, only: c_double
+  use rst_motion_factors, only: elastic_contact_time
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type, motion_type, at_width, at_overlap, at_force, at_axis, at_arrays
   use rst_contact_grid, only: stretch
@@ -20,7 +21,6 @@ module rst_contact_interfaces
   integer(ip), parameter :: done = 0, step_too_long = 1, normal_jumped = 2
 
   real(dp), parameter :: margin = 1.02_dp        !! of a new grid over the expected radius
-  real(dp), parameter :: contact_time = 2.94_dp  !! of an elastic impact over d/v
   real(dp), parameter :: least_steps = 10        !! a contact: below, the first steps alone may exceed the largest force
   real(dp), parameter :: at_rest = 1.0e-60_dp    !! m/s, s/kg: below, energies underflow, masses overflow
   real(dp), parameter :: least_overlap = 1.0e-30_dp  !! over the radius, of a new grid: the square of its width is not to underflow
@@ -81,7 +81,7 @@ contains
     if (min(motion%velocity, motion%mobility(1)) > at_rest) then
       mass = rates%step/(2*motion%mobility(1))
       overlap = max(overlap, largest_overlap(law, mass, motion%velocity, motion%radius))
-      if (least_steps*rates%step*motion%velocity > contact_time*overlap) status = step_too_long
+      if (least_steps*rates%step*motion%velocity > elastic_contact_time*overlap) status = step_too_long
     end if
     if (status /= done) return
     state(at_width) = margin*sqrt(min(overlap, motion%radius)*motion%radius)

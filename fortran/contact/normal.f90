@@ -17,7 +17,7 @@ module rst_contact_normal
     real(dp) :: decay(most_nodes, most_terms), gain(most_nodes, most_terms) !! of the arms: entered elements had less time
     real(dp) :: edge                 !! contact radius in grid widths
     real(dp) :: inner, outer         !! weights in the last, cut cell: of the last element (added to law%weight), of the edge
-    real(dp) :: at_rim               !! f at the rim
+    real(dp) :: at_rim               !! f at the edge
     real(dp) :: rim_ratio(most_terms) !! w at the edge over that of the last element
     real(dp) :: force
   end type normal_type

@@ -2,11 +2,12 @@
 !> (docs/contact.md), and the width of a new contact.
 module rst_contact_rates
   use, intrinsic :: iso_c_binding, only: c_double
+  use rst_motion_factors, only: elastic_contact_time
   use rst_precision, only: dp, ip
   use rst_contact_types, only: law_type, rates_type
   implicit none (type, external)
   private
-  public :: set_rates, arm_of, velocity_response, largest_overlap
+  public :: set_rates, arm_of, velocity_response, largest_overlap, contact_time
 
 contains
 
@@ -67,7 +68,7 @@ contains
   !> Largest overlap to be expected from the speed of first touch: that of the elastic impact (24)
   !> with the mean modulus over 0.88 d/v, a fixed point. The contact radius is 0 to 6 % less (with a
   !> parallel dashpot +-3 %, its part is fitted).
-  pure function largest_overlap(law, mass, speed, radius) result(d) bind(c, name="rst_law_overlap")
+  pure function largest_overlap(law, mass, speed, radius) result(d)
     type(law_type), intent(in) :: law
     real(c_double), intent(in), value :: mass, speed, radius
     real(c_double) :: d
@@ -91,4 +92,12 @@ contains
       d = sqrt(d*(energy/g**0.4_dp)) ! not (./g)**0.4, which may underflow under a dashpot
     end do
   end function largest_overlap
+
+  !> How long an impact at this speed lasts, about: as an elastic one of that overlap.
+  pure function contact_time(law, mass, speed, radius) result(time) bind(c, name="rst_law_contact_time")
+    type(law_type), intent(in) :: law
+    real(c_double), intent(in), value :: mass, speed, radius
+    real(c_double) :: time
+    time = elastic_contact_time*largest_overlap(law, mass, speed, radius)/speed
+  end function contact_time
 end module rst_contact_rates

@@ -153,7 +153,7 @@ contains
     if (contact%last > 1) call add_kink_at_rim(law, contact, s)
   end subroutine slip_where_beyond
 
-  !> The force density at the rim: where w rises from zero there (module rst_contact_normal), that
+  !> The force density at the edge: where w rises from zero there (module rst_contact_normal), that
   !> of the last element by as much; else the same part of the limit.
   pure subroutine hold_rim(law, rates, velocity, contact, w, s)
     type(law_type), intent(in) :: law

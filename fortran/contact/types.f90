@@ -37,8 +37,8 @@ module rst_contact_types
     real(c_double) :: bit(most_nodes)        !! 2^(j - 1)
   end type law_type
 
-  !> restitute_contact_rates of include/restitute/contact.h: values that depend on the time step
-  !> only. A displacement du, even over the step, makes w <- decay w + gain du.
+  !> Values that depend on the time step only: a displacement du, even over the step, makes w <-
+  !> decay w + gain du.
   type, bind(c) :: rates_type
     integer(c_size_t) :: struct_size
     real(c_double) :: step

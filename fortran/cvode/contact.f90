@@ -1,15 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The normal side for the method `cvode`: rates of the sphere's motion and of the memory that drives it (sync.md, 1).
+!> The normal side for the method `cvode`: rates of the sphere's motion and of the memory
+!> (docs/sync.md, section 1).
 !>
-!> States are the depth D, its velocity and, a relaxation time, the stress of a term that follows the sphere
-!> (M' = g D' - M/tau) and its integral over the elements in contact (P' = g A D' - P/tau, compression only). Those of single
-!> elements follow: the one at X, entered at t_X, carries M(s) - exp(-(s-t_X)/tau) M(t_X). In restitution the edge is where
-!> the whole stress vanishes,
+!> States are the depth D, its velocity and, a relaxation time, the stress of a term that follows
+!> the sphere (M' = g D' - M/tau) and its integral over the elements in contact (P' = g A D' -
+!> P/tau, compression only). Those of single elements follow: the one at X, entered at t_X, carries
+!> M(s) - exp(-(s-t_X)/tau) M(t_X). In restitution the edge is where the whole stress vanishes,
 !>
 !>   G_inf (D - B) + sum_k [M_k(s) - E_k M_k(t_A)] + eta D' = 0,   E_k = exp(-(s-t_A)/tau_k),  B = A^2 = D(t_A),
 !>
-!> and the force is int_0^A f dX = (2/3) G_inf A^3 + sum_k E_k P_k(t_A). The edge is solved for, so it is no state; since
-!> f(A) = 0 it does not appear in the derivatives of the force either: those are A times G_inf, eta and 1.
+!> and the force is int_0^A f dX = (2/3) G_inf A^3 + sum_k E_k P_k(t_A). The edge is solved for, so
+!> it is no state; since f(A) = 0 it does not appear in the derivatives of the force either: those
+!> are A times G_inf, eta and 1.
 module rst_cvode_contact
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, state_depth, state_velocity, memory_at, loading_at
@@ -21,8 +23,9 @@ module rst_cvode_contact
 
 contains
 
-  !> Rates of the normal states and where the contact is. knot: time, depth, velocity during the compression, memory: M and P
-  !> then; both are read in restitution alone. `near`: where to look first, kept from call to call.
+  !> Rates of the normal states and where the contact is. knot: time, depth, velocity during the
+  !> compression, memory: M and P then; both are read in restitution alone. `near`: where the search
+  !> starts, kept between calls.
   subroutine normal_rates(scene, g, tau, knot, memory, near, t, y, rate, contact) bind(c, name="rst_cvode_normal_rates")
     type(scene_type), intent(in) :: scene
     real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -66,7 +69,8 @@ contains
     end do
   end subroutine loading
 
-  !> Restitution: find the edge; the force follows from what the compression was when the edge was there.
+  !> Restitution: find the edge. The force follows from the state of the compression when the edge
+  !> was at the same place.
   subroutine unloading(scene, g, tau, knot, memory, near, t, y, contact)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -80,7 +84,7 @@ contains
     call bracket(scene, g, tau, knot, memory, t, y, near)
     call edge_time(scene, g, tau, knot, memory, near, t, y, entered)
     call balance(scene, g, tau, knot, memory, near, t, y, entered, depth, residual, stiffness)
-    ! a solid that has forgotten all it bore lets go at once: not farther than the contact is wide
+    ! a completely relaxed solid loses contact at once: not farther than the width of the contact
     past = residual/max(stiffness, abs(residual)/knot(2, scene%n_knots), tiny(1.0_dp))
     contact%square = depth + past
     contact%radius = sqrt(max(contact%square, 0.0_dp))
@@ -94,8 +98,8 @@ contains
     end do
   end subroutine unloading
 
-  !> The residual of the edge condition for an edge that was passed at time `entered` of the interval near, near + 1; the depth
-  !> at that time and the stiffness of an element of that age.
+  !> The residual of the edge condition for an edge that was passed at time `entered` of the
+  !> interval near, near + 1; the depth at that time and the stiffness of an element of that age.
   pure subroutine balance(scene, g, tau, knot, memory, near, t, y, entered, depth, residual, stiffness)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -117,7 +121,8 @@ contains
     end do
   end subroutine balance
 
-  !> Move `near` to the interval in which the residual changes sign, or to the first or the last one.
+  !> Move `near` to the interval in which the residual changes sign, or to the first or the last
+  !> one.
   pure subroutine bracket(scene, g, tau, knot, memory, t, y, near)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -138,7 +143,8 @@ contains
     end do
   end subroutine bracket
 
-  !> When the sphere was as deep as the edge is now: Newton's method, kept inside the interval.
+  !> The time when the depth was that of the present edge: Newton's method, kept inside the
+  !> interval.
   pure subroutine edge_time(scene, g, tau, knot, memory, near, t, y, entered)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
@@ -163,12 +169,12 @@ contains
       if (next < low .or. next > high) next = 0.5_dp*(low + high)
       if (abs(next - entered) <= 4*epsilon(1.0_dp)*knot(1, near + 1)) return
       entered = next
-      ! what is left of the residual is taken off B by its own Newton step, whose error is the square of this
+      ! one Newton step in B removes the remaining residual up to its square
       if (abs(residual) <= 1.0e-9_dp*stiffness*depth) return
     end do
   end subroutine edge_time
 
-  !> The past of the compression at a time: M and P.
+  !> M and P of the compression at a time.
   subroutine past_of(scene, knot, memory, t, past) bind(c, name="rst_cvode_past")
     type(scene_type), intent(in) :: scene
     real(c_double), intent(in) :: knot(3, scene%n_knots), memory(2*scene%n_terms, scene%n_knots)
@@ -192,7 +198,8 @@ contains
     end do
   end subroutine past_of
 
-  !> Lagrange's cubic through four knots around an interval; it asks no slope of a term that relaxes at once.
+  !> Lagrange's cubic through four knots around an interval; it needs no slope of a term that
+  !> relaxes at once.
   pure subroutine weights(scene, knot, near, t, first, weight)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: knot(3, scene%n_knots), t

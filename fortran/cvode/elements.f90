@@ -1,22 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The elements of the method `cvode` and their tangential force (docs/theory.md, sections 2 and 3; docs/cvode.md).
+!> The elements of the method `cvode` and their tangential force (docs/theory.md, sections 2 and 3;
+!> docs/cvode.md).
 !>
-!> Between the instants at which it begins to stick or to slip, all that an element is follows from the states of the sphere:
+!> Between the instants at which it begins to stick or to slip, the state of an element follows from
+!> the states of the sphere:
 !>
-!>   normal   f = G_inf (D - X^2) + sum_k [M_k - c_k] + eta D'          c_k: M_k(t_X), fading with tau_k
+!>   normal   f = G_inf (D - X^2) + sum_k [M_k - c_k] + eta D'          c_k: M_k(t_X), decaying with tau_k
 !>   stick    q = G_inf (U - alpha) + sum_k [Mx_k - beta_k] + eta U'    alpha, beta_k: kept when it last began to stick
-!>   slip     q = +-f, and u = +-(D - X^2) + r with r recovering by itself (module rst_cvode_recovery)
+!>   slip     q = +-f, and u = +-(D - X^2) + r where r relaxes by itself (module rst_cvode_recovery)
 !>
-!> What is computed is the margin d = f - q of an element that would stick: it slips forward for d < 0, and backward for
-!> d > 2 f. b_k = c_k - beta_k is all that d needs of the fading memory. An element that sticks passes into slip without a
-!> jump of q, so the rates are continuous there, whether the instant has been found or not.
+!> The code computes the margin d = f - q of the sticking element: it slips forward for d < 0, and
+!> backward for d > 2 f. Of the fading memory d needs only b_k = c_k - beta_k. At the change from
+!> stick to slip q has no jump. So the rates are continuous there, even if the instant has not been
+!> found.
 !>
-!> The integral is taken of f - q, which vanishes where the contact slips forward and, but for a parallel dashpot, at
-!> the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX, with the first part exact and the second by the trapezium rule
-!> up to the last element and on to the edge; cells in which slip begins
-!> are divided where it does, for the annulus of slip may be thinner than a cell. Of a term that relaxes faster than the edge
-!> passes from element to element the fading memory b is a layer at the edge that the trapezium rule would not see; it is
-!> exponential in the time since entry, so what the rule misses of it in a cell is known: width times b at its younger end times
+!> The integrand is f - q. It vanishes where the contact slips forward and, without a parallel
+!> dashpot, at the edge: int_0^A q dX = int_0^A f dX - int_0^A (f - q) dX. The first part is exact.
+!> The second uses the trapezoidal rule, up to the last element and on to the edge. Cells in which
+!> slip begins are divided there, since the slip annulus may be thinner than a cell. If a term
+!> relaxes faster than the edge passes from element to element, its fading memory b is a thin layer
+!> at the edge, which the trapezoidal rule does not resolve. It is exponential in the time since
+!> entry, so the error of the rule in a cell is known: width times b at its younger end times
 !>
 !>   missed(z) = (1 + exp(-z))/2 - (1 - exp(-z))/z,   z: what passed between the entries of both ends, over tau_k.
 module rst_cvode_elements
@@ -24,6 +28,7 @@ module rst_cvode_elements
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
                              shear_velocity_at, shear_memory_at
   use rst_motion_factors, only: shear_factor
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -59,9 +64,10 @@ contains
     end if
   end function missed
 
-  !> Margins d and normal stresses f of the elements inside the edge, and of one more if it has been in contact. start_y,
-  !> start_rate: states at the beginning of the step, for elements that enter within it; past: M of the compression when they do.
-  !> layer: what the cell inside each element misses, over its width.
+  !> Margins d and normal stresses f of the elements inside the edge, and of one more if it has been
+  !> in contact. start_y, start_rate: states at the beginning of the step, for elements that enter
+  !> within it; past: M of the compression at their entry. layer: error of the rule in the cell
+  !> inside each element, over its width.
   subroutine margins(scene, g, tau, contact, x, entry, past, shift, c, b, layer_weight, start_y, start_rate, t, y, &
                      n_contact, d, f, layer) bind(c, name="rst_cvode_margins")
     type(scene_type), intent(in) :: scene
@@ -105,8 +111,9 @@ contains
     end do
   end subroutine margins
 
-  !> An element that has entered since the step began. Its U and Mx at entry come from a cubic between the beginning of the step
-  !> and now; of a term that relaxes within the step from a straight line, for its slopes mean nothing.
+  !> An element that has entered since the step began. Its U and Mx at entry come from a cubic
+  !> between the beginning of the step and now; of a term that relaxes within the step they come
+  !> from a straight line, since its slopes are useless.
   pure subroutine new_margin(scene, g, tau, x, entry, past, i, layer_weight, start_y, start_rate, t, y, common_f, d, f, layer)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x, entry, past(scene%n_nodes, scene%n_terms)
@@ -163,11 +170,11 @@ contains
   end function count_inside
 
   !> f - q of an element.
-  pure function shortfall(no_slip, motion, d, f) result(m)
-    integer(ip), intent(in) :: no_slip, motion
+  pure function shortfall(mode, motion, d, f) result(m)
+    integer(ip), intent(in) :: mode, motion
     real(dp), intent(in) :: d, f
     real(dp) :: m
-    if (no_slip /= 0) then
+    if (mode == mode_no_slip) then
       m = d
     else if (motion == sticks) then
       m = max(0.0_dp, min(d, 2*f))
@@ -179,14 +186,14 @@ contains
   !> Mean of f - q between two elements. Where the inner one sticks and the outer one slips the front between them is where the
   !> force without slip, linear in X, meets the limit; it moves on while the outer one slips, whose margin is still that of
   !> the force that it would have had.
-  pure function mean_shortfall(no_slip, motion, motion_out, d, d_out, f, f_out, m) result(mean)
-    integer(ip), intent(in) :: no_slip, motion, motion_out
+  pure function mean_shortfall(mode, motion, motion_out, d, d_out, f, f_out, m) result(mean)
+    integer(ip), intent(in) :: mode, motion, motion_out
     real(dp), intent(in) :: d, d_out, f, f_out, m  !! m: shortfall of the inner one
     real(dp) :: mean, left, left_out, part, limit
     left = 2*f - d
     left_out = 2*f_out - d_out
-    if (no_slip /= 0 .or. motion /= sticks) then
-      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+    if (mode == mode_no_slip .or. motion /= sticks) then
+      mean = 0.5_dp*(m + shortfall(mode, motion_out, d_out, f_out))
     else if (motion_out /= slips_backward .and. d > 0 .and. d_out < 0 .and. left > 0) then
       mean = 0.5_dp*d*d/(d - d_out)
     else if (motion_out /= slips_forward .and. d > 0 .and. left > 0 .and. left_out < 0) then
@@ -194,7 +201,7 @@ contains
       limit = d + part*(d_out - d)
       mean = 0.5_dp*((d + limit)*part + (limit + 2*f_out)*(1 - part))
     else
-      mean = 0.5_dp*(m + shortfall(no_slip, motion_out, d_out, f_out))
+      mean = 0.5_dp*(m + shortfall(mode, motion_out, d_out, f_out))
     end if
   end function mean_shortfall
 
@@ -206,21 +213,22 @@ contains
     real(dp), intent(in) :: x(scene%n_nodes), d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
     real(dp) :: missing, width, m, edge
     width = contact%radius - x(n)
-    m = shortfall(scene%no_slip, motion(n), d(n), f(n))
+    m = shortfall(scene%mode, motion(n), d(n), f(n))
     if (scene%restitution == 0) then
       edge = scene%eta*(y(state_velocity) - y(shear_velocity_at(scene)))  ! of a dashpot, cut to f
-      if (scene%no_slip == 0) edge = max(0.0_dp, min(edge, 2*scene%eta*y(state_velocity)))
+      if (scene%mode /= mode_no_slip) edge = max(0.0_dp, min(edge, 2*scene%eta*y(state_velocity)))
       missing = 0.5_dp*width*(m + edge)
     else
       edge = d(n)  ! f = 0, so this is minus the q of an element that does not slip there
       if (n < scene%n_entered) edge = edge + width/(x(n + 1) - x(n))*(d(n + 1) - d(n))
-      missing = 0.5_dp*width*(m + merge(edge, 0.0_dp, scene%no_slip /= 0))
-      if (scene%no_slip == 0 .and. motion(n) == sticks) missing = width*thin_slip(d(n), f(n), edge)
+      missing = 0.5_dp*width*(m + merge(edge, 0.0_dp, scene%mode == mode_no_slip))
+      if (scene%mode /= mode_no_slip .and. motion(n) == sticks) missing = width*thin_slip(d(n), f(n), edge)
     end if
   end function edge_cell
 
-  !> Mean of f - q over a cell on whose inner side an element sticks and at whose outer side f = 0, f and the force without slip
-  !> being linear: an annulus that slips may be thinner than a cell. d, f: inside; edge: minus the force without slip outside.
+  !> Mean of f - q over a cell on whose inner side an element sticks and at whose outer side f = 0,
+  !> f and the force without slip being linear. The slip annulus may be thinner than a cell. d, f:
+  !> inside; edge: minus the force without slip outside.
   pure function thin_slip(d, f, edge) result(mean)
     real(dp), intent(in) :: d, f, edge
     real(dp) :: mean, part, inner
@@ -234,7 +242,8 @@ contains
     end if
   end function thin_slip
 
-  !> What the cell between the last element and the edge misses, over its width. At the edge b is the whole memory of the sphere.
+  !> Error of the rule in the cell between the last element and the edge, over its width. At the
+  !> edge b is the whole memory of the sphere.
   pure function edge_layer(scene, tau, entry, t, y) result(layer)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: tau(scene%n_terms), entry, t, y(scene%n_states)
@@ -247,8 +256,8 @@ contains
     end do
   end function edge_layer
 
-  !> int_0^A f dX by the same rule as the shortfall. Where nearly all sticks and q is small beside f, the difference of the exact
-  !> force and a shortfall by the rule would be mostly the error of the rule.
+  !> int_0^A f dX by the same rule as int (f - q) dX. If nearly all elements stick and q is much
+  !> smaller than f, the exact force minus that integral would be mostly the error of the rule.
   subroutine force_by_rule(scene, tau, contact, x, entry, past, c, layer_weight, n, f, t, y, force) &
     bind(c, name="rst_cvode_force_by_rule")
     type(scene_type), intent(in) :: scene
@@ -331,13 +340,13 @@ contains
       else
         weight = 0.5_dp*(contact%radius - before)
       end if
-      m = shortfall(scene%no_slip, motion(i), d(i), f(i))
-      if (i < n) missing = missing + (x(i + 1) - x(i))*mean_shortfall(scene%no_slip, motion(i), motion(i + 1), d(i), d(i + 1), &
+      m = shortfall(scene%mode, motion(i), d(i), f(i))
+      if (i < n) missing = missing + (x(i + 1) - x(i))*mean_shortfall(scene%mode, motion(i), motion(i + 1), d(i), d(i + 1), &
                                                                      f(i), f(i + 1), m)
-      if (m >= 2*f(i) .and. scene%no_slip == 0) then
+      if (m >= 2*f(i) .and. scene%mode /= mode_no_slip) then
         backward = backward + weight
         held = .false.
-      else if (m > 0 .or. scene%no_slip /= 0) then
+      else if (m > 0 .or. scene%mode == mode_no_slip) then
         stick = stick + weight
         if (held) missing = missing + (x(i) - before)*layer(i)
         held = .true.
@@ -351,8 +360,9 @@ contains
     if (held) missing = missing + (contact%radius - x(n))*edge_layer(scene, tau, entry(n), t, y)
   end subroutine integrate
 
-  !> What tells when the motion of each element changes: it falls through 0 then. Of an element that sticks f - |q|, of one
-  !> that slips the velocity at which it does. `least` keeps what is 0 by construction from being taken for a change.
+  !> Root functions of the elements, which fall through 0 when their motion changes: f - |q| of a
+  !> sticking element, the slip velocity of a slipping one. `least` prevents events of functions
+  !> that are 0 by construction.
   subroutine slip_rates(scene, motion, n_contact, rate_of, u_of, amplitude, least_stress, least_velocity, d, f, t, y, value) &
     bind(c, name="rst_cvode_slip_rates")
     type(scene_type), intent(in) :: scene
@@ -367,7 +377,7 @@ contains
     do i = 1, scene%n_nodes
       value(i) = 1
     end do
-    if (scene%no_slip /= 0) return
+    if (scene%mode == mode_no_slip) return
     velocity = y(shear_velocity_at(scene))
     do i = 1, min(n_contact, scene%n_entered)
       if (motion(i) == sticks) then
@@ -407,8 +417,8 @@ contains
     end do
   end subroutine fade
 
-  !> Element i entered at `entry`, when the states were y: its memory at the reference time. It begins to slip at once
-  !> where the sphere goes faster along the surface than into it.
+  !> Element i entered at `entry`, when the states were y: its memory at the reference time. It
+  !> slips at once if the sphere moves faster along the surface than into it.
   subroutine enter_element(scene, tau, i, entry, past, y, motion, shift, c, b, amplitude) bind(c, name="rst_cvode_enter_element")
     type(scene_type), intent(in) :: scene
     real(c_double), intent(in) :: tau(scene%n_terms)
@@ -430,13 +440,13 @@ contains
       amplitude(i, j) = 0
     end do
     motion(i) = sticks
-    if (scene%no_slip == 0) then
+    if (scene%mode /= mode_no_slip) then
       if (y(shear_velocity_at(scene)) > y(state_velocity)) motion(i) = slips_forward
       if (y(shear_velocity_at(scene)) < -y(state_velocity)) motion(i) = slips_backward
     end if
   end subroutine enter_element
 
-  !> Element i, which sticks, begins to slip at the reference time: what it recovers from.
+  !> Sticking element i begins to slip at the reference time: initial values of its recovery.
   subroutine begin_slip(scene, g, x, i, d, f, from_u, from_v, shift, c, b, y, motion, amplitude) &
     bind(c, name="rst_cvode_begin_slip")
     type(scene_type), intent(in) :: scene
@@ -462,7 +472,8 @@ contains
     end do
   end subroutine begin_slip
 
-  !> Element i, which slips, sticks from the reference time on: with the displacement and stresses that it has.
+  !> Slipping element i sticks from the reference time on, with its present displacement and
+  !> stresses.
   subroutine begin_stick(scene, g, x, i, u_of, v_of, shift, c, b, y, motion, amplitude) bind(c, name="rst_cvode_begin_stick")
     type(scene_type), intent(in) :: scene
     real(c_double), intent(in) :: g(scene%n_terms), x(scene%n_nodes)

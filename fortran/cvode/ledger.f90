@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where the energy goes at an instant, for the ledger of the method `cvode` (docs/theory.md, section 8).
+!> Energy rates at an instant, for the ledger of the method `cvode` (docs/theory.md, section 8).
 !>
 !> In units of the normal impact energy, with U in place of D for the tangential side:
 !>
 !>   viscous_z' = (15/4) int_0^A (sum_k y_k^2/(g_k tau_k) + eta u'^2) dX     x: (15/2) chi times the same of the tangential side
 !>   friction'  = (15/2) chi int_0^A f |slip velocity| dX
 !>
-!> and an element that leaves takes (G_inf u^2 + sum_k y_k^2/g_k)/2 with it. While all slips the tangential side of an element is
-!> its normal one.
+!> and an element that leaves takes (G_inf u^2 + sum_k y_k^2/g_k)/2 with it. In gross slip the
+!> tangential state of an element equals its normal one.
 module rst_cvode_ledger
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, state_depth, state_velocity, memory_at, shift_at, shear_velocity_at, &
@@ -19,9 +19,9 @@ module rst_cvode_ledger
 
 contains
 
-  !> rate: int dX of the dissipation in z and x and of the work of friction, without the factors; held_z, held_x: energy of each
-  !> element inside the edge, or of those 1..n_last, whichever are more. Memory of elements is that of the reference time, which is
-  !> t.
+  !> rate: int dX of the dissipation in z and x and of the work of friction, without the factors;
+  !> held_z, held_x: energy of each element inside the edge, or of those 1..n_last, whichever are
+  !> more. Memory of elements is that of the reference time, which is t.
   subroutine energy_rates(scene, g, tau, contact, x, entry, past, motion, shift, c, b, rate_of, u_of, v_of, amplitude, shears, &
                           n_last, t, y, rate, held_z, held_x) bind(c, name="rst_cvode_energy_rates")
     type(scene_type), intent(in) :: scene

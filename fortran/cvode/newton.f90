@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Newton's linear system (1 - gamma J) x = b of the method `cvode`, solved by its structure.
 !>
-!> J is diagonal in the memory of each relaxation time, which meets the rest in two dense rows, those of D'' and U'', and in two
-!> columns. Memory is eliminated, what is left is 2 x 2, first for (D, D'), which know nothing of the tangential side, then
-!> for (U, U'). The cost is linear in the number of relaxation times.
+!> J is diagonal in the memory states. These are coupled to the rest by two dense rows, those of D''
+!> and U'', and two columns. They are eliminated. A 2 x 2 system remains, first for (D, D'), which
+!> do not depend on the tangential side, then for (U, U'). The cost is linear in the number of
+!> relaxation times.
 module rst_cvode_newton
   use, intrinsic :: iso_c_binding, only: c_double
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, loading_at, &

@@ -1,13 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How an element that slips forgets what it was before.
+!> How a slipping element relaxes to the state of one that always slipped.
 !>
-!> An element that slips with |q| = f and one that has slipped since it entered carry the same stress; their difference is an
-!> element without stress, whose displacement u and elongations v_k (of the dashpots) recover by themselves:
+!> An element that slips with |q| = f and one that has slipped since its entry have the same stress.
+!> Their difference is an element without stress. Its displacement u and elongations v_k (of the
+!> dashpots) relax:
 !>
 !>   v_k' = (u - v_k)/tau_k,   G_inf u + sum_k g_k (u - v_k) + eta u' = 0.
 !>
-!> With e_k = sqrt(g_k tau_k) v_k and, if there is a parallel dashpot, e_0 = sqrt(eta) u this is e' = -S e with S symmetric
-!> and semi-definite: its eigenvalues are the inverse retardation times of the solid.
+!> With e_k = sqrt(g_k tau_k) v_k and, if there is a parallel dashpot, e_0 = sqrt(eta) u this is e'
+!> = -S e with S symmetric and semi-definite: its eigenvalues are the inverse retardation times of
+!> the solid.
 module rst_cvode_recovery
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_precision, only: dp, ip
@@ -17,8 +19,9 @@ module rst_cvode_recovery
 
 contains
 
-  !> Rates of the modes, their displacement u and the elongations v_k, a column a mode: v(k, j) for amplitude 1 of mode j.
-  !> `from_u` and `from_v` turn u and v_k into amplitudes. n_modes: n_terms, one more if eta > 0. `matrix`: workspace.
+  !> Rates of the modes, their displacement u and the elongations v_k, a column a mode: v(k, j) for
+  !> amplitude 1 of mode j. `from_u` and `from_v` turn u and v_k into amplitudes. n_modes: n_terms,
+  !> one more if eta > 0. `matrix`: workspace.
   subroutine recovery_modes(n_terms, n_modes, g_inf, eta, g, tau, matrix, rate, u, v, from_u, from_v) &
     bind(c, name="rst_cvode_recovery_modes")
     integer(c_int64_t), intent(in), value :: n_terms, n_modes
@@ -52,7 +55,7 @@ contains
     end do
   end subroutine recovery_modes
 
-  !> S: without a parallel dashpot u follows from the v_k at once and is eliminated.
+  !> S. Without a parallel dashpot u follows from the v_k and is eliminated.
   pure subroutine assemble(n_terms, n_modes, shift, total, eta, g, tau, s)
     integer(ip), intent(in) :: n_terms, n_modes, shift
     real(dp), intent(in) :: total, eta, g(n_terms), tau(n_terms)

@@ -1,7 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the kernels of the method `cvode` share: the scene, the contact, and where a state stands in CVODE's vector.
+!> Types of the kernels of the method `cvode`: the scene, the contact, and the positions of the
+!> states in CVODE's vector.
 !>
-!> States: D, D', n_terms times M, n_terms times P and, with a tangential side, U, U', n_terms times the tangential M.
+!> States: D, D', n_terms times M, n_terms times P and, with a tangential side, U, U', n_terms times
+!> the tangential M.
 module rst_cvode_types
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -19,15 +21,18 @@ module rst_cvode_types
     integer(ip) :: n_terms, n_modes, n_states, n_knots
     integer(ip) :: n_nodes   !! capacity of the arrays of elements
     integer(ip) :: n_entered !! elements 1..n_entered have their memory
-    integer(ip) :: restitution, no_slip
+    integer(ip) :: restitution
+    integer(ip) :: mode      !! how friction acts
   end type scene_type
 
-  !> A^2 (below 0: how far past the end of contact), A, int_0^A f dX. Twin of `struct cvode_contact`.
+  !> A^2 (below 0: how far past the end of contact), A, int_0^A f dX. Twin of
+  !> `struct cvode_contact`.
   type, bind(c) :: contact_type
     real(dp) :: square, radius, force
   end type contact_type
 
-  !> int_0^A q dX and the lengths of contact that stick and that slip backwards. Twin of `struct cvode_sums`.
+  !> int_0^A q dX and the lengths of contact that stick and that slip backwards. Twin of
+  !> `struct cvode_sums`.
   type, bind(c) :: shear_sums_type
     real(dp) :: force, stick, backward
     integer(ip) :: n_contact  !! elements inside the edge

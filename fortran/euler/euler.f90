@@ -1,11 +1,12 @@
-!> The paper's method: the MDR foundation (9)-(17) and explicit Euler for the sphere, in the units of docs/theory.md, section 2.
+!> The paper's method: the MDR foundation (9)-(17) and explicit Euler for the sphere, in the units
+!> of docs/theory.md, section 2.
 !>
-!> A step moves the sphere with the velocities it has, asks the foundation for its forces, and only then changes the
-!> velocities. Phases: compression (elements enter), restitution (elements leave, outermost first), done.
-!> The tangential side has its own mode, so that a scene pays only for what it has:
+!> A step moves the sphere with its present velocities, computes the forces of the foundation, and
+!> then changes the velocities. Phases: compression (elements enter), restitution (elements leave,
+!> outermost first), done. The tangential motion has one of four modes:
 !>   frictionless      nothing to do
-!>   gross_slip        q = f everywhere (docs/theory.md, section 4): no tangential element states until all elements stick at once
-!>                     (docs/theory.md, section 4); for psi >= psi_c that never happens and (27) follows by itself
+!>   gross_slip        q = f everywhere: no tangential element states until all elements stick at once
+!>                     (docs/theory.md, section 4); for psi >= psi_c they never do, and (27) follows
 !>   partial_slip      return mapping, element by element
 !>   no_slip           the limit psi -> 0: all elements in contact stick
 module rst_euler
@@ -13,21 +14,20 @@ module rst_euler
   use rst_foundation, only: place_elements, normal_forces, sticking_forces, friction_forces, total_force
   use rst_euler_ledger, only: post_viscous, post_friction, post_unloading, post_left_behind
   use rst_ledger, only: ledger_type
+  use rst_friction_mode, only: mode_frictionless, mode_gross_slip, mode_partial_slip, mode_no_slip
   use rst_motion_factors, only: mass_factor
   implicit none (type, external)
   private
   public :: scene_type, state_type, start_impact, advance_impact
   public :: phase_compression, phase_restitution, phase_done, phase_sunk, phase_overflow, phase_stalled
-  public :: mode_frictionless, mode_gross_slip, mode_partial_slip, mode_no_slip
 
   integer(ip), parameter :: phase_compression = 0, phase_restitution = 1, phase_done = 2, phase_sunk = 3, &
                             phase_overflow = 4, phase_stalled = 5
-  integer(ip), parameter :: mode_frictionless = 0, mode_gross_slip = 1, mode_partial_slip = 2, mode_no_slip = 3
   integer(ip), parameter :: stalled_for_good = 10000  !! at the turning point a few steps may stall
 
-  !> What is impacted, and how finely it is resolved. Twin of `struct euler_scene` in C.
+  !> The solid, the sphere and the resolution. Twin of `struct euler_scene` in C.
   type, bind(c) :: scene_type
-    real(dp) :: chi, psi
+    real(dp) :: chi, shear_speed  !! U' at first touch
     real(dp) :: g_inf, eta
     real(dp) :: step, spacing
     real(dp) :: rest_speed  !! a sphere with less than this left, kinetic and elastic, has sunk in for good
@@ -37,7 +37,8 @@ module rst_euler
     integer(ip) :: mode         !! of the tangential side at first touch
   end type scene_type
 
-  !> Where the impact stands. Twin of `struct euler_state` in C. Forces are int f dX and int q dX over X > 0.
+  !> The state of the impact. Twin of `struct euler_state` in C. Forces are int f dX and int q dX
+  !> over X > 0.
   type, bind(c) :: state_type
     real(dp) :: time, depth, velocity, shift, shear_velocity
     real(dp) :: force, shear_force  !! as they move the sphere
@@ -46,13 +47,14 @@ module rst_euler
     real(dp) :: leave_time      !! when the latest element left
     real(dp) :: max_depth, max_force, max_time
     integer(ip) :: n_contact, max_contact, phase, mode, n_steps, n_updates
-    integer(ip) :: n_stalled       !! steps on end that were too short to show in the indentation
+    integer(ip) :: n_stalled       !! consecutive steps too short to change the indentation in rounding
     type(ledger_type) :: ledger
   end type state_type
 
 contains
 
-  !> First touch: D = 0, D' = 1, U' = psi. Without slip the problem is linear in U and psi only sets its scale.
+  !> First touch: D = 0, D' = 1, U' = psi. Without slip the problem is linear in U and psi only sets
+  !> its scale.
   pure subroutine start_impact(scene, state, x2)
     type(scene_type), intent(in) :: scene
     type(state_type), intent(out) :: state
@@ -63,7 +65,7 @@ contains
     state%depth = 0
     state%velocity = 1
     state%shift = 0
-    state%shear_velocity = scene%psi
+    state%shear_velocity = scene%shear_speed
     state%force = 0
     state%shear_force = 0
     state%true_edge_force = 0
@@ -132,8 +134,8 @@ contains
     state%n_steps = state%n_steps + 1
   end subroutine move_sphere
 
-  !> The surface outside is at rest, so the profile X^2 reaches element n+1 at D = X_(n+1)^2. No element enters
-  !> twice in a single impact: none enters after compression.
+  !> The surface outside is at rest, so the profile X^2 reaches element n+1 at D = X_(n+1)^2. No
+  !> element enters twice in a single impact: none enters after compression.
   pure subroutine enter_elements(scene, x2, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: x2(scene%capacity)
@@ -147,7 +149,8 @@ contains
     state%max_contact = max(state%max_contact, state%n_contact)
   end subroutine enter_elements
 
-  !> An element leaves when it would have to pull; f falls with X, so the outermost leave first.
+  !> An element leaves when its force would become tensile; f falls with X, so the outermost leave
+  !> first.
   pure subroutine release_elements(scene, f, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: f(scene%capacity)
@@ -166,8 +169,9 @@ contains
     state%force = scene%spacing*total_force(scene%capacity, state%n_contact, f)
   end subroutine release_elements
 
-  !> The innermost element, at dx/2, left within the step, where its force passed zero. Its neighbour at 3 dx/2 left
-  !> before; the square of the contact radius goes on to zero at the same rate: (1/4)/(9/4 - 1/4) of that interval more.
+  !> The innermost element, at dx/2, left within the step, where its force passed zero. Its
+  !> neighbour at 3 dx/2 left before; the square of the contact radius goes on to zero at the same
+  !> rate: (1/4)/(9/4 - 1/4) of that interval more.
   pure subroutine end_contact(scene, force, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: force
@@ -206,10 +210,10 @@ contains
     state%shear_force = scene%spacing*total_force(scene%capacity, state%n_contact, q)
   end subroutine tangential_step
 
-  !> The forces as they would be with the contact ending at sqrt(D) and not at the end of a cell: where dashpots make f jump
-  !> at the edge, the whole cells make it ripple by dx times that jump. The sphere's motion averages this out, a
-  !> reported force does not. Elements that entered within the step are replaced by the force at the edge, that of a
-  !> surface just touched.
+  !> The forces for a contact that ends at sqrt(D) and not at the end of a cell: where dashpots make
+  !> f jump at the edge, the whole cells make it ripple by dx times that jump. The sphere's motion
+  !> averages this out, a reported force does not. Elements that entered within the step are
+  !> replaced by the force at the edge, that of a surface just touched.
   pure subroutine correct_edge(scene, gain, f, q, n_old, advance_z, advance_x, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: gain(scene%n_terms), f(scene%capacity), q(scene%capacity)
@@ -250,8 +254,8 @@ contains
     state%shear_velocity = state%shear_velocity - scene%step*mass_factor*2*scene%chi*state%shear_force
   end subroutine accelerate_sphere
 
-  !> Gross slip ends everywhere at once when U' = D' (theory.md, 4): every element then has q = f, u_x = D - X^2 and the
-  !> same stresses in x as in z.
+  !> Gross slip ends everywhere at once when U' = D' (theory.md, 4): every element then has q = f,
+  !> u_x = D - X^2 and the same stresses in x as in z.
   pure subroutine start_sticking(scene, x2, yz, u, yx, q, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: x2(scene%capacity), yz(scene%capacity, scene%n_terms)
@@ -272,9 +276,10 @@ contains
     end do
   end subroutine start_sticking
 
-  !> A rebound so slow that a step is lost in the rounding of the indentation would never end.
-  !> Compression ends when the sphere turns. Without an equilibrium modulus it may never do so (theory.md, 6): then it
-  !> ends when the kinetic energy and what the springs hold together could not bring back rest_speed.
+  !> Stop if the rebound is so slow that a step does not change the rounded indentation. Compression
+  !> ends when the sphere turns. Without an equilibrium modulus it may never do so (docs/theory.md,
+  !> section 6). Then it ends when the kinetic energy plus that in the springs is too small for
+  !> rest_speed.
   pure subroutine judge_phase(scene, g, x2, yz, advance_z, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: g(scene%n_terms), x2(scene%capacity), yz(scene%capacity, scene%n_terms), advance_z
@@ -319,7 +324,7 @@ contains
     energy = energy*mass_factor*scene%spacing
   end function elastic_energy
 
-  !> Tangential forces as they are before the step; the ledger takes the mean over it.
+  !> Tangential forces before the step, since the ledger takes the mean over the step.
   pure subroutine remember_shear(n_old, n_inside, q, q_before, state)
     integer(ip), intent(in) :: n_old, n_inside
     real(dp), intent(in) :: q(n_inside)

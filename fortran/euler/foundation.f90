@@ -1,9 +1,11 @@
-!> The one-dimensional foundation of MDR: element forces, return mapping and what a step of it adds up to.
+!> The one-dimensional foundation of MDR: element forces, return mapping, and sums over the
+!> elements.
 !>
-!> Element j stands at X_j = (j - 1/2) dx, x2(j) = X_j^2. Elements 1..n_old were in contact before the step and have
-!> moved by the full `advance` of the sphere; elements n_old+1..n_new were reached within the step and have
-!> moved by what is left of it: by D - X^2 in z, and by the same fraction of the step in x.
-!> Stresses y(j,k) belong to term k; g_inf, gain and viscosity per step (eta/h) are those of rst_relaxation.
+!> Element j stands at X_j = (j - 1/2) dx, x2(j) = X_j^2. Elements 1..n_old were in contact before
+!> the step and have moved by the full `advance` of the sphere; elements n_old+1..n_new were reached
+!> within the step and have moved by what is left of it: by D - X^2 in z, and by the same fraction
+!> of the step in x. Stresses y(j,k) belong to term k; g_inf, gain and viscosity per step (eta/h)
+!> are those of rst_relaxation.
 module rst_foundation
   use rst_precision, only: dp, ip
   use rst_profile, only: plane_profile
@@ -13,7 +15,8 @@ module rst_foundation
 
 contains
 
-  !> Profile height at the elements, which stand at the middle of cells of width dx: X_j^2 in the units of theory.md, 2.
+  !> Profile height at the elements, which stand at the middle of cells of width dx: X_j^2 in the
+  !> units of theory.md, 2.
   pure subroutine place_elements(n, dx, x2)
     integer(ip), intent(in) :: n
     real(dp), intent(in) :: dx
@@ -24,7 +27,8 @@ contains
     end do
   end subroutine place_elements
 
-  !> Normal force f_j of every element at indentation `depth` (9), (12). In contact u_z = D - X^2 is prescribed.
+  !> Normal force f_j of every element at indentation `depth` (9), (12). In contact u_z = D - X^2 is
+  !> prescribed.
   pure subroutine normal_forces(capacity, n_old, n_new, x2, depth, advance, g_inf, viscosity, n_terms, decay, gain, y, f)
     integer(ip), intent(in) :: capacity, n_old, n_new, n_terms
     real(dp), intent(in) :: x2(capacity), depth, advance, g_inf, viscosity
@@ -96,8 +100,9 @@ contains
     end do
   end subroutine sticking_forces
 
-  !> Return mapping onto |q| <= f, (14)-(17): the trial force has the sign of the slip. `slip` is what the element
-  !> lags behind the sphere in this step; it takes the dashpot's and the springs' share of the step with it.
+  !> Return mapping onto |q| <= f, (14)-(17): the trial force has the sign of the slip. `slip` is
+  !> the distance by which the element lags behind the sphere in this step. The springs and the
+  !> dashpot are reduced by it.
   pure subroutine friction_forces(capacity, n, f, g_inf, viscosity, n_terms, gain, u, y, q, slip)
     integer(ip), intent(in) :: capacity, n, n_terms
     real(dp), intent(in) :: f(capacity), g_inf, viscosity

@@ -1,4 +1,5 @@
-!> The procedures of this folder that C calls, under their C names. Arguments are described where they are computed.
+!> The procedures of this folder that C calls, under their C names. Arguments are described where
+!> they are computed.
 module rst_euler_interface
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_euler, only: scene_type, state_type, start_impact, advance_impact

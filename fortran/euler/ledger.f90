@@ -1,4 +1,4 @@
-!> What the steps of the method `euler` post in the ledger of the impact energy (common/ledger.f90).
+!> Contributions of a step of the method `euler` to the energy ledger (fortran/common/ledger.f90).
 module rst_euler_ledger
   use rst_precision, only: dp, ip
   implicit none (type, external)
@@ -28,9 +28,10 @@ contains
     account = account + weight*dissipated
   end subroutine post_viscous
 
-  !> Friction work of one step: slip times the mean of the force before and after it. At the edge the force falls by
-  !> its own size within a step, so that the force after it alone would miss a part of the work that is of first order
-  !> for small psi. Where the force changed sign the slip came at the end, against the force after it.
+  !> Friction work of one step: slip times the mean of the force before and after it. At the edge
+  !> the force falls by its own size within a step. So the force after the step alone would give an
+  !> error of first order for small psi. Where the force changed sign, the slip was at the end of
+  !> the step, against the force after it.
   pure subroutine post_friction(weight, capacity, n, q_before, q, slip, account)
     real(dp), intent(in) :: weight
     integer(ip), intent(in) :: capacity, n
@@ -49,7 +50,7 @@ contains
     account = account + weight*work
   end subroutine post_friction
 
-  !> Elements first..last left in this step: on the way out friction let go of the force that they still had.
+  !> Elements first..last left in this step: friction work while their force falls to zero.
   pure subroutine post_unloading(weight, capacity, first, last, g_inf, viscosity, n_terms, gain, q_before, u, y, account)
     real(dp), intent(in) :: weight, g_inf, viscosity
     integer(ip), intent(in) :: capacity, first, last, n_terms
@@ -72,7 +73,8 @@ contains
     end do
   end subroutine post_unloading
 
-  !> Elastic energy (1/2)(G_inf u^2 + sum_k y_k^2/g_k) of the elements first..last that have just left.
+  !> Elastic energy (1/2)(G_inf u^2 + sum_k y_k^2/g_k) of the elements first..last that have just
+  !> left.
   pure subroutine post_left_behind(weight, capacity, first, last, g_inf, u, n_terms, g, y, account)
     real(dp), intent(in) :: weight, g_inf
     integer(ip), intent(in) :: capacity, first, last, n_terms

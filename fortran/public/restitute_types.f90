@@ -28,7 +28,8 @@ module restitute_types_module
     RESTITUTE_ERROR_FORMAT = -8, &
     RESTITUTE_ERROR_INTERNAL = -9, &
     RESTITUTE_ERROR_INTEGRATOR = -10, &
-    RESTITUTE_ERROR_INTERRUPTED = -11
+    RESTITUTE_ERROR_INTERRUPTED = -11, &
+    RESTITUTE_ERROR_CONVERGENCE = -12
 
   !> Bits of restitute_result%flags, see restitute_flag_text.
   integer(c_int), parameter, public :: &

@@ -5,11 +5,12 @@
 !> 2 stages - 1 at the end of the panel and damps whatever decays within it (L-stable).
 module rst_collocation
   use rst_precision, only: dp, ip
+  use rst_tuning, only: most_trials, stagnates_below, stagnates_at
   implicit none (type, external)
   private
-  public :: stages, point, integral, differential, weights_at, last_coefficient, integrated, start_of, root_between
+  public :: stages, point, integral, differential, weights_at, value_on, last_coefficient, integrated, start_of, root_between
   public :: shifted_inverse
-  public :: applied, composed, factors_type, factorize, solution_of, has_converged, keeps_matrix
+  public :: applied, composed, factors_type, factorize, solution_of, has_converged
 
   integer(ip), parameter :: stages = 6
 
@@ -52,8 +53,6 @@ module rst_collocation
   real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
                          -3.56279434793616133e+02_dp, 2.72918967701194731e+02_dp, -1.94528678408716956e+02_dp, 7.7e1_dp]
 
-  real(dp), parameter :: keeps_matrix = 0.1_dp !! Newton's matrix is kept while steps fall by that
-
   !> Of a matrix: what elimination takes off its rows, what is left of them, and which row is exchanged for which.
   type :: factors_type
     real(dp), dimension(stages, stages) :: lower, upper
@@ -75,6 +74,13 @@ contains
                           a(2)*a(3)*(first*last), a(6)*(first*middle), a(5)*(first*middle)]
     weight = weight*(2 - (((weight(0) + weight(1)) + (weight(2) + weight(3))) + ((weight(4) + weight(5)) + weight(6))))
   end function weights_at
+
+  !> The polynomial through y at x.
+  pure function value_on(x, y) result(value)
+    real(dp), intent(in) :: x, y(0:stages)
+    real(dp) :: value
+    value = sum(weights_at(x)*y)
+  end function value_on
 
   !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
   pure function last_coefficient(y) result(c)
@@ -147,7 +153,7 @@ contains
     high = point(i)
     at_low = y(i - 1)
     at_high = y(i)
-    do n = 1, 60
+    do n = 1, most_trials
       x = low - at_low*(high - low)/(at_high - at_low)
       if (modulo(n, 3_ip) == 0 .or. .not. (x > low .and. x < high)) x = 0.5_dp*(low + high)
       now = sum(weights_at(x)*y)
@@ -167,8 +173,7 @@ contains
   pure function has_converged(change, previous, closeness) result(yes)
     real(dp), intent(in) :: change, previous, closeness
     logical :: yes
-    real(dp), parameter :: stagnates_below = 1.0e-6_dp
-    yes = change*min(1.0_dp, change/previous) < closeness .or. (change < stagnates_below .and. change > 0.5_dp*previous)
+    yes = change*min(1.0_dp, change/previous) < closeness .or. (change < stagnates_below .and. change > stagnates_at*previous)
   end function has_converged
 
   !> Factors of a matrix by elimination with pivots. fails: it is singular or not finite.

@@ -9,14 +9,13 @@ module rst_compression_panel
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, integral, integrated, applied, factors_type, factorize, solution_of, &
-                             has_converged, keeps_matrix
+                             has_converged
   use rst_arms, only: respond, advance
+  use rst_tuning, only: keeps_matrix, largest_decrease, diverges_above, most_steps
   use rst_panel, only: panel_type, normal_type
   implicit none (type, external)
   private
   public :: compress
-
-  integer(ip), parameter :: most_iterations = 15
 
   !> At the points: sine and cosine of theta, rho, force, and cos^2 + kappa sin^2.
   type :: motion_type
@@ -40,66 +39,66 @@ contains
     type(motion_type) :: m
     type(slope_type) :: slope
     real(dp), dimension(stages) :: theta, force, step, turn
-    real(dp) :: change, previous, h, r, start
+    real(dp) :: change, previous, width, scale, start
     real(dp), pointer, contiguous :: loading(:, :), kernel(:, :, :) ! compilers would copy components of derived types
     integer(ip) :: i
     loading(0:, 1:) => normal%loading(:, :, n)
     kernel(1:, 0:, 1:) => normal%kernel(:, :, :, n)
-    r = normal%radius
+    scale = normal%scale
     associate (panel => normal%panel(n))
-      h = panel%to - panel%from
-      start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/r)**2)
-      theta = panel%from + point(1:)*h
+      width = panel%to - panel%from
+      start = sqrt(panel%velocity(0)**2 + (panel%radius(0)/scale)**2)
+      theta = panel%from + point(1:)*width
       force = panel%force(1:)
     end associate
     m%sine = sin(theta)
     m%cosine = cos(theta)
     previous = 1
     slope%wanted = .true.
-    do i = 1, most_iterations
-      call follow(r, h, start, force, m)
-      call load(normal%eta, normal%g, normal%rate, r, h, m, loading, kernel, slope, fails)
-      if (.not. fails .and. slope%wanted) call prepare(r, h, m, slope, fails)
+    do i = 1, most_steps
+      call follow(scale, width, start, force, m)
+      call load(normal%eta, normal%g, normal%rate, scale, width, m, loading, kernel, slope, fails)
+      if (.not. fails .and. slope%wanted) call prepare(scale, width, m, slope, fails)
       if (fails) return
-      step = max(solution_of(slope%factors, m%force - force), -0.9_dp*force)
+      step = max(solution_of(slope%factors, m%force - force), -largest_decrease*force)
       force = force + step
-      turn = 2*mass_factor*r**2*step/m%below ! of kappa
-      change = maxval(abs(turn)*m%sine**2) + maxval(abs(integrated(0.0_dp, h*m%sine*m%cosine*turn/m%below)))
-      fails = .not. change < 1.0e3_dp
+      turn = 2*mass_factor*scale**2*step/m%below ! of kappa
+      change = maxval(abs(turn)*m%sine**2) + maxval(abs(integrated(0.0_dp, width*m%sine*m%cosine*turn/m%below)))
+      fails = .not. change < diverges_above
       if (fails) return
       if (has_converged(change, previous, normal%closeness)) exit
       slope%wanted = change > keeps_matrix*previous
       previous = change
     end do
-    fails = i > most_iterations
+    fails = i > most_steps
     if (fails) return
     slope%wanted = .false.
-    call follow(r, h, start, force, m)
-    call load(normal%eta, normal%g, normal%rate, r, h, m, loading, kernel, slope, fails)
-    if (.not. fails) call note(normal, r, h, m, n, fails)
+    call follow(scale, width, start, force, m)
+    call load(normal%eta, normal%g, normal%rate, scale, width, m, loading, kernel, slope, fails)
+    if (.not. fails) call note(normal, scale, width, m, n, fails)
   end subroutine compress
 
   !> rho for a force, d ln(rho)/dtheta = sin cos (1 - kappa)/(cos^2 + kappa sin^2).
-  pure subroutine follow(r, h, start, force, m)
-    real(dp), intent(in) :: r, h, start, force(stages)
+  pure subroutine follow(scale, width, start, force, m)
+    real(dp), intent(in) :: scale, width, start, force(stages)
     type(motion_type), intent(inout) :: m
     real(dp) :: kappa(stages)
-    kappa = 2*mass_factor*r*r*force
+    kappa = 2*mass_factor*scale*scale*force
     m%below = m%cosine**2 + kappa*m%sine**2
-    m%rho = start*exp(integrated(0.0_dp, h*m%sine*m%cosine*(1 - kappa)/m%below))
+    m%rho = start*exp(integrated(0.0_dp, width*m%sine*m%cosine*(1 - kappa)/m%below))
   end subroutine follow
 
   !> The force of that motion.
-  pure subroutine load(eta, g, rate, r, h, m, loading, kernel, slope, fails)
-    real(dp), intent(in) :: eta, g(:), rate(:), r, h
+  pure subroutine load(eta, g, rate, scale, width, m, loading, kernel, slope, fails)
+    real(dp), intent(in) :: eta, g(:), rate(:), scale, width
     type(motion_type), intent(inout) :: m
     real(dp), intent(inout) :: loading(0:stages, size(g)), kernel(stages, 0:stages, size(g))
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
     real(dp) :: span(stages), sweep(stages), to_span(stages)
     integer(ip) :: j, k
-    span = h*pace_of(r, m)
-    sweep = r*m%rho**2*m%sine*m%cosine ! A D'
+    span = width*pace_of(scale, m)
+    sweep = scale*m%rho**2*m%sine*m%cosine ! A D'
     m%force = eta*sweep
     if (slope%wanted) slope%by_sweep = 0
     if (slope%wanted) slope%by_span = 0
@@ -123,29 +122,29 @@ contains
   end subroutine load
 
   !> ds/dtheta
-  pure function pace_of(r, m) result(pace)
-    real(dp), intent(in) :: r
+  pure function pace_of(scale, m) result(pace)
+    real(dp), intent(in) :: scale
     type(motion_type), intent(in) :: m
     real(dp) :: pace(stages)
-    pace = 2*r*r*m%rho*m%sine/m%below
+    pace = 2*scale*scale*m%rho*m%sine/m%below
   end function pace_of
 
   !> Newton's matrix for the force, of what it is less what its own motion makes it.
-  pure subroutine prepare(r, h, m, slope, fails)
-    real(dp), intent(in) :: r, h
+  pure subroutine prepare(scale, width, m, slope, fails)
+    real(dp), intent(in) :: scale, width
     type(motion_type), intent(in) :: m
     type(slope_type), intent(inout) :: slope
     logical, intent(out) :: fails
     real(dp) :: by_rho(stages, stages), matrix(stages, stages), both(stages), span(stages), kappa
     integer(ip) :: j
-    kappa = 2*mass_factor*r*r ! of a force
+    kappa = 2*mass_factor*scale*scale ! of a force
     both = m%sine*m%cosine
-    span = h*pace_of(r, m)
+    span = width*pace_of(scale, m)
     do j = 1, stages
-      by_rho(:, j) = slope%by_sweep(:, j)*(2*r*m%rho(j)**2*both(j)) + slope%by_span(:, j)*span(j) ! to ln(rho)
+      by_rho(:, j) = slope%by_sweep(:, j)*(2*scale*m%rho(j)**2*both(j)) + slope%by_span(:, j)*span(j) ! to ln(rho)
     end do
     do j = 1, stages
-      matrix(:, j) = applied(by_rho, integral(:, j))*(h*kappa*both(j)/m%below(j)**2) &
+      matrix(:, j) = applied(by_rho, integral(:, j))*(width*kappa*both(j)/m%below(j)**2) &
                      + slope%by_span(:, j)*(span(j)*kappa*m%sine(j)**2/m%below(j))
       matrix(j, j) = 1 + matrix(j, j)
     end do
@@ -153,25 +152,25 @@ contains
   end subroutine prepare
 
   !> The motion, put into the panel, and M_k.
-  subroutine note(normal, r, h, m, n, fails)
+  subroutine note(normal, scale, width, m, n, fails)
     type(normal_type), intent(in) :: normal
-    real(dp), intent(in) :: r, h
+    real(dp), intent(in) :: scale, width
     type(motion_type), intent(in) :: m
     integer(ip), intent(in) :: n
     logical, intent(out) :: fails
     real(dp), pointer, contiguous :: kernel(:, :, :), memory(:, :)
     associate (panel => normal%panel(n))
-      panel%radius(1:) = r*m%rho*m%sine
+      panel%radius(1:) = scale*m%rho*m%sine
       panel%depth(1:) = panel%radius(1:)**2
       panel%velocity(1:) = m%rho*m%cosine
       if (panel%to >= acos(0.0_dp)) panel%velocity(stages) = 0
       panel%force(1:) = m%force
-      panel%pace(1:) = pace_of(r, m)
-      panel%time(1:) = integrated(panel%time(0), h*panel%pace(1:))
+      panel%pace(1:) = pace_of(scale, m)
+      panel%time(1:) = integrated(panel%time(0), width*panel%pace(1:))
       fails = .not. all(abs(panel%time) < huge(1.0_dp)) .or. any(panel%pace(1:) <= 0)
       kernel(1:, 0:, 1:) => normal%kernel(:, :, :, n)
       memory(0:, 1:) => normal%memory(:, :, n)
-      call advance(normal%g, h*panel%pace(1:), kernel, panel%velocity(1:), memory)
+      call advance(normal%g, width*panel%pace(1:), kernel, panel%velocity(1:), memory)
     end associate
   end subroutine note
 end module rst_compression_panel

@@ -4,6 +4,7 @@ module rst_guess
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, point, differential, weights_at, applied
+  use rst_tuning, only: most_trials, guess_part
   use rst_panel, only: panel_type, normal_type, place_on
   implicit none (type, external)
   private
@@ -24,9 +25,9 @@ contains
       panel%force(1:) = max(panel%force(0), tiny(1.0_dp))
     else
       theta = panel%from + point(1:)*(panel%to - panel%from)
-      panel%radius(1:) = normal%radius*sin(theta)
+      panel%radius(1:) = normal%scale*sin(theta)
       panel%velocity(1:) = cos(theta)
-      panel%force(1:) = sin(theta)**3/(2*mass_factor*normal%radius**2) + normal%eta*panel%radius(1:)*panel%velocity(1:)
+      panel%force(1:) = sin(theta)**3/(2*mass_factor*normal%scale**2) + normal%eta*panel%radius(1:)*panel%velocity(1:)
     end if
   end subroutine guess_compression
 
@@ -46,7 +47,7 @@ contains
         after(i) = first_return(normal%eta, normal%g, normal%rate, panel%time(0) - entered(i))
       end do
       panel%pace(1:) = applied(differential, after)/(panel%from - panel%to)
-      panel%pace(1:) = max(panel%pace(1:), 1.0e-3_dp*maxval(panel%pace(1:)))
+      panel%pace(1:) = max(panel%pace(1:), guess_part*maxval(panel%pace(1:)))
       panel%velocity(1:) = -mass_factor*panel%force(0)*after
     end if
   end subroutine guess_restitution
@@ -83,12 +84,12 @@ contains
     low = 0
     high = before
     x = before
-    do i = 1, 60
+    do i = 1, most_trials
       excess = eta*x
       slope = eta
       do k = 1, size(g, kind=ip)
         z = rate(k)*(x + before)
-        if (z < 1.0e-3_dp) then
+        if (z < guess_part) then
           excess = excess + g(k)*(x + before)*((x - before)/2 + z*(2*before - x)/6)
           slope = slope + g(k)*x
         else
@@ -100,7 +101,7 @@ contains
       if (excess <= 0) low = x
       x = x - excess/slope
       if (.not. (x > low .and. x < high)) x = (low + high)/2
-      if (abs(excess) <= 1.0e-3_dp*slope*x .or. high - low <= 1.0e-3_dp*high) exit
+      if (abs(excess) <= guess_part*slope*x .or. high - low <= guess_part*high) exit
     end do
   end function first_return
 end module rst_guess

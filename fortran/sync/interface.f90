@@ -13,15 +13,16 @@ module rst_sync_interface
 
   !> Twin of `struct sync_normal` in C: see normal_type.
   type, bind(c) :: normal_arrays_type
-    real(c_double) :: eta, radius, closeness, left
+    real(c_double) :: eta, scale, closeness, residual_speed
     integer(c_int64_t) :: n_arms, n_compression, n_panels
     type(c_ptr) :: g, rate, panel, memory, loading, kernel, entry
   end type normal_arrays_type
 
-  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; the arrays are those of store_type.
+  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; room: for the
+  !> kernel_room, memory_z, memory_x and loading_x of store_type.
   type, bind(c) :: store_arrays_type
     integer(c_int64_t) :: capacity, n_records, n_pieces
-    type(c_ptr) :: record, piece, held, room, now_z, now_x, now_l
+    type(c_ptr) :: record, piece, corrective, room
   end type store_arrays_type
 
 contains
@@ -34,7 +35,7 @@ contains
     type(normal_type) :: n
     n = view_normal(normal, control%capacity)
     call follow_normal(control, n, found)
-    normal%left = n%left
+    normal%residual_speed = n%residual_speed
     normal%n_compression = n%n_compression
     normal%n_panels = n%n_panels
   end subroutine rst_follow_normal
@@ -74,47 +75,51 @@ contains
     type(normal_arrays_type), intent(in) :: normal
     integer(c_int64_t), intent(in) :: panels
     type(normal_type) :: n
-    real(c_double), pointer, contiguous :: flat(:, :, :), kernels(:, :, :, :)
+    integer(c_int64_t) :: arms, points
+    arms = normal%n_arms
+    points = (1 + stages)*arms*panels
     n%eta = normal%eta
-    n%radius = normal%radius
+    n%scale = normal%scale
     n%closeness = normal%closeness
-    n%left = normal%left
-    n%n_arms = normal%n_arms
+    n%residual_speed = normal%residual_speed
+    n%n_arms = arms
     n%n_compression = normal%n_compression
     n%n_panels = normal%n_panels
-    call c_f_pointer(normal%g, n%g, [n%n_arms])
-    call c_f_pointer(normal%rate, n%rate, [n%n_arms])
     call c_f_pointer(normal%panel, n%panel, [panels])
-    call c_f_pointer(normal%memory, flat, [1 + stages, n%n_arms, panels])
-    n%memory(0:, 1:, 1:) => flat
-    call c_f_pointer(normal%loading, flat, [1 + stages, n%n_arms, panels])
-    n%loading(0:, 1:, 1:) => flat
-    call c_f_pointer(normal%kernel, kernels, [stages, 1 + stages, n%n_arms, panels])
-    n%kernel(1:, 0:, 1:, 1:) => kernels
-    call c_f_pointer(normal%entry, n%entry, [stages, n%n_arms, 2_c_int64_t])
+    n%g => numbers(normal%g, arms)
+    n%rate => numbers(normal%rate, arms)
+    n%memory(0:stages, 1:arms, 1:panels) => numbers(normal%memory, points)
+    n%loading(0:stages, 1:arms, 1:panels) => numbers(normal%loading, points)
+    n%kernel(1:stages, 0:stages, 1:arms, 1:panels) => numbers(normal%kernel, stages*points)
+    n%entry(1:stages, 1:arms, 1:2) => numbers(normal%entry, 2*stages*arms)
   end function view_normal
 
-  function view_store(store, n_arms) result(s)
+  function view_store(store, arms) result(s)
     type(store_arrays_type), intent(in) :: store
-    integer(c_int64_t), intent(in) :: n_arms
+    integer(c_int64_t), intent(in) :: arms
     type(store_type) :: s
-    real(c_double), pointer, contiguous :: flat(:, :, :, :), kernels(:, :, :), line(:, :)
+    real(c_double), pointer, contiguous :: room(:)
+    integer(c_int64_t) :: points
+    points = (1 + stages)*arms
     s%n_records = 0
     s%n_pieces = 0
     call c_f_pointer(store%record, s%record, [store%capacity])
     call c_f_pointer(store%piece, s%piece, [store%capacity])
-    call c_f_pointer(store%held, flat, [of_arm, 1 + stages, n_arms, store%capacity])
-    s%held(1:, 0:, 1:, 1:) => flat
-    call c_f_pointer(store%room, kernels, [stages, 1 + stages, n_arms])
-    s%room(1:, 0:, 1:) => kernels
-    s%kernel => s%room
-    call c_f_pointer(store%now_z, line, [1 + stages, n_arms])
-    s%now_z(0:, 1:) => line
-    call c_f_pointer(store%now_x, line, [1 + stages, n_arms])
-    s%now_x(0:, 1:) => line
-    call c_f_pointer(store%now_l, line, [1 + stages, n_arms])
-    s%now_l(0:, 1:) => line
+    s%corrective(1:of_arm, 0:stages, 1:arms, 1:store%capacity) => numbers(store%corrective, of_arm*points*store%capacity)
+    room => numbers(store%room, (stages + 3)*points)
+    s%kernel_room(1:stages, 0:stages, 1:arms) => room(:stages*points)
+    s%memory_z(0:stages, 1:arms) => room(stages*points + 1:)
+    s%memory_x(0:stages, 1:arms) => room((stages + 1)*points + 1:)
+    s%loading_x(0:stages, 1:arms) => room((stages + 2)*points + 1:)
+    s%kernel => s%kernel_room
   end function view_store
+
+  function numbers(address, n) result(a)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: n
+    real(c_double), pointer, contiguous :: a(:)
+    call c_f_pointer(address, a, [n])
+  end function numbers
 
   !> The weights of the points of a panel for a value at x.
   subroutine rst_weights_at(x, weight) bind(c, name="rst_sync_weights_at")

@@ -7,21 +7,20 @@ module rst_normal_motion
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
   use rst_collocation, only: stages, last_coefficient
-  use rst_panel, only: panel_type, normal_type
+  use rst_panel, only: panel_type, normal_type, range_at
   use rst_guess, only: guess_compression
   use rst_compression_panel, only: compress
   use rst_restitution_panel, only: rebound
+  use rst_tuning, only: deepest, largest_unresolved_rebound
   implicit none (type, external)
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
   !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that
-  !> will not be faster than normal%left; that the panels given are too few; nothing.
+  !> will not be faster than normal%residual_speed; that the panels given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
-  real(dp), parameter :: largest_unresolved_rebound = 1.0e-2_dp !! one that is slower is unknown otherwise
-
-  integer(ip), parameter :: deepest = 40, whole = 2_ip**deepest
+  integer(ip), parameter :: whole = 2_ip**deepest
   real(dp), parameter :: unit = acos(0.0_dp)/real(whole, dp)
 
   !> Twin of `struct sync_normal_control` in C.
@@ -38,7 +37,7 @@ module rst_normal_motion
 
 contains
 
-  !> From first touch to the end of contact. Given are the solid, normal%radius and normal%closeness.
+  !> From first touch to the end of contact. Given are the solid, normal%scale and normal%closeness.
   subroutine follow_normal(control, normal, found)
     type(normal_control_type), intent(in) :: control
     type(normal_type), intent(inout) :: normal
@@ -57,10 +56,9 @@ contains
     subroutine go_through(back, found)
       logical, intent(in) :: back
       integer(ip), intent(out) :: found
-      integer(ip) :: place, width, widest, n, beside
+      integer(ip) :: place, width, widest, n
       logical :: fails
       place = 0
-      beside = merge(control%n_coarse_compression, 0_ip, back) + 1
       widest = whole/2_ip**control%halvings
       width = widest
       fails = .false.
@@ -69,12 +67,12 @@ contains
         found = lacks_room
         if (n > control%capacity) return
         if (back) width = min(width, width_at(whole - place, normal%n_compression, panel))
-        call halve_coarser(back, place, beside, width)
+        call halve_coarser(back, place, width)
         call begin(normal, n)
         panel(n)%from = merge(whole - place, place, back)*unit
         panel(n)%to = merge(whole - place - width, place + width, back)*unit
         call solve_panel(back, n, fails)
-        if (.not. fails) fails = missed(normal%radius, panel(n), back) > control%roughness
+        if (.not. fails) fails = missed(normal%scale, panel(n), back) > control%roughness
         if (fails) then
           width = width/2
           if (width > 0) cycle
@@ -86,7 +84,7 @@ contains
         place = place + width
         if (.not. back) then
           found = stops
-          normal%left = control%stop_speed
+          normal%residual_speed = control%stop_speed
           if (has_stopped(normal, control%stop_speed)) return
         end if
         if (width < widest .and. modulo(place, 2*width) == 0) width = 2*width
@@ -123,17 +121,18 @@ contains
       end if
     end subroutine solve_from
 
-    !> No panel is wider than half the one that the coarser run has at a place. beside: the first of those that may be there.
-    subroutine halve_coarser(back, place, beside, width)
+    !> No panel is wider than half the one that the coarser run has at a place.
+    subroutine halve_coarser(back, place, width)
       logical, intent(in) :: back
       integer(ip), intent(in) :: place
-      integer(ip), intent(inout) :: beside, width
-      do while (beside <= control%n_coarse)
-        if (passed(coarse(beside)%to, back) > place) exit
-        beside = beside + 1
-      end do
-      if (beside <= control%n_coarse) &
-        width = max(1_ip, min(width, (passed(coarse(beside)%to, back) - passed(coarse(beside)%from, back))/2))
+      integer(ip), intent(inout) :: width
+      integer(ip) :: first, last, i
+      first = merge(control%n_coarse_compression, 0_ip, back) + 1
+      last = merge(control%n_coarse, control%n_coarse_compression, back)
+      if (first > last) return
+      i = first - 1 + range_at(place + 0.5_dp, real(passed(coarse(first:last)%from, back), dp))
+      if (passed(coarse(i)%to, back) > place) &
+        width = max(1_ip, min(width, (passed(coarse(i)%to, back) - passed(coarse(i)%from, back))/2))
     end subroutine halve_coarser
 
     !> Rounding ends the panels. What is left after the compression may be too slow to matter.
@@ -141,15 +140,15 @@ contains
       integer(ip), intent(out) :: found
       found = does_not_converge
       if (normal%n_panels == 0) return
-      normal%left = fastest_later(normal)
-      if (.not. normal%left < largest_unresolved_rebound) return
+      normal%residual_speed = fastest_later(normal)
+      if (.not. normal%residual_speed < largest_unresolved_rebound) return
       found = stops
       normal%n_panels = normal%n_compression
     end subroutine give_up
   end subroutine follow_normal
 
   !> How far a phase has come at an angle.
-  pure function passed(angle, back) result(place)
+  elemental function passed(angle, back) result(place)
     real(dp), intent(in) :: angle
     logical, intent(in) :: back
     integer(ip) :: place
@@ -162,12 +161,10 @@ contains
   pure function width_at(place, n, panel) result(width)
     integer(ip), intent(in) :: place, n
     type(panel_type), intent(in) :: panel(n)
-    integer(ip) :: width, i
-    i = n
-    do while (i > 1 .and. nint(panel(i)%from/unit, ip) >= place)
-      i = i - 1
-    end do
-    width = nint(panel(i)%to/unit, ip) - nint(panel(i)%from/unit, ip)
+    integer(ip) :: width
+    associate (on => panel(range_at((place - 0.5_dp)*unit, panel%from)))
+      width = nint(on%to/unit, ip) - nint(on%from/unit, ip)
+    end associate
   end function width_at
 
   !> The start of a panel is the end of the one before, and the first one starts at first touch.
@@ -197,12 +194,12 @@ contains
 
   !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
   !> restitution follows from slopes of what the compression left.
-  pure function missed(r, panel, back) result(most)
-    real(dp), intent(in) :: r
+  pure function missed(scale, panel, back) result(most)
+    real(dp), intent(in) :: scale
     type(panel_type), intent(in) :: panel
     logical, intent(in) :: back
     real(dp) :: most
-    most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/r, &
+    most = max(last_coefficient(panel%velocity), last_coefficient(panel%radius)/scale, &
                last_coefficient(panel%time)/panel%time(stages))
     if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
   end function missed

@@ -4,7 +4,7 @@ module rst_panel
   use rst_collocation, only: stages, weights_at
   implicit none (type, external)
   private
-  public :: panel_type, normal_type, place_on, find_angle
+  public :: panel_type, normal_type, place_on, find_angle, range_at
 
   !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression
   !> and downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.
@@ -13,10 +13,10 @@ module rst_panel
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> The normal motion of a solid, views of the caller's arrays. radius: the scale r of A in theta; closeness: when iterations end;
-  !> left: the speed that a sphere that has stopped will not exceed.
+  !> The normal motion of a solid, views of the caller's arrays. scale: r of A in theta; closeness: when iterations end;
+  !> residual_speed: the speed that a sphere that has stopped will not exceed.
   type :: normal_type
-    real(dp) :: eta, radius, closeness, left
+    real(dp) :: eta, scale, closeness, residual_speed
     integer(ip) :: n_arms, n_compression, n_panels
     real(dp), pointer, contiguous :: g(:), rate(:)
     type(panel_type), pointer, contiguous :: panel(:)
@@ -34,16 +34,25 @@ contains
     type(panel_type), intent(in) :: panel(n_panels)
     integer(ip), intent(out) :: p
     real(dp), intent(out) :: weight(0:stages)
-    integer(ip) :: last, middle
-    p = 1
-    last = n_panels
-    do while (p < last)
-      middle = (p + last + 1)/2
-      if (theta < panel(middle)%from) last = middle - 1
-      if (theta >= panel(middle)%from) p = middle
-    end do
+    p = range_at(theta, panel%from)
     weight = weights_at(place_on(panel(p), theta))
   end subroutine find_angle
+
+  !> The last range that begins at theta or before, or else the first one; `from` rises.
+  pure function range_at(theta, from) result(i)
+    real(dp), intent(in) :: theta, from(:)
+    integer(ip) :: i, last, middle
+    i = 1
+    last = size(from, kind=ip)
+    do while (i < last)
+      middle = (i + last + 1)/2
+      if (theta < from(middle)) then
+        last = middle - 1
+      else
+        i = middle
+      end if
+    end do
+  end function range_at
 
   !> x of an angle on the panel.
   pure function place_on(panel, theta) result(x)

@@ -1,309 +1,266 @@
 !> One piece of the tangential motion, up to the next event (docs/sync.md).
 module rst_slip
+  use rst_friction_mode, only: mode_no_slip
   use rst_precision, only: dp, ip
-  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, weights_at, applied, &
-                             factors_type, factorize, solution_of, &
-                             has_converged
+  use rst_motion_factors, only: shear_factor
+  use rst_collocation, only: stages, point, integral, integrated, last_coefficient, start_of, root_between, value_on, applied, &
+                             factors_type, factorize, solution_of, has_converged
+  use rst_tuning, only: most_steps, diverges_above, most_secants, search_part, narrowest, shortest_piece, shortest, at_edge
   use rst_panel, only: normal_type
-  use rst_store, only: contact_type, store_type
-  use rst_piece, only: ground_type, lay_ground, stick, advance_memory, push_factor, value_on
-  use rst_front, only: element_type, slack_type, look_at, find_front, held_by
+  use rst_store, only: contact_type, store_type, sticks
+  use rst_piece, only: interval_type, set_interval, stick, advance_memory
+  use rst_front, only: element_type, margin_type, element_at, find_front, memory_force_at
   implicit none (type, external)
   private
-  public :: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
+  public :: solution_type, take_piece, solved, sticks_again, no_event, slip_begins, stick_ends, slip_reverses
 
   integer(ip), parameter :: solved = 0, sticks_again = 1
 
-  !> Events that end a piece: slip sets in at the edge of a growing contact; the last element sticks no more; all that slipped has
-  !> left the shrinking contact.
-  integer(ip), parameter :: nothing = 0, slip_begins = 1, stick_ends = 2, slip_leaves = 3
+  !> Events that end a piece: slip sets in at the edge of a growing contact; the last element sticks no more; the edge of the
+  !> shrinking contact is at the front, so that no element slips, and slip the other way begins.
+  enum, bind(c)
+    enumerator :: no_event, slip_begins, stick_ends, slip_reverses
+  end enum
 
-  integer(ip), parameter :: most_iterations = 20, most_secants = 15
-  !> Part of the roughness that may be left of the slack at the edge when slip leaves. Nobody slips there then. (Slip that begins too
-  !> early or too late may look as if it stuck again, and stick may end in all elements at once.)
-  real(dp), parameter :: at_edge = 0.1_dp
-  real(dp), parameter :: narrowest = 1.0e-7_dp  !! part of a panel down to which pieces are halved
-  real(dp), parameter :: shortest_piece = 0.02_dp !! below this width of a piece slip that turns back is reported as re-stick
-  real(dp), parameter :: empty = 1.0e-13_dp     !! a piece shorter than that is none
+  !> What became of a try to solve a piece: Newton's steps do not converge, or polynomials miss too much; elements that slipped
+  !> would stick again; the piece is solved.
+  enum, bind(c)
+    enumerator :: too_wide, turns_back, good
+  end enum
 
-  !> U', S, stick radius and angle of the front at the points; what is zero at the event that may end the piece: D' - |U'| in
-  !> stick, else the slack at the centre and at the edge. returns: elements that slipped would stick again.
+  !> U', S, stick radius and angle of the front at the points; what is zero at the events: lead = D' - |U'| in stick, else the
+  !> stick margin at the centre and at the edge.
   type :: solution_type
-    real(dp), dimension(0:stages) :: w, force, stick, front, centre, edge
-    logical :: returns
+    real(dp), dimension(0:stages) :: shear_velocity, shear_force, stick_radius, front, lead, centre_margin, edge_margin
+    integer(kind(good)) :: quality
   end type solution_type
 
 contains
 
   !> The next piece from x on: the rest of the panel, or less where its polynomial misses too much or an event ends it.
-  !> s%w(0) and the starts of now_x, now_l are given.
-  subroutine take_piece(normal, contact, store, panel, x, side, ground, s, event, found)
+  !> s%shear_velocity(0) and the starts of memory_x and loading_x are given.
+  subroutine take_piece(normal, contact, store, panel, x, sense, interval, s, event, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: x, side
-    type(ground_type), intent(out) :: ground
+    real(dp), intent(in) :: x
+    integer(kind(sticks)), intent(in) :: sense
+    type(interval_type), intent(out) :: interval
     type(solution_type), intent(inout) :: s
-    integer(ip), intent(out) :: event, found
+    integer(kind(no_event)), intent(out) :: event
+    integer(ip), intent(out) :: found
     real(dp) :: to, place
-    logical :: fails
     to = 1
     found = sticks_again
     do
-      ground%panel = panel
-      ground%from = x
-      ground%to = to
-      ground%rooted = .false.
-      call solve_piece(normal, contact, store, side, .false., ground, s, fails)
-      event = nothing
-      if (.not. fails) call next_event(contact, ground, side, s, event, place)
-      if (event == slip_begins) then
-        fails = last_coefficient(s%w) > contact%roughness
-        if (.not. fails) call cut(normal, place, store, ground, s)
-      else if (event /= nothing) then
+      interval%panel = panel
+      interval%from = x
+      interval%to = to
+      interval%rooted = .false.
+      call solve_piece(normal, contact, store, sense, .false., interval, s)
+      event = no_event
+      if (s%quality /= too_wide) call next_event(contact, interval, sense, s, event, place)
+      if (event == slip_begins .and. last_coefficient(s%shear_velocity) > contact%roughness) then
+        s%quality = too_wide
+      else if (event /= no_event) then
         to = x + place*(to - x)
-        call end_at(normal, contact, store, to, side, event, ground, s, fails)
+        call end_at(normal, contact, store, to, sense, event, interval, s)
       end if
-      if (.not. fails) then
-        if (.not. s%returns .and. last_coefficient(s%w) <= contact%roughness) exit
-        if (s%returns .and. to - x < shortest_piece) return
-      end if
+      if (s%quality == good .and. last_coefficient(s%shear_velocity) <= contact%roughness) exit
+      if (s%quality == turns_back .and. to - x < shortest_piece) return
       to = x + 0.5_dp*(to - x)
       if (to - x < narrowest) return
     end do
     found = solved
   end subroutine take_piece
 
-  !> The piece of which `ground` has the range.
-  subroutine solve_piece(normal, contact, store, side, warm, ground, s, fails)
+  !> The piece of which `interval` has the range. warm: s%shear_velocity and s%front are a guess.
+  subroutine solve_piece(normal, contact, store, sense, warm, interval, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
-    real(dp), intent(in) :: side
-    logical, intent(in) :: warm  !! s%w and s%front are a guess
-    type(ground_type), intent(inout) :: ground
+    integer(kind(sticks)), intent(in) :: sense
+    logical, intent(in) :: warm
+    type(interval_type), intent(inout) :: interval
     type(solution_type), intent(inout) :: s
-    logical, intent(out) :: fails
-    real(dp) :: held(stages)
-    integer(ip) :: i
-    call lay_ground(normal, store, ground, fails)
+    logical :: fails
+    s%quality = too_wide
+    call set_interval(normal, store, interval, fails)
     if (fails) return
-    if (abs(side) > 0) then
-      call slip_behind(normal, contact, store, ground, side, warm, s, fails)
-      return
+    if (sense == sticks) then
+      call stick_all(normal, contact, store, interval, s)
+    else
+      call slip_behind(normal, contact, store, interval, sense, warm, s)
     end if
-    held = 0
-    if (ground%returning) then
-      do i = 1, stages
-        held(i) = held_by(normal, store, ground%time(i), ground%angle(i))
-      end do
-    end if
-    call stick(normal, contact, ground, held, s%w, s%force, store, fails)
-    s%force(0) = start_of(s%force(1:))
-    s%stick = ground%radius
-    s%edge = 1
-    s%centre = ground%velocity - abs(s%w)
-    s%returns = .false.
   end subroutine solve_piece
 
-  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements that stick do.
-  subroutine slip_behind(normal, contact, store, ground, side, warm, s, fails)
+  !> All elements stick.
+  subroutine stick_all(normal, contact, store, interval, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
-    type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side
+    type(interval_type), intent(in) :: interval
+    type(solution_type), intent(inout) :: s
+    real(dp) :: memory_force(stages)
+    logical :: fails
+    integer(ip) :: i
+    memory_force = 0
+    if (interval%returning) then
+      do i = 1, stages
+        memory_force(i) = memory_force_at(normal, store, interval%time(i), interval%angle(i))
+      end do
+    end if
+    call stick(normal, contact, interval, memory_force, s%shear_velocity, s%shear_force, store, fails)
+    if (fails) return
+    s%shear_force(0) = start_of(s%shear_force(1:))
+    s%stick_radius = interval%radius
+    s%lead = interval%velocity - abs(s%shear_velocity)
+    s%quality = good
+  end subroutine stick_all
+
+  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements that stick do.
+  subroutine slip_behind(normal, contact, store, interval, sense, warm, s)
+    type(normal_type), intent(in) :: normal
+    type(contact_type), intent(in) :: contact
+    type(store_type), intent(inout) :: store
+    type(interval_type), intent(in) :: interval
+    integer(kind(sticks)), intent(in) :: sense
     logical, intent(in) :: warm
     type(solution_type), intent(inout) :: s
-    logical, intent(out) :: fails
-    type(element_type) :: edge(0:stages)
+    type(element_type) :: outermost(0:stages)
     type(factors_type) :: factors
-    real(dp) :: matrix(stages, stages), step(stages), push, change, previous, near
+    real(dp) :: matrix(stages, stages), step(stages), push, change, previous, accuracy
+    logical :: fails
     integer(ip) :: i, j, n
-    push = push_factor(contact)
-    call look_at_edges(normal, store, ground, side, edge)
-    s%front(0) = edge_of(store, ground, 0_ip)
-    near = sqrt(0.1_dp*contact%noise) ! a front that is at rest is then not taken for one that moves outward
-    call slacken(normal, store, ground, side, near, edge(0), 0_ip, s)
-    if (.not. warm) s%w(1:) = s%w(0) - push*s%force(0)*(ground%time(1:) - ground%time(0))
+    push = shear_factor*contact%chi
+    do i = 0, stages
+      call element_at(normal, store, interval%time(i), sense, outermost_angle(store, interval, i), outermost(i))
+    end do
+    s%front(0) = outermost_angle(store, interval, 0_ip)
+    accuracy = sqrt(search_part*contact%noise) ! a front that is at rest is then not taken for one that moves outward
+    call find_margin(normal, store, interval, sense, accuracy, outermost(0), 0_ip, s)
+    if (.not. warm) s%shear_velocity(1:) = s%shear_velocity(0) - push*s%shear_force(0)*(interval%time(1:) - interval%time(0))
     previous = 1
-    do n = 1, most_iterations
-      call advance_memory(normal, ground, s%w(1:), store)
+    do n = 1, most_steps
+      call advance_memory(normal, interval, s%shear_velocity(1:), store)
       do i = 1, stages
         if (n == 1 .and. .not. warm) s%front(i) = s%front(i - 1)
-        call slacken(normal, store, ground, side, near, edge(i), i, s)
+        call find_margin(normal, store, interval, sense, accuracy, outermost(i), i, s)
       end do
       do j = 1, stages
-        matrix(:, j) = push*applied(integral, ground%span*s%stick(1:)*ground%answer(:, j))
+        matrix(:, j) = push*applied(integral, interval%span*s%stick_radius(1:)*interval%answer(:, j))
         matrix(j, j) = 1 + matrix(j, j)
       end do
       call factorize(matrix, factors, fails)
       if (fails) return
-      step = solution_of(factors, integrated(s%w(0), -push*ground%span*s%force(1:)) - s%w(1:))
-      s%w(1:) = s%w(1:) + step
+      step = solution_of(factors, integrated(s%shear_velocity(0), -push*interval%span*s%shear_force(1:)) - s%shear_velocity(1:))
+      s%shear_velocity(1:) = s%shear_velocity(1:) + step
       change = maxval(abs(step))
-      fails = .not. change < 1.0e3_dp
-      if (fails) return
+      if (.not. change < diverges_above) return
       if (has_converged(change, previous, contact%closeness)) exit
       previous = change
     end do
-    fails = n > most_iterations
-    if (fails) return
-    call advance_memory(normal, ground, s%w(1:), store)
+    if (n > most_steps) return
+    call advance_memory(normal, interval, s%shear_velocity(1:), store)
     do i = 1, stages
-      s%centre(i) = slack_at_centre(normal, store, ground, side, i, s%w(i))
-      s%edge(i) = s%centre(i) - edge(i)%taken
+      s%centre_margin(i) = margin_at_centre(normal, store, interval, sense, i, s%shear_velocity(i))
+      s%edge_margin(i) = s%centre_margin(i) - outermost(i)%deficit
     end do
-    s%force(1:) = s%force(1:) + s%stick(1:)*applied(ground%answer, step) ! by the last step
-    s%returns = any(s%front(1:) > s%front(:stages - 1) + contact%noise)
-    if (.not. ground%returning) s%returns = s%returns .or. any(ground%velocity(1:) > side*s%w(1:) + contact%noise)
+    s%shear_force(1:) = s%shear_force(1:) + s%stick_radius(1:)*applied(interval%answer, step) ! by the last step
+    s%quality = good
+    if (any(s%front(1:) > s%front(:stages - 1) + contact%noise)) s%quality = turns_back
+    if (interval%returning) return
+    if (any(interval%velocity(1:) > sense*s%shear_velocity(1:) + contact%noise)) s%quality = turns_back
   end subroutine slip_behind
 
-  !> At every point, the outermost element that may stick.
-  subroutine look_at_edges(normal, store, ground, side, edge)
+  !> Front, stick margin and S at the point i.
+  subroutine find_margin(normal, store, interval, sense, accuracy, outermost, i, s)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side
-    type(element_type), intent(out) :: edge(0:stages)
-    integer(ip) :: i
-    do i = 0, stages
-      call look_at(normal, store, ground%time(i), side, edge_of(store, ground, i), edge(i))
-    end do
-  end subroutine look_at_edges
-
-  !> Front, slack and S at the point i.
-  subroutine slacken(normal, store, ground, side, near, edge, i, s)
-    type(normal_type), intent(in) :: normal
-    type(store_type), intent(in) :: store
-    type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side, near  !! see slack_type
-    type(element_type), intent(in) :: edge
+    type(interval_type), intent(in) :: interval
+    integer(kind(sticks)), intent(in) :: sense
+    real(dp), intent(in) :: accuracy  !! see margin_type
+    type(element_type), intent(in) :: outermost
     integer(ip), intent(in) :: i
     type(solution_type), intent(inout) :: s
-    type(slack_type) :: slack
-    slack%near = near
-    slack%angle = s%front(i)
-    slack%centre = slack_at_centre(normal, store, ground, side, i, s%w(i))
-    call find_front(normal, store, ground%time(i), side, edge_of(store, ground, i), edge, slack)
-    s%front(i) = slack%angle
-    s%stick(i) = slack%radius
-    s%centre(i) = slack%centre
-    s%edge(i) = slack%edge
-    s%force(i) = side*(ground%force(i) - slack%force)
-  end subroutine slacken
+    type(margin_type) :: margin
+    margin%accuracy = accuracy
+    margin%angle = s%front(i)
+    margin%at_centre = margin_at_centre(normal, store, interval, sense, i, s%shear_velocity(i))
+    call find_front(normal, store, interval%time(i), sense, outermost_angle(store, interval, i), outermost, margin)
+    s%front(i) = margin%angle
+    s%stick_radius(i) = margin%stick_radius
+    s%centre_margin(i) = margin%at_centre
+    s%edge_margin(i) = margin%at_edge
+    s%shear_force(i) = sense*(interval%force(i) - margin%force)
+  end subroutine find_margin
 
-  pure function slack_at_centre(normal, store, ground, side, i, w) result(slack)
+  pure function margin_at_centre(normal, store, interval, sense, i, shear_velocity) result(margin)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
-    type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side, w
+    type(interval_type), intent(in) :: interval
+    integer(kind(sticks)), intent(in) :: sense
     integer(ip), intent(in) :: i
-    real(dp) :: slack
-    slack = normal%eta*(ground%velocity(i) - side*w) + sum(store%now_z(i, :) - side*store%now_x(i, :))
-  end function slack_at_centre
+    real(dp), intent(in) :: shear_velocity
+    real(dp) :: margin
+    margin = normal%eta*(interval%velocity(i) - sense*shear_velocity) + sum(store%memory_z(i, :) - sense*store%memory_x(i, :))
+  end function margin_at_centre
 
   !> The angle of the outermost element that may stick: recorded, and in contact.
-  pure function edge_of(store, ground, i) result(edge)
+  pure function outermost_angle(store, interval, i) result(angle)
     type(store_type), intent(in) :: store
-    type(ground_type), intent(in) :: ground
+    type(interval_type), intent(in) :: interval
     integer(ip), intent(in) :: i
-    real(dp) :: edge
-    edge = store%record(store%n_records)%to
-    if (ground%returning) edge = min(edge, ground%angle(i))
-  end function edge_of
+    real(dp) :: angle
+    angle = store%record(store%n_records)%to
+    if (interval%returning) angle = min(angle, interval%angle(i))
+  end function outermost_angle
 
   !> The first event on the piece, and its place.
-  subroutine next_event(contact, ground, side, s, event, place)
+  subroutine next_event(contact, interval, sense, s, event, place)
     type(contact_type), intent(in) :: contact
-    type(ground_type), intent(in) :: ground
-    real(dp), intent(in) :: side
+    type(interval_type), intent(in) :: interval
+    integer(kind(sticks)), intent(in) :: sense
     type(solution_type), intent(in) :: s
-    integer(ip), intent(out) :: event
+    integer(kind(no_event)), intent(out) :: event
     real(dp), intent(out) :: place
     integer(ip) :: i
-    event = nothing
+    event = no_event
     place = 1
-    if (contact%no_slip /= 0) return
+    if (contact%mode == mode_no_slip) return
     do i = 1, stages
-      if (.not. abs(side) > 0 .and. s%centre(i) < -contact%roughness) then
+      if (sense == sticks) then
+        if (s%lead(i) >= -contact%roughness) cycle
         event = slip_begins ! the branch of |U'| at this point: where U' changes its sign, |U'| is no polynomial
-        place = first_rise(i, sign(1.0_dp, s%w(i))*s%w - ground%velocity)
-        return
-      end if
-      if (abs(side) > 0 .and. s%centre(i) < 0) then
+        place = first_rise(i, sign(1.0_dp, s%shear_velocity(i))*s%shear_velocity - interval%velocity)
+      else if (s%centre_margin(i) < 0) then
         event = stick_ends
-        place = first_rise(i, -s%centre)
-        return
+        place = first_rise(i, -s%centre_margin)
+      else if (interval%returning .and. s%edge_margin(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
+        event = slip_reverses
+        place = first_rise(i, s%edge_margin)
       end if
-      if (abs(side) > 0 .and. ground%returning .and. s%edge(i) > contact%noise*min(1.0_dp, contact%psi)*contact%stress) then
-        event = slip_leaves
-        place = first_rise(i, s%edge)
-        return
-      end if
+      if (event /= no_event) return
     end do
   end subroutine next_event
 
-  !> Keep a piece in stick up to a place on it, 0 to 1: the same polynomials at new points. Not kept up are force, span and answer
-  !> of the ground, and centre, edge and front.
-  subroutine cut(normal, place, store, ground, s)
-    type(normal_type), intent(in) :: normal
-    real(dp), intent(in) :: place
-    type(store_type), intent(inout) :: store
-    type(ground_type), intent(inout) :: ground
-    type(solution_type), intent(inout) :: s
-    real(dp) :: weight(0:stages, 0:stages), now(0:stages), up_to
-    integer(ip) :: i, k
-    up_to = merge(place, 0.0_dp, place*(ground%to - ground%from) > empty)
-    do i = 0, stages
-      weight(:, i) = weights_at(up_to*point(i))
-    end do
-    ground%to = ground%from + up_to*(ground%to - ground%from)
-    ground%angle = ground%angle(0) + up_to*(ground%angle - ground%angle(0))
-    ground%place = ground%place(0) + up_to*(ground%place - ground%place(0))
-    ground%radius = restricted(weight, ground%radius)
-    ground%time = restricted(weight, ground%time)
-    ground%velocity = restricted(weight, ground%velocity)
-    ground%pace = restricted(weight, ground%pace)
-    s%w = restricted(weight, s%w)
-    s%force = restricted(weight, s%force)
-    s%stick = ground%radius
-    do k = 1, normal%n_arms
-      now = store%now_z(:, k) ! compilers would copy components of derived types
-      store%now_z(:, k) = restricted(weight, now)
-      now = store%now_x(:, k)
-      store%now_x(:, k) = restricted(weight, now)
-      now = store%now_l(:, k)
-      store%now_l(:, k) = restricted(weight, now)
-    end do
-  end subroutine cut
-
-  pure function restricted(weight, y) result(z)
-    real(dp), intent(in) :: weight(0:stages, 0:stages), y(0:stages)
-    real(dp) :: z(0:stages)
-    integer(ip) :: i
-    do i = 0, stages
-      z(i) = sum(weight(:, i)*y)
-    end do
-  end function restricted
-
-  !> U' and front of the piece on `ground` at the points of one that starts where it does and ends at `to`, as a guess.
-  pure subroutine shorten(ground, to, rooted, s)
-    type(ground_type), intent(in) :: ground
+  !> U' and front of the piece on `interval` at the points of one that starts where it does and ends at `to`, as a guess.
+  pure subroutine shorten(interval, to, rooted, s)
+    type(interval_type), intent(in) :: interval
     real(dp), intent(in) :: to
     logical, intent(in) :: rooted
     type(solution_type), intent(inout) :: s
-    real(dp) :: w(0:stages), front(0:stages), place
+    real(dp) :: shear_velocity(0:stages), front(0:stages), place
     integer(ip) :: i
-    w = s%w
+    shear_velocity = s%shear_velocity
     front = s%front
     do i = 1, stages
       place = point(i)
       if (rooted) place = 1 - (1 - point(i))**2
-      place = place*(to - ground%from)/(ground%to - ground%from)
-      if (ground%rooted) place = 1 - sqrt(max(0.0_dp, 1 - place))
-      s%w(i) = value_on(place, w)
+      place = place*(to - interval%from)/(interval%to - interval%from)
+      if (interval%rooted) place = 1 - sqrt(max(0.0_dp, 1 - place))
+      s%shear_velocity(i) = value_on(place, shear_velocity)
       s%front(i) = value_on(place, front)
     end do
   end subroutine shorten
@@ -322,49 +279,57 @@ contains
     if (y(j - 1) < 0) place = root_between(j, y)
   end function first_rise
 
-  !> The piece that ends where stick or slip does, about at x = guess: its end is moved by secants until what is zero there is.
-  subroutine end_at(normal, contact, store, guess, side, event, ground, s, fails)
+  !> The piece that ends at an event, about at x = guess: its end is moved by secants until what is zero at the event is.
+  subroutine end_at(normal, contact, store, guess, sense, event, interval, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
-    real(dp), intent(in) :: guess, side
-    integer(ip), intent(in) :: event
-    type(ground_type), intent(inout) :: ground
+    real(dp), intent(in) :: guess
+    integer(kind(sticks)), intent(in) :: sense
+    integer(kind(no_event)), intent(in) :: event
+    type(interval_type), intent(inout) :: interval
     type(solution_type), intent(inout) :: s
-    logical, intent(out) :: fails
-    real(dp) :: to, miss, to_before, miss_before, slope
+    real(dp) :: to, miss(0:stages), enough, to_before, miss_before, slope
     integer(ip) :: n
     to = guess
     to_before = 0
     miss_before = 0
     do n = 1, most_secants
-      fails = .false.
-      if (to - ground%from <= empty) then
-        ground%to = ground%from
-        s%w = s%w(0)
-        s%returns = .false.
+      if (to - interval%from <= shortest) then
+        interval%to = interval%from
+        s%shear_velocity = s%shear_velocity(0)
+        store%memory_z(stages, :) = store%memory_z(0, :)
+        s%quality = good
         return
       end if
-      call shorten(ground, to, event == stick_ends, s)
-      ground%to = to
-      ground%rooted = event == stick_ends
-      call solve_piece(normal, contact, store, side, .true., ground, s, fails)
-      if (fails) return
-      miss = merge(s%edge(stages), s%centre(stages), event == slip_leaves)
-      if (abs(miss) <= merge(at_edge*contact%roughness, contact%closeness, event == slip_leaves)*contact%stress) return
+      call shorten(interval, to, event == stick_ends, s)
+      interval%to = to
+      interval%rooted = event == stick_ends
+      call solve_piece(normal, contact, store, sense, .true., interval, s)
+      if (s%quality == too_wide) return
+      select case (event)
+      case (slip_begins)
+        miss = s%lead
+        enough = contact%closeness
+      case (stick_ends)
+        miss = s%centre_margin
+        enough = contact%closeness*contact%stress
+      case default
+        miss = s%edge_margin
+        enough = at_edge*contact%roughness*contact%stress
+      end select
+      if (abs(miss(stages)) <= enough) return
       if (n == 1) then
-        slope = miss - merge(s%edge(stages - 1), s%centre(stages - 1), event == slip_leaves)
-        slope = slope/(to - ground%place(stages - 1))
+        slope = (miss(stages) - miss(stages - 1))/(to - interval%x(stages - 1))
       else
-        slope = (miss - miss_before)/(to - to_before)
+        slope = (miss(stages) - miss_before)/(to - to_before)
       end if
       to_before = to
-      miss_before = miss
-      fails = .not. abs(slope) > 0
-      if (fails) return
-      to = max(ground%from, to - miss/slope)
+      miss_before = miss(stages)
+      s%quality = too_wide
+      if (.not. abs(slope) > 0) return
+      to = max(interval%from, to - miss_before/slope)
       if (to > 1) to = 0.5_dp*(1 + to_before)
     end do
-    fails = .true.
   end subroutine end_at
 end module rst_slip

@@ -1,19 +1,19 @@
 !> The tangential motion of an impact, piece after piece (docs/sync.md): stick, partial slip behind a front, gross slip.
 module rst_tangential_motion
+  use rst_friction_mode, only: mode_gross_slip, mode_no_slip
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
-  use rst_panel, only: normal_type
-  use rst_store, only: contact_type, piece_type, store_type
-  use rst_piece, only: ground_type, lay_ground, advance_memory
-  use rst_slip, only: solution_type, take_piece, solved, sticks_again, nothing, slip_begins, stick_ends, slip_leaves
+  use rst_tuning, only: most_idle, steady, weightless
+  use rst_panel, only: normal_type, range_at
+  use rst_store, only: contact_type, piece_type, store_type, backward, sticks, forward
+  use rst_piece, only: interval_type, set_interval, advance_memory
+  use rst_slip, only: solution_type, take_piece, solved, sticks_again, no_event, slip_begins, stick_ends, slip_reverses
   implicit none (type, external)
   private
   public :: follow_contact, find_velocity, solved, sticks_again, lacks_pieces
 
   integer(ip), parameter :: lacks_pieces = 2  !! follow_contact was given too few
-  integer(ip), parameter :: most_idle = 2     !! events at one place, of which one undoes the other
-  real(dp), parameter :: steady = 1.0e-10_dp, weightless = 1.0e-12_dp  !! slip velocity, and slack, that are rounding
 
 contains
 
@@ -25,47 +25,64 @@ contains
     type(store_type), intent(inout) :: store
     real(dp), intent(out) :: velocity
     integer(ip), intent(out) :: found
-    type(ground_type) :: ground
+    type(interval_type) :: interval
     type(solution_type) :: s
-    integer(ip) :: panel, event, idle
-    real(dp) :: x, side
+    integer(kind(sticks)) :: sense
+    integer(kind(no_event)) :: event
+    integer(ip) :: panel, idle
+    real(dp) :: x
     call start(normal, contact, store, panel, x, velocity)
     found = lacks_pieces
     if (panel == 0) return
-    side = 0
+    sense = sticks
+    event = no_event
     idle = 0
-    event = nothing
     do while (panel <= normal%n_panels)
       found = lacks_pieces
       if (store%n_pieces >= size(store%piece) .or. store%n_records >= size(store%record)) return
-      if (.not. abs(side) > 0 .and. panel > normal%n_compression .and. contact%no_slip == 0) &
-        side = sign(1.0_dp, velocity) ! the edge of a shrinking contact slips
-      s%w(0) = velocity
-      call take_piece(normal, contact, store, panel, x, side, ground, s, event, found)
+      if (sense == sticks .and. panel > normal%n_compression .and. contact%mode /= mode_no_slip) &
+        sense = sense_of(velocity) ! the edge of a shrinking contact slips
+      s%shear_velocity(0) = velocity
+      call take_piece(normal, contact, store, panel, x, sense, interval, s, event, found)
       if (found /= solved) return
-      velocity = s%w(stages)
-      if (ground%to > x) then
-        call keep(normal, side, ground, s, store)
-        idle = 0
-      else
-        idle = idle + 1
-        found = sticks_again
-        if (idle > most_idle) return
-      end if
-      x = ground%to
-      if (event == slip_begins) side = sign(1.0_dp, velocity)
-      if (event == slip_begins .and. (store%n_records == 0 .or. sum(store%now_z(stages, :) - side*store%now_x(0, :)) &
-                                      < weightless*contact%stress)) event = stick_ends ! nothing has stuck, or but in rounding
+      velocity = s%shear_velocity(stages)
+      idle = idle + 1
+      if (interval%to > x) idle = 0
+      if (idle == 0) call keep(normal, sense, interval, s, store)
+      found = sticks_again
+      if (idle > most_idle) return
+      x = interval%to
+      select case (event)
+      case (slip_begins)
+        sense = sense_of(velocity)
+        if (.not. has_stuck(contact, sense, store)) event = stick_ends
+      case (slip_reverses)
+        sense = -sense
+      end select
       if (event == stick_ends) exit
-      if (event == slip_leaves) side = -side
       if (x >= 1) then
         panel = panel + 1
         x = 0
       end if
     end do
     found = solved
-    if (event == stick_ends) call slide(normal, contact, store, panel, x, side, velocity, found)
+    if (event == stick_ends) call slide(normal, contact, store, panel, x, sense, velocity, found)
   end subroutine follow_contact
+
+  pure function sense_of(velocity) result(sense)
+    real(dp), intent(in) :: velocity
+    integer(kind(sticks)) :: sense
+    sense = merge(backward, forward, velocity < 0)
+  end function sense_of
+
+  !> Whether elements stick at the end of a piece in stick, and not in rounding alone: the one at the centre has a margin.
+  pure function has_stuck(contact, sense, store) result(yes)
+    type(contact_type), intent(in) :: contact
+    integer(kind(sticks)), intent(in) :: sense
+    type(store_type), intent(in) :: store
+    logical :: yes
+    yes = store%n_records > 0 .and. sum(store%memory_z(stages, :) - sense*store%memory_x(0, :)) >= weightless*contact%stress
+  end function has_stuck
 
   !> First touch, or the end of gross slip, at which D' = U': until then an element has the same stress in x as in z. panel is 0 if
   !> there is no room for the records of it.
@@ -83,12 +100,12 @@ contains
     if (size(store%record) < normal%n_compression) return
     store%n_records = 0
     store%n_pieces = 0
-    store%now_x(0, :) = 0
-    store%now_l(0, :) = 0
+    store%memory_x(0, :) = 0
+    store%loading_x(0, :) = 0
     panel = 1
     x = 0
     velocity = contact%psi
-    if (.not. contact%psi > 1 .or. contact%no_slip /= 0) return
+    if (contact%mode /= mode_gross_slip) return
     velocity = (2*contact%chi - contact%psi)/(2*contact%chi - 1)
     call find_velocity(normal, velocity, panel, x)
     do k = 1, min(panel, normal%n_compression)
@@ -101,8 +118,8 @@ contains
     end if
     weight = weights_at(x)
     do k = 1, normal%n_arms
-      store%now_x(0, k) = sum(weight*normal%memory(:, k, panel))
-      if (panel <= normal%n_compression) store%now_l(0, k) = sum(weight*normal%loading(:, k, panel))
+      store%memory_x(0, k) = sum(weight*normal%memory(:, k, panel))
+      if (panel <= normal%n_compression) store%loading_x(0, k) = sum(weight*normal%loading(:, k, panel))
     end do
   end subroutine start
 
@@ -114,10 +131,7 @@ contains
     real(dp), intent(out) :: x
     real(dp) :: above(0:stages)
     integer(ip) :: i
-    panel = 1
-    do while (normal%panel(panel)%velocity(stages) > velocity .and. panel < normal%n_panels)
-      panel = panel + 1
-    end do
+    panel = range_at(-velocity, -normal%panel(:normal%n_panels)%velocity(0))
     above = normal%panel(panel)%velocity - velocity
     i = 1
     x = 1
@@ -140,123 +154,129 @@ contains
       store%record(panel)%to = on%to
       store%record(panel)%end = on%to
       do i = 0, stages
-        store%record(panel)%edge(:, i) = [on%radius(i), on%time(i), on%velocity(i)*on%pace(i), on%velocity(i)*on%pace(i)]
+        store%record(panel)%touch(:, i) = [on%radius(i), on%time(i), on%velocity(i)*on%pace(i), on%velocity(i)*on%pace(i)]
       end do
     end associate
     do k = 1, normal%n_arms
       do i = 0, stages
-        store%held(1:2, i, k, panel) = 0
-        store%held(3:4, i, k, panel) = 2*[normal%memory(i, k, panel), normal%loading(i, k, panel)]
+        store%corrective(1:2, i, k, panel) = 0
+        store%corrective(3:4, i, k, panel) = 2*[normal%memory(i, k, panel), normal%loading(i, k, panel)]
       end do
     end do
   end subroutine record_slip
 
   !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end starts the next one.
-  subroutine keep(normal, side, ground, s, store)
+  subroutine keep(normal, sense, interval, s, store)
     type(normal_type), intent(in) :: normal
-    real(dp), intent(in) :: side
-    type(ground_type), intent(in) :: ground
+    integer(kind(sticks)), intent(in) :: sense
+    type(interval_type), intent(in) :: interval
     type(solution_type), intent(in) :: s
     type(store_type), intent(inout) :: store
     real(dp) :: weight(0:stages), loading
     integer(ip) :: n, i, k
     store%n_pieces = store%n_pieces + 1
-    store%piece(store%n_pieces) = piece_type(ground%panel, merge(1_ip, 0_ip, ground%rooted), ground%from, ground%to, s%w, &
-                                             s%force, s%stick)
-    if (.not. abs(side) > 0 .and. .not. ground%returning) then
+    store%piece(store%n_pieces) = piece_type(interval%panel, merge(1_ip, 0_ip, interval%rooted), interval%from, interval%to, &
+                                             s%shear_velocity, s%shear_force, s%stick_radius)
+    if (sense == sticks .and. .not. interval%returning) then
       n = store%n_records + 1
       store%n_records = n
-      store%record(n)%from = ground%angle(0)
-      store%record(n)%to = ground%angle(stages)
-      store%record(n)%end = ground%angle(stages)
+      store%record(n)%from = interval%angle(0)
+      store%record(n)%to = interval%angle(stages)
+      store%record(n)%end = interval%angle(stages)
       do i = 0, stages
-        store%record(n)%edge(:, i) = [ground%radius(i), ground%time(i), ground%velocity(i)*ground%pace(i), s%w(i)*ground%pace(i)]
-        weight = weights_at(ground%place(i))
+        store%record(n)%touch(:, i) = [interval%radius(i), interval%time(i), interval%velocity(i)*interval%pace(i), &
+                                       s%shear_velocity(i)*interval%pace(i)]
+        weight = weights_at(interval%x(i))
         do k = 1, normal%n_arms
-          loading = sum(weight*normal%loading(:, k, ground%panel))
-          store%held(:, i, k, n) = [store%now_z(i, k) - store%now_x(i, k), loading - store%now_l(i, k), &
-                                    store%now_z(i, k) + store%now_x(i, k), loading + store%now_l(i, k)]
+          loading = sum(weight*normal%loading(:, k, interval%panel))
+          store%corrective(:, i, k, n) = [store%memory_z(i, k) - store%memory_x(i, k), loading - store%loading_x(i, k), &
+                                    store%memory_z(i, k) + store%memory_x(i, k), loading + store%loading_x(i, k)]
         end do
       end do
     end if
     do k = 1, normal%n_arms
-      store%now_x(0, k) = store%now_x(stages, k)
-      store%now_l(0, k) = store%now_l(stages, k)
+      store%memory_x(0, k) = store%memory_x(stages, k)
+      store%loading_x(0, k) = store%loading_x(stages, k)
     end do
   end subroutine keep
 
-  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its slack y
-  !> stays 0, which asks for the velocity v, and it slips with v - v_d.
-  subroutine slide(normal, contact, store, panel, x, side, velocity, found)
+  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its stick
+  !> margin y stays 0, which asks for the velocity v, and it slips with v - v_d.
+  subroutine slide(normal, contact, store, panel, x, sense, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: x, side
+    real(dp), intent(in) :: x
+    integer(kind(sticks)), intent(in) :: sense
     real(dp), intent(inout) :: velocity
     integer(ip), intent(out) :: found
-    type(ground_type) :: ground
+    type(interval_type) :: interval
     type(solution_type) :: s
     real(dp) :: from, weight(0:stages)
+    real(dp), pointer, contiguous :: m(:, :) !! m_k of the element at the centre
     integer(ip) :: p, k
     logical :: lasts
     from = x
     weight = weights_at(x)
-    do k = 1, normal%n_arms ! from now on now_l is the slack that the arms of the element at the centre have
-      store%now_l(0, k) = sum(weight*normal%memory(:, k, panel)) - side*store%now_x(0, k)
+    m => store%loading_x ! which gross slip does not need
+    do k = 1, normal%n_arms
+      m(0, k) = sum(weight*normal%memory(:, k, panel)) - sense*store%memory_x(0, k)
     end do
     do p = panel, normal%n_panels
       found = lacks_pieces
       if (store%n_pieces >= size(store%piece)) return
       if (from < 1) then
-        s%w(0) = velocity
-        call slide_piece(normal, contact, store, p, from, side, ground, s, lasts)
+        s%shear_velocity(0) = velocity
+        call slide_piece(normal, contact, store, p, from, sense, m, interval, s, lasts)
         found = sticks_again
         if (.not. lasts) return
-        velocity = s%w(stages)
-        call keep(normal, side, ground, s, store)
+        velocity = s%shear_velocity(stages)
+        call keep(normal, sense, interval, s, store)
       end if
       from = 0
     end do
     found = solved
   end subroutine slide
 
-  subroutine slide_piece(normal, contact, store, panel, from, side, ground, s, lasts)
+  subroutine slide_piece(normal, contact, store, panel, from, sense, m, interval, s, lasts)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
     type(store_type), intent(inout) :: store
     integer(ip), intent(in) :: panel
-    real(dp), intent(in) :: from, side
-    type(ground_type), intent(out) :: ground
+    real(dp), intent(in) :: from
+    integer(kind(sticks)), intent(in) :: sense
+    real(dp), pointer, contiguous, intent(in) :: m(:, :)
+    type(interval_type), intent(out) :: interval
     type(solution_type), intent(inout) :: s
     logical, intent(out) :: lasts
-    real(dp) :: kept(stages), velocity(stages), slip(stages)
+    real(dp) :: known(stages), velocity(stages), slip(stages)
     type(factors_type) :: factors
     integer(ip) :: i, k
     logical :: fails
-    ground%panel = panel
-    ground%from = from
-    ground%to = 1
-    ground%rooted = .false.
+    interval%panel = panel
+    interval%from = from
+    interval%to = 1
+    interval%rooted = .false.
     lasts = .false.
-    call lay_ground(normal, store, ground, fails)
+    call set_interval(normal, store, interval, fails)
     if (fails) return
-    s%w(1:) = s%w(0) + 2*contact%chi*side*(ground%velocity(1:) - ground%velocity(0))
-    s%force = side*ground%force
-    s%stick = 0
-    kept = 0
+    s%shear_velocity(1:) = s%shear_velocity(0) + 2*contact%chi*sense*(interval%velocity(1:) - interval%velocity(0))
+    s%shear_force = sense*interval%force
+    s%stick_radius = 0
+    known = 0
     do k = 1, normal%n_arms
-      kept = kept + store%kernel(:, 0, k)*store%now_l(0, k)
+      known = known + store%kernel(:, 0, k)*m(0, k)
     end do
-    call factorize(ground%answer, factors, fails)
+    call factorize(interval%answer, factors, fails)
     if (fails) return
-    velocity = solution_of(factors, -kept)
-    slip = velocity - (ground%velocity(1:) - side*s%w(1:))
-    call advance(normal%g, ground%span, store%kernel, velocity, store%now_l)
+    velocity = solution_of(factors, -known)
+    slip = velocity - (interval%velocity(1:) - sense*s%shear_velocity(1:))
+    call advance(normal%g, interval%span, store%kernel, velocity, m)
     lasts = .true.
     do i = 1, stages
-      lasts = lasts .and. slip(i)*abs(ground%answer(i, i)) >= -steady*abs(ground%answer(i, i)) - weightless*contact%stress
+      lasts = lasts .and. slip(i)*abs(interval%answer(i, i)) >= -steady*abs(interval%answer(i, i)) - weightless*contact%stress
     end do
-    call advance_memory(normal, ground, s%w(1:), store)
+    call advance_memory(normal, interval, s%shear_velocity(1:), store)
   end subroutine slide_piece
 end module rst_tangential_motion

@@ -3,8 +3,8 @@
 #ifndef RST_CLOCK_H
 #define RST_CLOCK_H
 
-/* Processor time of the calling thread, in s: neither other threads nor other programs spend it. Where a system does not
- * tell it, the time of day. */
+/* Processor time of the calling thread, in s: neither other threads nor other programs spend it. On
+ * systems without such a clock: the time of day. */
 double rst_clock(void);
 
 #endif

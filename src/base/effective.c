@@ -50,7 +50,8 @@ static double instantaneous_compliance(const restitute_material *material)
     return 1 / modulus;
 }
 
-/* Poisson ratio and Dundurs' beta of the pair. Two dashpots share their compliance by their viscosities. */
+/* Poisson ratio and Dundurs' beta of the pair. Of two dashpots each has the share of the compliance
+ * that follows from its viscosity. */
 static void elastic_constants(const restitute_material *a, const restitute_material *b, double *nu, double *beta)
 {
     double ja = instantaneous_compliance(a), jb = instantaneous_compliance(b);
@@ -64,8 +65,8 @@ static void elastic_constants(const restitute_material *a, const restitute_mater
     *beta = ((1 - 2 * a->nu) * ja - (1 - 2 * b->nu) * jb) / (2 * normal);
 }
 
-/* Terms below the moduli that a material may have, as a rigid partner makes them beside each of its rates, are left out;
- * those whose rates differ by less than rounding become one. */
+/* Leave out terms with moduli below the allowed range, which a rigid partner produces near each of
+ * its rates. Merge terms whose rates differ by less than rounding. */
 static void tidy_terms(double factor, struct rst_chain *pair, double *m, double *tau)
 {
     int64_t kept = 0;
@@ -81,8 +82,8 @@ static void tidy_terms(double factor, struct rst_chain *pair, double *m, double 
     pair->n = kept;
 }
 
-/* The modulus of the pair at first must be that of two springs in series: a lost term would show. 1e-9: rounding of the
- * sum, with room. */
+/* Check: the instantaneous modulus of the pair is that of two springs in series, so a lost term
+ * would be noticed. 1e-9: rounding of the sum, with a margin. */
 static int check_sound(const struct rst_chain *a, const double *m_a, const struct rst_chain *b, const double *m_b,
                        const struct rst_chain *pair, const double *m, restitute_error *error)
 {

@@ -1,4 +1,4 @@
-/* Dimensionless input (22)-(25) and what it means to a method.
+/* From dimensionless input (22)-(25) to the problem of a method.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -7,7 +7,8 @@
 #include "base/sized.h"
 #include "base/status.h"
 
-/* A body with J = 0 would have chi = infinity; no sphere that turns has more than this, and the steps grow with it. */
+/* Largest chi. A body with J = 0 would have chi = infinity. Spheres that rotate have less than
+ * this, and the number of steps grows with chi. */
 const double rst_largest_chi = 1000;
 static const struct rst_range numbers = {0, 1e12}; /* psi, delta1 */
 
@@ -15,7 +16,7 @@ RST_DEFAULTS(impact, .chi = 7.0 / 6.0, .psi = INFINITY, .gamma = INFINITY)
 
 static int check_impact(const restitute_impact *impact, restitute_error *error)
 {
-    /* 1/3 is exact physics (nu = 1/2, blocked rotation), but reaches us rounded */
+    /* 1/3 is possible (nu = 1/2, blocked rotation), but input is rounded */
     int status = rst_check_range(impact->chi, 1.0 / 3.0 - 1e-9, rst_largest_chi, "chi", error);
     if (!status) status = rst_check_within(impact->psi, numbers, INFINITY, "psi", error);
     if (!status && !impact->material) status = rst_check_within(impact->delta1, numbers, NAN, "delta1", error);
@@ -23,9 +24,10 @@ static int check_impact(const restitute_impact *impact, restitute_error *error)
     return status;
 }
 
-/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (theory.md, 2), and its limits. Beyond 1e-50 and 1e50,
- * so that g and tau keep within the bounds of ranges.h, the limit differs by less than 1e-20: of a dashpot by
- * gamma theta^2, see rst_merge_terms, of an elastic solid by theta or 1/gamma. */
+/* Standard solid with moduli over G1: g = 1/gamma, tau = gamma theta (theory.md, 2), and its
+ * limits. Beyond 1e-50 and 1e50 the limit is taken, so that g and tau stay within ranges.h. It
+ * differs by less than 1e-20: the dashpot by gamma theta^2 (see rst_merge_terms), the elastic solid
+ * by theta or 1/gamma. */
 static void standard_solid(double delta1, double gamma, struct rst_solid *solid)
 {
     const double small = 1e-50, theta = rst_theta_from_delta1(delta1);
@@ -55,19 +57,23 @@ static void given_solid(const restitute_material *material, struct rst_solid *so
     }
 }
 
-/* psi this close to 0 or 1 is that value. The caller's rounding, some 1e-15, does not decide on how a contact begins, and
- * the end of gross slip, 1 - D' = (psi - 1)/(2 chi - 1), is not lost in the rounding of D' (chi <= 1000). e_x changes by
- * less than any tolerance: |de_x/dpsi| <= 2 on both sides of 1. */
+/* A psi this close to 0 or 1 is set to that value. So rounding of the input, some 1e-15, does not
+ * decide how a contact begins. And the end of gross slip, 1 - D' = (psi - 1)/(2 chi - 1), is not
+ * lost in the rounding of D' (chi <= 1000). e_x changes by less than any tolerance:
+ * |de_x/dpsi| <= 2 on both sides of 1. */
 static const double psi_rounding = 1e-12;
 
 void rst_set_sliding(double given, struct rst_problem *problem)
 {
-    const double psi = fabs(given - 1) <= psi_rounding ? 1 : given;
-    problem->psi = psi > psi_rounding && !isinf(psi) ? psi : 1;
-    problem->mode = isinf(psi)           ? RST_FRICTIONLESS
-                    : psi > 1            ? RST_GROSS_SLIP
-                    : psi > psi_rounding ? RST_PARTIAL_SLIP
-                                         : RST_NO_SLIP;
+    const double psi = fabs(given - 1) <= psi_rounding ? 1 : given <= psi_rounding ? 0 : given;
+    problem->psi = psi;
+    problem->mode = isinf(psi) ? RST_FRICTIONLESS
+                    : psi > 1  ? RST_GROSS_SLIP
+                    : psi > 0  ? RST_PARTIAL_SLIP
+                               : RST_NO_SLIP;
+    problem->shear_speed = problem->mode == RST_FRICTIONLESS || problem->mode == RST_NO_SLIP ? 1 : psi;
+    problem->shear_scale = 1;
+    problem->slip_bound = 0;
 }
 
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error)

@@ -1,4 +1,5 @@
-/* Linear-viscoelastic solids: G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta delta(t) (docs/theory.md, section 1).
+/* Linear-viscoelastic solids: G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta delta(t)
+ * (docs/theory.md, section 1).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/material.h"
 
@@ -42,7 +43,7 @@ static int by_time(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Copy the terms in the order of their times; equal times show as neighbours. */
+/* Copy the terms sorted by their times, so that equal times are neighbours. */
 static int sort_terms(restitute_material *m, const double *tau, const double *g, restitute_error *error)
 {
     if (m->n_terms == 0) return RESTITUTE_OK;

@@ -1,4 +1,5 @@
-/* One impact as every method sees it: in the units of docs/theory.md, section 2, with friction, sliding and solid settled.
+/* One impact as the input of every method, in the units of docs/theory.md, section 2. Friction,
+ * sliding and solid are already decided.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_PROBLEM_H
 #define RST_PROBLEM_H
@@ -21,17 +22,21 @@ struct rst_solid {
 /* Factors from the units of the problem to the caller's. */
 struct rst_units {
     double time, length_z, length_x, force, velocity;
-    double shear_velocity; /* of -ex, that is of U'/psi */
+    double shear_velocity; /* of -ex, that is of U'/shear_speed */
     double shear_force;
 };
 
 struct rst_problem {
     const restitute_method *method; /* that solves it: one function may serve several methods */
     double chi;
-    double psi;         /* as the kernel takes it: 1 without slip, where it is only a scale */
-    enum rst_mode mode; /* of the tangential side at first touch */
+    enum rst_mode mode; /* how friction acts, decided once: here, and where the solver leaves out slip */
+    double psi;         /* (22), however friction acts: 0 without slip, infinite without friction */
+    double shear_speed; /* U' at first touch: psi, or 1 without slip or friction, where U may have any unit */
+    double shear_scale; /* of tangential quantities, the caller's over those here: 1, or psi if slip was left out */
+    double slip_bound;  /* what slip that was left out may change of e_x */
     struct rst_solid solid;
-    double tolerance;
+    double tolerance;      /* for the method to meet */
+    double asked;          /* the caller's, for messages: larger where slip is left out */
     int64_t elements;      /* 0: chosen by the method */
     double time_step;      /* in T; 0: chosen by the method */
     struct rst_units units;
@@ -50,7 +55,7 @@ static inline double rst_time_left(const struct rst_problem *problem)
     return problem->clock ? problem->deadline - problem->clock() : INFINITY;
 }
 
-/* Whether there is no time for `times` as much as was done since `before` seconds were left. */
+/* Whether the time left is less than `times` the time spent since `before` seconds were left. */
 static inline int rst_lacks_time(const struct rst_problem *problem, double times, double before)
 {
     if (!problem->clock) return 0;
@@ -58,7 +63,7 @@ static inline int rst_lacks_time(const struct rst_problem *problem, double times
     return left < times * (before - left);
 }
 
-/* A limit that is spent, as messages name it. */
+/* An exceeded limit, as text for messages. */
 struct rst_limit {
     char text[48];
 };
@@ -79,18 +84,17 @@ struct rst_outcome {
     double error_ez, error_ex;
     double contact_time;  /* infinite if sunk */
     double followed_time; /* to the end of the run */
-    double max_indentation, max_contact_radius, max_normal_force;
+    double max_indentation, max_contact_radius, max_normal_force; /* forces: int_0^A f dX */
     double spacing, step;
     int64_t elements, steps, updates;
     struct rst_ledger ledger;
     int sunk;
     int late;         /* sync: the limit of time ended refinement */
     int halvings;     /* sync: those of the run that gave the pair */
-    int without_slip; /* sync: slip was left out */
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
-/* Receives samples of the history in the units of the problem; see restitute_history. */
+/* Receives samples of the history; see restitute_history. Forces are int_0^A f dX and int_0^A q dX, U' is over shear_speed. */
 struct rst_sample {
     double time, indentation, contact_radius, stick_radius, normal_force, shear_force, velocity, shear_velocity;
 };
@@ -100,8 +104,12 @@ struct rst_history {
     struct rst_sample *samples;
 };
 
-/* Mode of the tangential side by psi; 0: no slip, infinity: no friction. */
+/* How friction acts, by psi; 0: no slip, infinity: no friction. */
 void rst_set_sliding(double psi, struct rst_problem *problem);
+
+/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not
+ * proven (docs/accuracy.md). */
+static const double rst_change_by_slip = 2;
 
 /* Largest chi that is accepted. */
 extern const double rst_largest_chi;
@@ -109,7 +117,8 @@ extern const double rst_largest_chi;
 /* The parallel dashpot is not stronger than delta1 may be. */
 int rst_check_damping(const struct rst_solid *solid, restitute_error *error);
 
-/* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid, and at least 1. */
+/* Dimensionless impact -> problem; arrays of `solid` hold at least the terms of the impact's solid,
+ * and at least 1. */
 int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *problem, restitute_error *error);
 
 /* Velocity at which the contact point slides before the impact, m/s, with the sign of the scene. */

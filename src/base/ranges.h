@@ -1,7 +1,7 @@
 /* Ranges of input, wide enough for any system of units, within which no product overflows.
  *
- * Moduli (Pa) and times (s) lie in 1e-30 to 1e30, radii, masses and speeds in 1e-50 to 1e50. Then by
- * (24), in decades:
+ * Moduli (Pa) and times (s) lie in 1e-30 to 1e30, radii, masses and speeds in 1e-50 to 1e50. Then
+ * by (24), in decades:
  *
  *     a_el ~ m^.2 v^.4 R^.4 G^-.2         56       G_k/G_r, over the smallest G_inf   60
  *     d0 = a_el^2/R                       82       tau_k/T                            82

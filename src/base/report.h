@@ -1,5 +1,5 @@
-/* Text with numbers, and setting the optional error of a call. The objects of base that stand in every
- * library, since none exports them.
+/* Text with numbers, and setting the optional error of a call. Every library has its own, since
+ * none exports them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_REPORT_H
 #define RST_REPORT_H

@@ -1,4 +1,5 @@
-/* From spheres in SI units to the dimensionless problem (22)-(24), docs/theory.md, sections 2 and 10.
+/* From spheres in SI units to the dimensionless problem (22)-(24), docs/theory.md, sections 2 and
+ * 10.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stddef.h>
@@ -63,7 +64,7 @@ static double tangential_mobility(double mass, double radius, double inertia, in
     return 1 / mass + radius * radius / inertia;
 }
 
-/* Moduli of the pair: two like bodies are two equal springs in series. */
+/* Moduli of the pair: two bodies of one material are two equal springs in series. */
 static double pair_factor(const restitute_scene *s)
 {
     return s->deformable == RESTITUTE_BOTH_BODIES_DEFORM ? 0.5 : 1.0;
@@ -155,7 +156,7 @@ int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numb
         solid->g[k] = material->g[k] * factor;
         solid->tau[k] = material->tau[k] / numbers->time;
     }
-    problem->chi = fmin(numbers->chi, rst_largest_chi); /* any without friction, where it changes nothing */
+    problem->chi = fmin(numbers->chi, rst_largest_chi); /* without friction any value will do */
     rst_set_sliding(numbers->psi, problem);
     problem->time_unit = numbers->time;
     problem->unit_name = "s";

@@ -1,5 +1,6 @@
-/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back (theory.md, 10). Shared by
- * the calls that solve an impact and those that look it up.
+/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back
+ * (docs/theory.md, section 10). For calls that solve an impact and calls that look it up in a
+ * table.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_TWO_BODIES_H
 #define RST_TWO_BODIES_H
@@ -18,7 +19,7 @@ struct rst_frame {
     double gap, reach;     /* m: distance of the surfaces, and what it is compared with */
     double approach;       /* m/s: normal speed at which they close */
     double sliding;        /* m/s: of the contact point, along t, >= 0 */
-    double translation;    /* its part from the centres, along t; the spins have the rest */
+    double translation;    /* the part from the centres, along t; the rest comes from the spins */
     double spin_a, spin_b; /* rad/s: along n x t, with the sign of restitute_scene */
 };
 

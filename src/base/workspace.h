@@ -1,4 +1,4 @@
-/* Memory that a solver keeps from call to call, so that its hot calls do not allocate.
+/* Memory that a solver keeps between calls, so that frequent calls do not allocate.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_WORKSPACE_H
 #define RST_WORKSPACE_H
@@ -17,10 +17,11 @@ struct rst_workspace {
     double *elements; /* what the method lays out in it */
     size_t elements_size;
     struct rst_own_memory *own; /* of the solver's method; NULL: none */
-    int keeps_motion;           /* whether a normal motion stays for later impacts on the same solid */
+    int keeps_motion;           /* whether the normal motion is kept for later impacts on the same solid */
 };
 
-/* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are kept. */
+/* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are
+ * kept. */
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms);
 
 /* Room for `count` doubles of element data. Nonzero: out of memory, the old contents are kept. */

@@ -8,36 +8,38 @@
 #include "bem/box.h"
 #include "bem/method.h"
 
-/* What the grid leaves, over cells over the radius to the power 3/2 (docs/bem.md). */
+/* Error of the grid times (cells over the radius)^(3/2) (docs/bem.md). */
 static const double grid_error_ez = 0.002, grid_error_ex = 0.04;
 
-/* What is lost in e_x grows with chi, up to here, and where the ring that slips is thin. */
+/* The error of e_x grows with chi up to this value, and for a narrow slip ring. */
 static const double largest_chi = 10, thin_slip = 0.1;
 
-/* Where next to nothing slips the traction is all but singular at the rim, and there is an error of first order in the
- * cells besides. */
+/* With very little slip the traction is nearly singular at the edge of the contact. This adds an
+ * error of first order in the cells. */
 static const double singular = 0.6, singular_slip = 0.01;
 
-/* A solid with next to no instantaneous compliance rings from step to step (solid.h): e_z is off by up to this if
- * nothing damps it, and by no more than usual if 1 - ringing is above the limit (docs/bem.md). */
+/* A solid with nearly no instantaneous compliance oscillates from step to step (solid.h). The error
+ * of e_z is up to this without damping, and the usual one if 1 - ringing is above the limit
+ * (docs/bem.md). */
 static const double most_ringing_error = 0.1, damped_enough = 0.005;
 
-/* Refining waits for an estimate that falls, be it by this. */
+/* Refinement continues only if the estimate falls at least by this factor. */
 static const double falls_to = 0.9;
 
-/* Steps of an impact with 60 cells over the radius, when they are chosen; of one with any number, when that is given.
- * */
+/* Steps of an impact: with 60 cells over the radius if both are chosen here; with any number of
+ * cells if that is prescribed. */
 static const double usual_elements = 60, usual_steps = 200;
 
-/* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for chi up to 4. */
+/* The tangential motion in stick is faster than the normal one by sqrt(2 chi); steps are made for
+ * chi up to 4. */
 static const double usual_chi = 4;
 
-/* No run has so many: it keeps the number an integer, whatever step is asked for. */
+/* No run has so many steps. The limit keeps the number an integer for any prescribed step. */
 static const double most_steps = 1e15;
 
 enum { first_elements = 15, most_elements = 2000, most_tries = 8, most_halvings = 12 };
 
-/* The grid is wider than the contact by this and some cells. */
+/* Width of the grid over that of the contact; some cells are added. */
 static const double margin = 1.03, margin_cells = 1.5;
 
 static int out_of_memory(restitute_error *error)
@@ -45,7 +47,7 @@ static int out_of_memory(restitute_error *error)
     return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the fields of the method bem");
 }
 
-/* All that the runs of one impact have in common. */
+/* What the runs of one impact have in common. */
 struct impact {
     const struct rst_problem *problem;
     const struct bem_method *method;
@@ -54,7 +56,7 @@ struct impact {
     struct bem_box box;
     int keep_ledger;
     int64_t updates;
-    int halved; /* steps are so many times smaller than wanted, to be stable */
+    int halved; /* factor by which steps are smaller than wanted, to be stable */
 };
 
 /* Widths whose transforms are fast: products of 2, 3 and 5. */
@@ -72,7 +74,8 @@ static int64_t fast_size(double cells)
     }
 }
 
-/* A slower rebound is none: it changes ez by far less than the tolerance, or than what iterations leave. */
+/* A slower rebound counts as none: it changes ez by far less than the tolerance, or than the
+ * residuals of the iterations. */
 static double rest_speed(const struct rst_problem *problem)
 {
     return fmax(1e-5, 0.01 * problem->tolerance);
@@ -97,7 +100,7 @@ static struct bem_setup setup_of(struct impact *impact, double elements, double 
                               .most_steps = (int64_t)fmin(most_steps, ceil(20 * duration / step)) + 100};
 }
 
-/* Convolutions of a step, usually. */
+/* Usual number of convolutions in a step. */
 static const double convolutions_per_step = 12;
 
 static double updates_of(double steps, int64_t m)
@@ -105,7 +108,7 @@ static double updates_of(double steps, int64_t m)
     return steps * convolutions_per_step * 4 * (double)(m * m);
 }
 
-/* Explicit steps may have to be much smaller than those that are chosen for their accuracy. */
+/* Stability of explicit steps may need much smaller steps than accuracy. */
 static int may_halve(const struct impact *impact, const struct bem_setup *setup)
 {
     const double next = updates_of(2 * duration_of(impact) / setup->step, setup->m);
@@ -114,7 +117,8 @@ static int may_halve(const struct impact *impact, const struct bem_setup *setup)
            (double)impact->updates + next <= (double)impact->problem->max_updates;
 }
 
-/* One run, again in a larger box if the contact outgrows it, or with smaller steps if it may. */
+/* One run. Repeated on a larger grid if the contact outgrows it, or with smaller steps if that is
+ * allowed. */
 static enum bem_end run_once(struct impact *impact, double elements, double step, int keep_ledger,
                              struct bem_setup *setup, struct bem_run *run)
 {
@@ -166,7 +170,7 @@ static int find_box(struct impact *impact, restitute_error *error)
         return RESTITUTE_OK;
     }
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                       "the method bem finds no box and step for this solid: its impact and its relaxation are too far "
                       "apart; take another method");
 }
@@ -185,7 +189,7 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
                              .followed_time = q->time,
                              .max_indentation = run->max_depth,
                              .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
-                             .max_normal_force = 15.0 / 64 * run->max_force,
+                             .max_normal_force = run->max_force / 8,
                              .spacing = setup->spacing,
                              .step = setup->step,
                              .elements = (int64_t)elements,
@@ -204,11 +208,11 @@ static double ringing_error(const struct bem_run *run)
     return most_ringing_error * fmax(0, 1 - (1 - run->ringing) / damped_enough);
 }
 
-/* The finer of two runs, extrapolated, with the error that its neighbour tells. */
+/* The finer of two runs, extrapolated, with the error estimated from the coarser one. */
 static void compare(const struct impact *impact, const struct bem_run *coarse, const struct bem_run *run,
                     double elements, struct rst_outcome *outcome)
 {
-    const double psi = impact->problem->psi, slip = impact->problem->mode == RST_NO_SLIP ? 0 : psi;
+    const double slip = impact->problem->mode == RST_NO_SLIP ? 0 : impact->problem->psi;
     const double grid = pow(elements, -1.5), ratio = coarse->step / outcome->step;
     const double harder = fmin(largest_chi, fmax(1, impact->problem->chi));
     const double tangential =
@@ -220,7 +224,7 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, c
     if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
-    outcome->error_ex = fabs(shear_change) / psi + grid_error_ex * tangential * harder + outcome->error_ez;
+    outcome->error_ex = fabs(shear_change) / impact->problem->shear_speed + grid_error_ex * tangential * harder + outcome->error_ez;
     outcome->shear_velocity += shear_change;
 }
 
@@ -234,7 +238,7 @@ static int not_reached(const struct impact *impact, const struct rst_outcome *ou
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
         "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld cells over the radius and %lld steps",
-        impact->problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
+        impact->problem->asked, outcome->error_ez, outcome->error_ex, (long long)outcome->elements,
         (long long)outcome->steps);
 }
 
@@ -245,7 +249,7 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
     if (end == BEM_TOO_LONG)
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
                           step * p->time_unit, p->unit_name);
-    if (end == BEM_REBOUND || end == BEM_SUNK) /* a run, but none to compare it with */
+    if (end == BEM_REBOUND || end == BEM_SUNK) /* one run only, nothing to compare it with */
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
                           "max_work = %g: spent before there was a result; raise it", p->max_work);
     return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
@@ -281,7 +285,8 @@ static int too_many_steps(struct impact *impact, double elements, double step, r
         p->max_work, updates / p->method->updates_per_second, (long long)elements, step * p->time_unit, p->unit_name);
 }
 
-/* Elements or step given: one run with them, and one with half the cells and twice the step. */
+/* Elements or step prescribed: one run with them, and one with half the cells and twice the
+ * step. */
 static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
@@ -304,7 +309,7 @@ static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, 
     return met(impact, outcome) ? RESTITUTE_OK : not_reached(impact, outcome, error);
 }
 
-/* A run costs about ten times the one before, which began with `left` seconds. */
+/* A run takes about ten times as long as the one before, which began with `left` seconds. */
 static int too_much(const struct impact *impact, int64_t last, double left)
 {
     return rst_lacks_time(impact->problem, 10, left) ||
@@ -367,17 +372,17 @@ static double radius_of(double area)
     return sqrt(area / 3.14159265358979323846);
 }
 
-static void add_sample(struct sampler *sampler, double psi, const struct bem_motion *q)
+static void add_sample(struct sampler *sampler, double shear_speed, const struct bem_motion *q)
 {
     sampler->history->samples[sampler->history->count++] =
         (struct rst_sample){.time = q->time,
                             .indentation = q->depth,
                             .contact_radius = radius_of(q->contact),
                             .stick_radius = radius_of(q->stick),
-                            .normal_force = 15.0 / 64 * q->force,
-                            .shear_force = 15.0 / 64 * q->shear_force,
+                            .normal_force = q->force / 8,
+                            .shear_force = q->shear_force / 8,
                             .velocity = q->velocity,
-                            .shear_velocity = q->shear_velocity / psi};
+                            .shear_velocity = q->shear_velocity / shear_speed};
 }
 
 static void see(struct bem_observer *observer, const struct bem_setup *setup, const struct bem_run *run,
@@ -389,12 +394,12 @@ static void see(struct bem_observer *observer, const struct bem_setup *setup, co
     const int64_t wanted = (int64_t)s->history->count * steps / intervals; /* the step of the next sample */
     if (s->recorder && rst_bem_recorder_see(s->recorder, setup, run->steps, steps, motion, fields)) s->failed = 1;
     if (s->history->count == s->history->capacity || run->steps < wanted) return;
-    if (run->steps == steps && !s->outcome->sunk) { /* the end lies within the last step; from there on it flew */
+    if (run->steps == steps && !s->outcome->sunk) { /* contact ends within the last step; after that the sphere flies */
         q.depth -= q.velocity * (q.time - s->outcome->contact_time);
         q.time = s->outcome->contact_time;
         q.contact = q.stick = q.force = q.shear_force = 0;
     }
-    add_sample(s, setup->problem->psi, &q);
+    add_sample(s, setup->problem->shear_speed, &q);
 }
 
 static int bem_record(const struct rst_problem *problem, struct rst_workspace *workspace,
@@ -412,7 +417,8 @@ static int bem_record(const struct rst_problem *problem, struct rst_workspace *w
     const struct bem_setup setup = setup_of(&impact, (double)outcome->elements, outcome->step, outcome->spacing);
     history->count = 0;
     if (sampler.recorder) rst_bem_recorder_begin(sampler.recorder);
-    add_sample(&sampler, problem->psi, &(struct bem_motion){.velocity = 1, .shear_velocity = problem->psi});
+    add_sample(&sampler, problem->shear_speed,
+               &(struct bem_motion){.velocity = 1, .shear_velocity = problem->shear_speed});
     rst_bem_run(&setup, impact.memory, &sampler.observer, &run);
     return run.end == BEM_NO_MEMORY || sampler.failed ? out_of_memory(error) : RESTITUTE_OK;
 }

@@ -1,6 +1,7 @@
-/* Conjugate gradients with bounds and a spectral preconditioner. After Polonsky & Keer (1999): cells that would pass a
- * bound are held there, cells whose residual pulls them off it are let go, and the directions start anew when the set
- * of free cells changes. SPDX-License-Identifier: BSD-3-Clause */
+/* Conjugate gradients with bounds and a spectral preconditioner. After Polonsky & Keer (1999):
+ * cells that would pass a bound are fixed there. Cells whose residual points away from the bound
+ * become free. The search directions restart when the set of free cells changes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/bounded.h"
 
 #include <math.h>

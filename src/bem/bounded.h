@@ -5,8 +5,8 @@
 
 #include "bem/transform.h"
 
-/* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x m in lines of ld.
- * */
+/* K x = rhs where low < x < high, with residuals that hold x at its bounds elsewhere. Fields of m x
+ * m in lines of ld. */
 struct bem_bounded {
     struct bem_transform *transform;
     enum bem_kind kind;
@@ -20,7 +20,7 @@ struct bem_bounded {
     int64_t iterations, convolutions; /* out; iterations added to what they were */
 };
 
-/* Nonzero: not settled within most_iterations. */
+/* Nonzero: no convergence within most_iterations. */
 int rst_bem_solve_bounded(struct bem_bounded *b);
 
 #endif

@@ -1,6 +1,7 @@
-/* Box and duration. The first guess: an elastic sphere meets the solid with the modulus that it has at the time of the
- * impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units formed with its own modulus, at
- * the time 1.47). Runs on a coarse grid correct it until they fit into their box.
+/* Size of the grid and duration. First guess: the impact on an elastic solid with the modulus at
+ * the time of the impact, D = G(D)^(-2/5) (an elastic impact has the largest indentation 1 in units
+ * formed with its own modulus, at the time 1.47). Runs on a coarse grid correct it until the
+ * contact fits the grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/box.h"
 
@@ -8,22 +9,18 @@
 
 static const int64_t coarse = 16, coarse_steps = 40;
 
-/* The guessed box is this times the guessed radius; a contact that fills less than the least part of it is done again.
- * */
+/* The grid is this times the guessed radius. A run whose contact fills less than the second value
+ * is repeated. */
 static const double generous = 1.15, least_part = 0.6;
 
-/* The guess of the time is far less wrong than this. */
+/* The guess of the time is more accurate than this factor. */
 static const double far_off = 1e6;
 
-enum { most_tries = 60, most_iterations = 60 };
+enum { most_tries = 60 };
 
 static double guess_depth(const struct rst_solid *solid)
 {
-    const double first = rst_bem_solid_modulus(solid, 0);
-    double depth = pow(first, -0.4);
-    for (int i = 0; i < most_iterations; i++) /* up to 100 times as deep: a solid that flows would have no end */
-        depth = pow(fmax(rst_bem_solid_modulus(solid, depth), 1e-5 * first), -0.4);
-    return depth;
+    return rst_likely_depth(solid->g_inf, solid->eta, solid->n_terms, solid->g, solid->tau);
 }
 
 static void settle_time(const struct bem_run *run, struct bem_box *box)
@@ -35,17 +32,18 @@ static void settle_time(const struct bem_run *run, struct bem_box *box)
 
 void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest)
 {
-    const double time = 2.94 * guess_depth(solid);
+    const double time = rst_elastic_contact_time() * guess_depth(solid);
     *shortest = time / far_off;
     *longest = time * far_off;
 }
 
-/* By the steps of second order, whatever the variant: explicit ones may need so many that no search ends. */
+/* With steps of second order for every variant: explicit steps may need so many that the search
+ * would not end. */
 int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
                      struct bem_box *box)
 {
     const double depth = guess_depth(&problem->solid);
-    double side = generous * sqrt(depth), step = 2.94 * depth / (double)coarse_steps;
+    double side = generous * sqrt(depth), step = rst_elastic_contact_time() * depth / (double)coarse_steps;
     for (int i = 0; i < most_tries; i++) {
         struct bem_run run;
         const struct bem_setup setup = {.problem = problem,

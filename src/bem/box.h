@@ -1,4 +1,4 @@
-/* How large the contact gets and how long it lasts, found by this method alone: a rough run of the normal problem.
+/* Largest contact radius and contact time, from a rough run of the normal problem by this method.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_BOX_H
 #define BEM_BOX_H
@@ -15,7 +15,7 @@ struct bem_box {
 int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid, struct bem_memory *memory,
                      struct bem_box *box);
 
-/* Times between which that of the impact certainly lies. */
+/* Bounds of the contact time. */
 void rst_bem_guess_times(const struct rst_solid *solid, double *shortest, double *longest);
 
 #endif

@@ -1,4 +1,4 @@
-/* The Fortran procedures of the component; see fortran/bem.
+/* The Fortran procedures of the component; see the folder fortran/bem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_KERNELS_H
 #define BEM_KERNELS_H
@@ -44,7 +44,7 @@ void rst_bem_normal_target(int64_t ld, int64_t m, double spacing, double depth, 
                            double *target);
 void rst_bem_enter(int64_t ld, int64_t m, double spacing, double first_ratio, const double *p, const double *p_before,
                    const double *gap, const double *gap_before, const double *s, const double *s_before, double *a);
-void rst_bem_shear_bounds(int64_t ld, int64_t m, int64_t no_slip, const double *p, double *low, double *high);
+void rst_bem_shear_bounds(int64_t ld, int64_t m, int64_t mode, const double *p, double *low, double *high);
 void rst_bem_shear_target(int64_t ld, int64_t m, double shift, double c, const double *a, const double *h,
                           double *target);
 void rst_bem_measure(int64_t ld, int64_t m, int64_t near, double c, const double *f, const double *target,

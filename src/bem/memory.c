@@ -1,4 +1,4 @@
-/* Memory that outlives a call, so that plans are made once.
+/* Memory that is kept between calls, so that plans are made once.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/memory.h"
 

@@ -1,4 +1,5 @@
-/* What a solver keeps for the method: transforms of the sizes used so far, and the fields of the largest grid.
+/* What a solver keeps for the method: transforms of the sizes used so far, and the fields of the
+ * largest grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_MEMORY_H
 #define BEM_MEMORY_H
@@ -32,7 +33,7 @@ struct bem_memory {
     size_t terms_size;
 };
 
-/* That of the workspace, made at first use; NULL: out of memory. */
+/* The memory in the workspace, allocated at first use; NULL: out of memory. */
 struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace);
 
 /* Fields set to zero; nonzero: out of memory. */

@@ -1,4 +1,4 @@
-/* A method of this component: what the core sees, and what it does not.
+/* A method of this component: the interface to the core, and private data.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_METHOD_H
 #define BEM_METHOD_H
@@ -8,7 +8,7 @@
 #include "bem/run.h"
 
 struct bem_method {
-    struct restitute_method base; /* first: the core's pointer is one to the whole */
+    struct restitute_method base; /* first member, so that a pointer of the core is a pointer to this struct */
     struct bem_variant variant;
     struct restitute_bem_recorder *recorder; /* NULL: keeps no fields */
 };
@@ -16,10 +16,10 @@ struct bem_method {
 /* The method bem without a recorder. */
 extern const struct bem_method rst_bem_standard;
 
-/* A new impact: forget the last one. */
+/* Reset for a new impact. */
 void rst_bem_recorder_begin(struct restitute_bem_recorder *recorder);
 
-/* Its snapshot of a step, if it is time for one; nonzero: out of memory. */
+/* Take a snapshot of the step if one is due; nonzero: out of memory. */
 int rst_bem_recorder_see(struct restitute_bem_recorder *recorder, const struct bem_setup *setup, int64_t step,
                          int64_t steps, const struct bem_motion *motion, const struct bem_fields *fields);
 

@@ -6,7 +6,8 @@
 
 #include <pthread.h>
 
-/* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing needs no lock. */
+/* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing
+ * needs no lock. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 void rst_bem_lock_planner(void)

@@ -1,4 +1,4 @@
-/* Snapshots of the fields, the quarter that is computed unfolded to the whole grid.
+/* Snapshots of the fields. The computed quarter is reflected to the whole grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/bem.h>
 
@@ -67,12 +67,13 @@ static void unfold(const struct bem_setup *setup, const struct bem_fields *f, do
 {
     const int64_t m = f->m, n = 2 * m;
     const int no_slip = setup->problem->mode == RST_NO_SLIP;
+    const double of_traction = setup->problem->shear_scale / setup->spacing;
     for (int64_t j = 0; j < n; j++)
         for (int64_t i = 0; i < n; i++) {
             const int64_t x = i < m ? m - 1 - i : i - m, y = j < m ? m - 1 - j : j - m;
             const double p = f->p[y * m + x], tau = f->tau[y * m + x];
             values[j * n + i] = p / setup->spacing;
-            values[n * n + j * n + i] = tau / setup->spacing;
+            values[n * n + j * n + i] = tau * of_traction;
             values[2 * n * n + j * n + i] = p > 0 && (no_slip || fabs(tau) < p);
         }
 }

@@ -1,5 +1,5 @@
-/* The impact in steps of time: velocity Verlet for the sphere (5), in each step the normal problem for p and then the
- * tangential one for tau (docs/bem.md). All is of second order in the step.
+/* Time stepping of the impact: velocity Verlet for the sphere (5); in each step the normal problem
+ * for p, then the tangential one for tau (docs/bem.md). All is of second order in the step.
  *   D'' = -(15/64) int p dA,   U'' = -(15/32) chi int tau dA,   u_x = (3/2) U where it sticks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/run.h"
@@ -9,12 +9,24 @@
 
 #include "bem/stepper.h"
 
-static const double normal_mass_factor = 15.0 / 64, shear_mass_factor = 15.0 / 32, pull = 1.5;
+static const double pull = 1.5;
 
-/* Contact is sought this many cells beyond where it will be, if it goes on as it went. */
+/* int p dA is 8 int f dX. */
+static double normal_mass_factor(void)
+{
+    return rst_mass_factor() / 8;
+}
+
+static double shear_mass_factor(const struct bem_setup *setup)
+{
+    return rst_mass_factor() / 4 * setup->problem->chi;
+}
+
+/* Contact is sought this many cells beyond its extrapolated edge. */
 static const double reach = 3;
 
-/* The energy bounds velocities by those at first touch; more means that the step is unstable. */
+/* Energy conservation bounds velocities by those at first touch. Larger ones mean that the step is
+ * unstable. */
 static const double most_speed = 1.05;
 
 static void swap_in(double **before, double **now, double **new)
@@ -30,7 +42,7 @@ static int is_elastic(const struct bem_solid *solid)
     return solid->n_terms == 0 && !(solid->flow > 0);
 }
 
-/* Sizes whose transforms are fast and that are not too many. */
+/* Sizes with fast transforms; not too many of them. */
 static int64_t size_for(double cells, int64_t most)
 {
     static const int64_t sizes[] = {8, 12, 16, 20, 24, 30, 36, 40, 48, 54, 60, 64, 72, 80, 90, 96, 108, 120, 128};
@@ -48,7 +60,8 @@ static double radius_of(double area)
     return sqrt(area / 3.14159265358979323846);
 }
 
-/* Gap and s of an elastic solid on a larger part of the grid, from the tractions of the last two steps. */
+/* Gap and s of an elastic solid on a larger part of the grid, from the tractions of the last two
+ * steps. */
 static void look_back(struct bem_stepper *s, const double *p, const double *tau, const struct bem_motion *motion,
                       double *gap, double *s_field)
 {
@@ -65,7 +78,7 @@ static void look_back(struct bem_stepper *s, const double *p, const double *tau,
     s->run->updates += 8 * m * m;
 }
 
-/* Nothing is left of what was outside of the first m cells. */
+/* Clear everything outside the first m cells. */
 static void clear_beyond(int64_t ld, int64_t m, double *x)
 {
     for (int64_t j = 0; j < m; j++)
@@ -73,9 +86,9 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
     memset(x + m * ld, 0, (size_t)((ld - m) * ld) * sizeof *x);
 }
 
-/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps it of all of the
- * grid: where contact will be, and where it was, for the ledger; whether a ledger is wanted changes no bit of the
- * result. */
+/* Choose the part of the grid for the next step, at least `least` wide. A solid with memory keeps
+ * it on the whole grid: where contact will be, and where it was, for the ledger. A ledger does not
+ * change the bits of the result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
     const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
@@ -99,7 +112,8 @@ static int choose_part(struct bem_stepper *s, int64_t least)
     return !s->all;
 }
 
-/* The normal problem, on a larger part of the grid if the contact reaches the side of the chosen one. */
+/* The normal problem, on a larger part of the grid if the contact reaches the border of the present
+ * part. */
 static enum bem_end press(struct bem_stepper *s, double depth, double shift)
 {
     for (;;) {
@@ -123,8 +137,8 @@ static enum bem_end advance(struct bem_stepper *s)
     const int euler = setup->variant.explicit_euler;
     const struct bem_motion b = s->motion;
     struct bem_motion q = b;
-    const double h = setup->step, x_factor = shear_mass_factor * setup->problem->chi;
-    const double a = -normal_mass_factor * b.force, c = -x_factor * b.shear_force;
+    const double h = setup->step, x_factor = shear_mass_factor(setup), z_factor = normal_mass_factor();
+    const double a = -z_factor * b.force, c = -x_factor * b.shear_force;
     enum bem_end end;
     q.depth += h * (b.velocity + (euler ? 0 : h / 2 * a));
     q.shift += h * (b.shear_velocity + (euler ? 0 : h / 2 * c));
@@ -135,7 +149,7 @@ static enum bem_end advance(struct bem_stepper *s)
     if (end != BEM_REBOUND) return end;
     q.force = s->motion.force, q.contact = s->motion.contact;
     q.shear_force = s->motion.shear_force, q.stick = s->motion.stick;
-    q.velocity -= normal_mass_factor * h * (euler ? q.force : 0.5 * (b.force + q.force));
+    q.velocity -= z_factor * h * (euler ? q.force : 0.5 * (b.force + q.force));
     q.shear_velocity -= x_factor * h * (euler ? q.shear_force : 0.5 * (b.shear_force + q.shear_force));
     q.time += h;
     add_work(s, &b, &q);
@@ -165,30 +179,29 @@ static void note_largest(struct bem_run *run, const struct bem_motion *q)
 static int unstable(const struct bem_stepper *s)
 {
     const struct bem_motion *q = &s->motion;
-    const double psi = s->setup->problem->psi;
     /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations leave */
     const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
-    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * psi);
+    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }
 
 static int rests(const struct bem_stepper *s)
 {
     const double slow = s->setup->rest_speed;
     return s->setup->problem->solid.can_sink && fabs(s->motion.velocity) < slow &&
-           normal_mass_factor * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
+           normal_mass_factor() * s->motion.force < 100 * slow; /* at a turning point it is of order 1 */
 }
 
-/* Whether a sphere without force flies away: beside one that all but rests the iterations may leave no cell in contact
- * too. */
+/* Whether a sphere without force leaves. For a sphere that nearly rests, the iterations may also
+ * leave no cell in contact. */
 static int leaves(const struct bem_stepper *s)
 {
     return !s->setup->problem->solid.can_sink || s->motion.velocity <= -s->setup->rest_speed;
 }
 
-/* From sums to parts of the energies that came in; u_x = 1.5 U. */
+/* From sums to fractions of the energies before the impact; u_x = 1.5 U. */
 static void scale_work(const struct bem_setup *setup, struct bem_work *work)
 {
-    const double z = 2 * normal_mass_factor, x = 2 * shear_mass_factor * setup->problem->chi;
+    const double z = 2 * normal_mass_factor(), x = 2 * shear_mass_factor(setup);
     work->normal *= z;
     work->left_normal *= z;
     work->shear *= x;
@@ -231,7 +244,7 @@ void rst_bem_run(const struct bem_setup *setup, struct bem_memory *memory, struc
     run->end = BEM_TOO_LONG;
     s.cell = 4 * setup->spacing;
     s.motion.velocity = 1;
-    s.motion.shear_velocity = setup->problem->psi;
+    s.motion.shear_velocity = setup->problem->shear_speed;
     s.before = s.motion;
     rst_bem_normal_target(setup->m, setup->m, setup->spacing, 0, -1, s.f.h, s.f.gap); /* r^2/2 */
     follow(&s, observer);

@@ -6,8 +6,8 @@
 #include "bem/memory.h"
 #include "bem/setup.h"
 
-/* Sees every step; NULL: not wanted. Fields outside of the part of the grid that a step used (fields->m cells wide)
- * are stale. */
+/* Sees every step; NULL: not wanted. Fields outside of the part of the grid that a step used
+ * (fields->m cells wide) are stale. */
 struct bem_observer {
     void (*see)(struct bem_observer *observer, const struct bem_setup *setup, const struct bem_run *run,
                 const struct bem_motion *motion, const struct bem_fields *fields);

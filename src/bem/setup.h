@@ -1,4 +1,4 @@
-/* What a run is given and what it finds.
+/* Input and output of a run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_SETUP_H
 #define BEM_SETUP_H
@@ -27,7 +27,7 @@ enum bem_end {
     BEM_OUTGREW, /* the contact reached the side of the grid */
     BEM_SUNK,
     BEM_TOO_LONG,  /* most_steps */
-    BEM_UNSETTLED, /* a contact problem did not settle, or the step is unstable */
+    BEM_UNSETTLED, /* a contact problem did not converge, or the step is unstable */
     BEM_NO_MEMORY
 };
 
@@ -38,7 +38,7 @@ struct bem_motion {
     double contact, stick;     /* areas */
 };
 
-/* Work on the surface, in units of the kinetic energy that came in; of the tangential side, of U'^2. */
+/* Work on the surface, in units of the kinetic energy before the impact; tangential: of U'^2. */
 struct bem_work {
     double normal, shear, friction, left_normal, left_shear;
 };

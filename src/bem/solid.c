@@ -1,9 +1,10 @@
-/* The recursion over time in its clean form. With E_k = exp(-h/lambda_k), phi_k = (1 - E_k) lambda_k/h, f changing
+/* The recursion over time. With E_k = exp(-h/lambda_k), phi_k = (1 - E_k) lambda_k/h, f changing
  * linearly in the step:
  *   b_k' = E_k b_k + J_k phi_k (f' - f),   u' = J_inf f' - sum b_k'.
- * Its own oscillation, with u = 0, is f' = -r f; for terms slow beside the step r = (h/2 sum J_k/lambda_k - J_0)/(h/2
- * sum J_k/lambda_k + J_0), near 1 where the instantaneous compliance is next to nothing, as in the trapezoidal rule.
- * The paper's steps have phi_k = 1. Terms much faster or slower than the impact are exact limits of it.
+ * With u = 0 the recursion itself oscillates: f' = -r f. For terms that are slow in comparison with
+ * the step r = (h/2 sum J_k/lambda_k - J_0)/(h/2 sum J_k/lambda_k + J_0). As in the trapezoidal
+ * rule, r is near 1 if the instantaneous compliance is very small. The paper's steps have phi_k =
+ * 1. Terms much faster or slower than the impact are exact limits of it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/solid.h"
 
@@ -17,9 +18,9 @@ void rst_bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *c
                        &creep->flow, &creep->n_terms, creep->compliance, creep->lambda);
 }
 
-/* A term relaxes by J_k (1 - exp(-t/lambda_k)): with lambda_k far below the duration it is J_k but for about J_k
- * lambda_k/t of the time, far above it at most J_k t/lambda_k. Both are let go where they are below this part of the
- * compliance. */
+/* A term relaxes by J_k (1 - exp(-t/lambda_k)): with lambda_k far below the duration it is J_k but
+ * for about J_k lambda_k/t of the time, far above it at most J_k t/lambda_k. Both kinds are left
+ * out if this is below the given share of the compliance. */
 static const double negligible = 1e-6;
 
 void rst_bem_solid_prune(double shortest, double longest, struct bem_solid *s)
@@ -47,7 +48,7 @@ void rst_bem_solid_step(double h, int jumps, struct bem_solid *s)
     s->half_flow = s->flow * h / 2;
     s->c = s->instantaneous + s->half_flow;
     s->held = s->half_flow;
-    double slow = s->half_flow; /* what terms that are slow beside the step give to c */
+    double slow = s->half_flow; /* contribution to c of terms that are slow in comparison with the step */
     for (int64_t k = 0; k < s->n_terms; k++) {
         const double x = h / s->lambda[k];
         const double phi = jumps || x < 1e-9 ? 1 : -expm1(-x) / x;
@@ -59,12 +60,4 @@ void rst_bem_solid_step(double h, int jumps, struct bem_solid *s)
         slow += s->compliance[k] * (x < 1e-4 ? x / 2 - x * x / 6 : 1 - phi) * exp(-x * x);
     }
     s->ringing = jumps ? 0 : slow / s->c;
-}
-
-double rst_bem_solid_modulus(const struct rst_solid *relaxation, double t)
-{
-    double g = relaxation->g_inf;
-    for (int64_t k = 0; k < relaxation->n_terms; k++)
-        g += relaxation->g[k] * exp(-t / relaxation->tau[k]);
-    return g;
 }

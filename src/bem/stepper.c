@@ -1,6 +1,7 @@
-/* The contact problems of a step. Residuals are of displacements, as part of the displacement of the sphere: a stick
- * condition is kept as an anchor, not as an increment, so that what an iteration leaves does not add up from step to
- * step. SPDX-License-Identifier: BSD-3-Clause */
+/* The contact problems of a step. Residuals are displacements over the displacement of the sphere.
+ * A stick condition is stored as an anchor and not as an increment, so that residuals do not
+ * accumulate from step to step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/stepper.h"
 
 #include <float.h>
@@ -36,7 +37,7 @@ static int solve_target(struct bem_stepper *s, enum bem_kind kind, double residu
     return failed;
 }
 
-/* The memory of the solid wants displacements where contact will be. */
+/* The memory of the solid needs displacements where contact will be. */
 static void spread(struct bem_stepper *s, enum bem_kind kind, const double *x)
 {
     if (s->all == s->near) return;
@@ -45,7 +46,7 @@ static void spread(struct bem_stepper *s, enum bem_kind kind, const double *x)
     s->run->updates += 4 * s->all->m * s->all->m;
 }
 
-/* Whether a cell at the side of the part of the grid that is looked at is in contact. */
+/* Whether a cell at the border of the present part of the grid is in contact. */
 static int touches_side(const struct bem_stepper *s)
 {
     const int64_t m = s->near->m, ld = s->f.m;
@@ -76,7 +77,7 @@ enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double sh
     return BEM_REBOUND;
 }
 
-/* Cells of the sticking set that passed the limit are held at it from now on. Returns their number. */
+/* Fix cells of the sticking set that exceed the limit at the limit. Returns their number. */
 static int64_t shrink_stick_set(struct bem_stepper *s)
 {
     struct bem_fields *f = &s->f;
@@ -90,16 +91,16 @@ static int64_t shrink_stick_set(struct bem_stepper *s)
     return moved;
 }
 
-/* The paper's way: all stick at first, without a limit. */
+/* The scheme of the paper: all cells stick at first, without a limit. */
 static int solve_by_stick_sets(struct bem_stepper *s, double residual)
 {
     struct bem_fields *f = &s->f;
     const int64_t m = s->near->m;
-    rst_bem_shear_bounds(f->m, m, 1, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(f->m, m, RST_NO_SLIP, f->p_new, f->low, f->high);
     do {
         if (solve_target(s, BEM_SHEAR, residual, f->tau_new)) return 1;
     } while (s->setup->problem->mode != RST_NO_SLIP && shrink_stick_set(s) > 0);
-    rst_bem_shear_bounds(f->m, m, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(f->m, m, s->setup->problem->mode, f->p_new, f->low, f->high);
     return 0;
 }
 
@@ -108,10 +109,10 @@ enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift)
     struct bem_fields *f = &s->f;
     const struct bem_solid *solid = s->solid;
     const int64_t ld = f->m, m = s->all->m, near = s->near->m;
-    const double residual = closeness * fmin(1, s->setup->problem->psi) / solid->c;
+    const double residual = closeness * fmin(1, s->setup->problem->shear_speed) / solid->c;
     double sum, stick, work;
     rst_bem_recall(ld, m, solid->n_terms, solid->decay, f->b_x, solid->held, f->drift_x, f->f_x, f->h);
-    rst_bem_shear_bounds(ld, near, s->setup->problem->mode == RST_NO_SLIP, f->p_new, f->low, f->high);
+    rst_bem_shear_bounds(ld, near, s->setup->problem->mode, f->p_new, f->low, f->high);
     rst_bem_shear_target(ld, near, shift, solid->c, f->anchor, f->h, f->target);
     rst_bem_start_shear(ld, near, f->p, f->tau, f->tau_before, f->high, f->tau_new);
     if (s->setup->variant.stick_sets ? solve_by_stick_sets(s, residual)
@@ -128,7 +129,8 @@ enum bem_end rst_bem_solve_shear(struct bem_stepper *s, double shift)
     return BEM_REBOUND;
 }
 
-/* Half the sum over terms of b (K^-1 b)/J: a Kelvin element of a solid without load is stretched by -b. */
+/* Half the sum over terms of b (K^-1 b)/J: a Kelvin element of a solid without load is stretched by
+ * -b. */
 static double energy_of_terms(struct bem_stepper *s, enum bem_kind kind, const double *b, double *x)
 {
     struct bem_fields *f = &s->f;
@@ -154,7 +156,7 @@ static double energy_of_terms(struct bem_stepper *s, enum bem_kind kind, const d
 void rst_bem_find_left(struct bem_stepper *s)
 {
     const int64_t updates = s->run->updates; /* those of the impact alone, with a ledger or without */
-    s->near = s->all = rst_bem_memory_transform(s->memory, s->f.m); /* there since the run began */
+    s->near = s->all = rst_bem_memory_transform(s->memory, s->f.m); /* allocated since the run began */
     s->run->work.left_normal = energy_of_terms(s, BEM_NORMAL, s->f.b_z, s->f.p_new);
     if (!s->setup->normal_only) s->run->work.left_shear = energy_of_terms(s, BEM_SHEAR, s->f.b_x, s->f.tau_new);
     s->run->updates = updates;

@@ -1,4 +1,4 @@
-/* A step of an impact in its parts.
+/* The parts of a time step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_STEPPER_H
 #define BEM_STEPPER_H
@@ -18,7 +18,8 @@ struct bem_stepper {
     double cell; /* weight of a value of a field in an integral: four quarters, one spacing being in the tractions */
 };
 
-/* The pressure at a depth, and what follows from it; `shift` is only for the anchors of cells that enter. */
+/* The pressure at a depth, and the gap and force that follow; `shift` is only for the anchors of
+ * cells that enter. */
 enum bem_end rst_bem_solve_normal(struct bem_stepper *s, double depth, double shift);
 
 /* The traction at a shift, under the pressure just found. */

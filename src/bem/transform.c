@@ -1,5 +1,6 @@
-/* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the images of the periodic
- * convolution. SPDX-License-Identifier: BSD-3-Clause */
+/* DC-FFT (Liu, Wang & Liu 2000) on a quarter of a doubly even field: zero padding removes the
+ * images of the periodic convolution.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bem/transform.h"
 
 #include <math.h>

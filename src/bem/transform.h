@@ -1,4 +1,5 @@
-/* Convolutions with the influence coefficients on grids of several sizes, by fast cosine transforms.
+/* Convolutions with the influence coefficients on grids of several sizes, by fast cosine
+ * transforms.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef BEM_TRANSFORM_H
 #define BEM_TRANSFORM_H
@@ -13,7 +14,8 @@ struct bem_cosine {
     fftw_plan row_forward, row_backward, column_forward, column_backward;
 };
 
-/* All that belongs to one size m: a quarter of a grid of 2m x 2m cells. Spectra are for unit spacing. */
+/* All that belongs to one size m: a quarter of a grid of 2m x 2m cells. Spectra are for unit
+ * spacing. */
 struct bem_transform {
     int64_t m;
     struct bem_cosine padded, plain;

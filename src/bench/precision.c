@@ -24,7 +24,7 @@ static const double updates_per_second = 1e9;
  * to tell. */
 static const double growth_tolerance = 100;
 
-/* The coarsest run of the paper's algorithm, 8 elements and 128 steps: its median error is 6e-3 (docs/bench.md). */
+/* The coarsest run of the paper's algorithm, 8 elements and 128 steps: its median error is 6e-3 (docs/records/bench.md). */
 static const int64_t fewest_elements = 8, fewest_steps_per_element = 16;
 
 struct paper_settings bench_paper_settings(const struct bench_scene *scene, enum paper_motion motion, int64_t elements,

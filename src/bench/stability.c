@@ -69,7 +69,8 @@ static int run_library(const struct bench_scene *scene, const struct bench_metho
     if (restitute_solver_create(&options, &solver, NULL)) return 1;
     const int status = restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
     restitute_solver_destroy(solver);
-    cell->verdict = status == RESTITUTE_ERROR_TOO_MUCH_WORK ? BENCH_TOO_SLOW : BENCH_REFUSED;
+    const int slow = status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
+    cell->verdict = slow ? BENCH_TOO_SLOW : BENCH_REFUSED;
     if (status < 0) return status == RESTITUTE_ERROR_MEMORY;
     cell->ez = result.ez;
     cell->ex = result.ex;

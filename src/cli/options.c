@@ -95,7 +95,7 @@ static struct poptOption pair_output_options[] = {
           "gnuplot"),
     OPTION_FLAG("contours", CODE_CONTOURS, "with --figure: contours over both axes, the last one to the right"),
     OPTION("threads", CODE_TEXT + TEXT_THREADS, "N",
-          "with --input and --grid: solve by so many threads, 1 to 1024; default all processors"),
+          "with --input and --grid: number of threads, 1 to 1024; default all processors"),
     OPTION_FLAG("resume", CODE_RESUME, "continue an interrupted run from FILE.partial"),
     OPTION("shard", CODE_TEXT + TEXT_SHARD, "I/K", "solve part I of K of the rows alone, without figure"),
     OPTION("join", CODE_TEXT + TEXT_JOIN, "FILE,...",
@@ -110,7 +110,7 @@ static struct poptOption sweep_options[] = {
 
 static struct poptOption history_output_options[] = {
     OPTION("samples", CODE_TEXT + TEXT_SAMPLES, "N",
-          "at most so many rows, evenly spaced in time, 2 to 1000000; default 500"),
+          "largest number of rows, equally spaced in time, 2 to 1000000; default 500"),
     OPTION("output", CODE_TEXT + TEXT_OUTPUT, "FILE", "write the CSV here and not to standard output"),
     OPTION("events", CODE_TEXT + TEXT_EVENTS, "FILE",
           "write the log of events here, as CSV (.csv, or - for standard output) or HDF5 (.h5, .hdf5); takes the "
@@ -190,7 +190,8 @@ static bool take_option(struct settings *settings, int code, poptContext context
     return true;
 }
 
-/* A number of a text option within [low, high]; integers only if so wanted. Not given: left as it is. */
+/* A number of a text option within [low, high]; integers only if so wanted. Not given: left as it
+ * is. */
 static bool read_bounded(const struct settings *settings, enum text_option option, double low, double high, bool whole,
                          double *value, struct reason *why)
 {

@@ -1,5 +1,5 @@
 /* Outputs of the command: files that appear whole or not at all, and streams. Where and how files
- * are written is decided in src/output.
+ * are written is decided in src/io.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CLI_OUTPUT_H
 #define CLI_OUTPUT_H

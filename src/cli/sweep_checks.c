@@ -55,7 +55,7 @@ static size_t lowest(const struct series *s)
     return at;
 }
 
-/* docs/theory.md, limits: both ends of the Kelvin-Voigt curve, with theta = sqrt(32/15) delta1. */
+/* docs/theory.md, section 12: both ends of the Kelvin-Voigt curve, with theta = sqrt(32/15) delta1. */
 static int check_kelvin_voigt(const struct sweep *sweep, const struct chart *chart)
 {
     const struct series *line = &chart->panel[0].series[0];

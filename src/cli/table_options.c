@@ -27,11 +27,11 @@ static const struct poptOption build_options[] = {
     OPTION_FLAG("rotation-blocked", CODE_BLOCKED, "the spheres cannot rotate"),
     TEXT(TABLE_SPEED, "FROM:TO", "normal speeds, m/s; default 1e-4:100"),
     TEXT(TABLE_TOLERANCE, "ERROR", "largest error of ez and ex, in [1e-7, 0.1]; default 1e-5"),
-    TEXT(TABLE_THREADS, "N", "solve by so many threads, 1 to 1024; default all processors"),
-    TEXT(TABLE_MAX_IMPACTS, "N", "refine until so many impacts are solved; default 12000"),
-    TEXT(TABLE_TIME_LIMIT, "SECONDS", "or until so much time is spent; default 20, inf: no limit"),
+    TEXT(TABLE_THREADS, "N", "number of threads, 1 to 1024; default all processors"),
+    TEXT(TABLE_MAX_IMPACTS, "N", "limit of impacts for refinement; default 12000"),
+    TEXT(TABLE_TIME_LIMIT, "SECONDS", "limit of time for refinement, s; default 20, inf: no limit"),
     TEXT(TABLE_FIGURE, "FILE.svg|png|pdf",
-         "draw ez and ex too, shaded where the model's limits are passed; needs gnuplot"),
+         "draw ez and ex too, shaded beyond the limits of the model; needs gnuplot"),
     HELP};
 
 static const struct poptOption info_options[] = {TEXT(TABLE_FORMAT, "text|json", "default text"), HELP};

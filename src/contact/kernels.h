@@ -21,7 +21,7 @@ enum { rst_step_done, rst_step_too_long, rst_normal_jumped };
 
 void rst_law_grid(struct rst_law *law);
 void rst_law_rates(const struct rst_law *law, double step, restitute_contact_rates *rates);
-double rst_law_overlap(const struct rst_law *law, double mass, double speed, double radius);
+double rst_law_contact_time(const struct rst_law *law, double mass, double speed, double radius);
 void rst_law_step(const struct rst_law *law, const restitute_contact_rates *rates,
                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                   int64_t *status);

@@ -198,6 +198,6 @@ int restitute_contact_time_step_limit(const restitute_contact_law *law, double m
     if (!status) status = check_positive(radius, "radius (m)", error);
     if (!status) status = check_positive(speed, "speed (m/s)", error);
     if (status) return status;
-    *limit = 2.94 * rst_law_overlap(&law->kernel, mass, speed, radius) / speed / 50; /* 2.94 d/v: an elastic contact */
+    *limit = rst_law_contact_time(&law->kernel, mass, speed, radius) / 50;
     return rst_done(error);
 }

@@ -213,7 +213,12 @@ int restitute_contact_energies_get(const restitute_contact_law *law, double radi
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
                           largest_radius);
     const double *account = state + law->size - 2, stored = rst_law_stored(&law->kernel, radius, state);
-    const restitute_contact_energies found = {sizeof found, stored, account[1], account[0] - stored - account[1]};
+    const restitute_contact_energies found = {
+        .struct_size = sizeof found,
+        .stored = stored,
+        .friction = account[1],
+        .viscous = account[0] - stored - account[1],
+    };
     RST_GIVE(&found, energies);
     return rst_done(error);
 }

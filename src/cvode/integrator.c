@@ -1,5 +1,5 @@
-/* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or fixed-point iteration,
- * and messages that are kept and never printed.
+/* CVODE of SUNDIALS 6.4 and 7: context, vectors, a Newton solver with our own linear solver or
+ * fixed-point iteration, and messages that are kept and never printed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "cvode/integrator.h"
 
@@ -19,11 +19,12 @@
 
 enum { TEXT_SIZE = 200 };
 
-/* Vectors of an integrator: CVODE 6.4 takes 25, and one that took more than there are would work in no call at all. */
+/* Vectors of an integrator. CVODE 6.4 takes 25. A version that took more would fail in every
+ * call. */
 enum { VECTORS = 64 };
 
 struct integrator {
-    struct _generic_N_Vector_Ops operations; /* of all vectors; first, so that these lead to their integrator */
+    struct _generic_N_Vector_Ops operations; /* of all vectors; first, so that a vector leads here */
     struct _generic_N_Vector vector[VECTORS];
     struct _N_VectorContent_Serial content[VECTORS];
     double *values;
@@ -102,8 +103,9 @@ static int call_weights(N_Vector y, N_Vector weight, void *data)
     return 0;
 }
 
-/* Where there is no memory, N_VClone writes to the vector that is missing, and CVodeInit and CVodeFree both destroy
- * those that there are. So all are allocated at once, before CVODE asks, and stay until the end. */
+/* If memory runs out, N_VClone writes to the missing vector, and CVodeInit and CVodeFree both
+ * destroy the existing ones. So all vectors are allocated at once before CVODE needs them, and are
+ * kept until the end. */
 static N_Vector clone_vector(N_Vector like)
 {
     struct integrator *g = (struct integrator *)like->ops;
@@ -137,7 +139,7 @@ static int make_vectors(struct integrator *g)
     return 0;
 }
 
-/* The linear solver: it holds its matrix itself, and CVODE tells it gamma and where it is. */
+/* The linear solver. It has its own matrix; CVODE passes gamma and the state. */
 static SUNLinearSolver_Type linear_type(SUNLinearSolver solver)
 {
     (void)solver;

@@ -1,4 +1,5 @@
-/* CVODE with its vectors and solvers behind five calls; the only file that knows its versions is integrator.c.
+/* CVODE with its vectors and solvers behind five calls; the only file that knows its versions is
+ * integrator.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_INTEGRATOR_H
 #define RST_CVODE_INTEGRATOR_H
@@ -21,7 +22,7 @@ struct integrator_system {
     void *owner;
 };
 
-/* What a step came to. */
+/* Result of a step. */
 enum integrator_return { INTEGRATOR_STEP, INTEGRATOR_EVENT, INTEGRATOR_FAILED };
 
 struct integrator_counts {
@@ -30,13 +31,14 @@ struct integrator_counts {
 
 struct integrator;
 
-/* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y: the states at t,
- * copied. */
+/* OK, ERROR_MEMORY or ERROR_INTEGRATOR; if it failed *integrator is NULL and `text` says why. y:
+ * the states at t, copied. */
 int rst_integrator_create(const struct integrator_system *system, double t, const double *y,
                           struct integrator **integrator, char *text, int text_size);
 void rst_integrator_destroy(struct integrator *integrator);
 
-/* One step, or the rest of one up to the next event: t and y, in: where it is, out: where that ends. */
+/* One step, or the rest of one up to the next event: t and y, in: where it is, out: where that
+ * ends. */
 enum integrator_return rst_integrator_advance(struct integrator *integrator, double *t, double *y);
 
 /* After EVENT: nonzero entries are the functions that fell through 0. */
@@ -48,13 +50,13 @@ int rst_integrator_look(struct integrator *integrator, double t, double *y);
 /* Where the last step of CVODE itself ends; an event may lie before that. */
 double rst_integrator_reached(struct integrator *integrator);
 
-/* Begin anew at t, with another right-hand side. Nonzero: failed. */
+/* Restart at t, with another right-hand side. Nonzero: failed. */
 int rst_integrator_restart(struct integrator *integrator, double t, const double *y);
 
 /* Work since creation. */
 struct integrator_counts rst_integrator_work(struct integrator *integrator);
 
-/* CVODE's words on what failed last. */
+/* The last error text of CVODE. */
 const char *rst_integrator_text(const struct integrator *integrator);
 
 /* Version of SUNDIALS in use. */

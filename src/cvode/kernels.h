@@ -1,4 +1,5 @@
-/* The Fortran procedures of the method cvode, and the twins of their derived types; see fortran/cvode_*.f90.
+/* The Fortran procedures of the method cvode, and the twins of their derived types; see the folder
+ * fortran/cvode.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_KERNELS_H
 #define RST_CVODE_KERNELS_H
@@ -11,7 +12,7 @@ enum cvode_motion { RST_ELEMENT_STICKS = 0, RST_ELEMENT_SLIPS_FORWARD = 1, RST_E
 /* Twin of scene_type. */
 struct cvode_scene {
     double chi, g_inf, eta, reference, step_start;
-    int64_t n_terms, n_modes, n_states, n_knots, n_nodes, n_entered, restitution, no_slip;
+    int64_t n_terms, n_modes, n_states, n_knots, n_nodes, n_entered, restitution, mode;
 };
 
 /* Twin of contact_type. */
@@ -28,7 +29,8 @@ struct cvode_sums {
 void rst_cvode_normal_rates(const struct cvode_scene *scene, const double *g, const double *tau, const double *knot,
                             const double *memory, int64_t *near, double t, const double *y, double *rate,
                             struct cvode_contact *contact);
-/* Hermite's cubic through depth and velocity at two knots (time, depth, velocity), and its slope. */
+/* Hermite's cubic through depth and velocity at two knots (time, depth, velocity), and its
+ * slope. */
 void rst_cvode_hermite(const double *before, const double *after, double t, double *depth, double *slope);
 void rst_cvode_past(const struct cvode_scene *scene, const double *knot, const double *memory, double t, double *past);
 void rst_cvode_recovery_modes(int64_t n_terms, int64_t n_modes, double g_inf, double eta, const double *g,

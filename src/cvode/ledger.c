@@ -1,18 +1,20 @@
-/* The energy ledger of the method cvode (theory.md, 8): the run once more, with what dissipates and what leaves added up
- * by the trapezium rule over CVODE's steps and over the elements that leave.
+/* The energy ledger of the method cvode (theory.md, 8): the run is repeated. Dissipation and the
+ * energy of elements that leave are added up by the trapezoidal rule over CVODE's steps and over
+ * the elements that leave.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
 #include "base/report.h"
 #include "cvode/solve.h"
 
-/* A ledger is a check: it is kept with this many elements where the pair took more, and with not fewer than the
- * others. */
+/* Largest and smallest number of elements of a ledger. It is a check, and needs no more even if the
+ * pair did. */
 static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
-/* What has been added up, and what was last seen. */
+/* The sums, and the values at the last step. */
 struct bookkeeper {
     struct rst_ledger ledger;
     double rate[3], square;
@@ -34,27 +36,39 @@ static int64_t count_inside(const struct run *run)
     return n;
 }
 
+/* Energies in units of the impact energy over those of elements; of x at the speed U'. */
+static double of_work_z(void)
+{
+    return 2 * rst_mass_factor();
+}
+
+static double of_work_x(const struct run *run)
+{
+    return 4 * rst_mass_factor() * run->setup->problem->chi;
+}
+
 /* Elements that left in this step: what they held when the edge passed them. */
 static void post_left(const struct run *run, struct bookkeeper *keeper, int64_t inside)
 {
     const struct elements *e = &run->elements;
+    const double z = of_work_z(), x = of_work_x(run);
     const double fallen = keeper->square - run->contact.square;
     for (int64_t i = inside; i < keeper->inside; i++) {
         const double share = fallen > 0 ? (keeper->square - e->x[i] * e->x[i]) / fallen : 1;
         const double part = fmax(0, fmin(1, share)), w = width(e, run->scene.n_nodes, i, run->setup->radius);
-        keeper->ledger.left_z += 3.75 * w * (keeper->before_z[i] + part * (keeper->held_z[i] - keeper->before_z[i]));
-        keeper->ledger.left_x +=
-            7.5 * run->setup->chi * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
+        keeper->ledger.left_z += z * w * (keeper->before_z[i] + part * (keeper->held_z[i] - keeper->before_z[i]));
+        keeper->ledger.left_x += x * w * (keeper->before_x[i] + part * (keeper->held_x[i] - keeper->before_x[i]));
     }
 }
 
 static void post(struct run *run, double from, double to)
 {
     struct bookkeeper *keeper = run->observer;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const struct elements *e = &run->elements;
     const struct recovery *r = &run->recovery;
     double rate[3];
+    const double z = of_work_z(), x = of_work_x(run);
     const double half = 0.5 * (to - from);
     rst_run_evaluate(run);
     memcpy(keeper->before_z, keeper->held_z, (size_t)run->scene.n_nodes * sizeof(double));
@@ -62,9 +76,9 @@ static void post(struct run *run, double from, double to)
     rst_cvode_energy_rates(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->motion, e->shift, e->c,
                            e->b, r->rate, r->u, r->v, e->amplitude, run->shears, keeper->inside, to, run->y, rate,
                            keeper->held_z, keeper->held_x);
-    keeper->ledger.viscous_z += 3.75 * half * (keeper->rate[0] + rate[0]);
-    keeper->ledger.viscous_x += 7.5 * run->setup->chi * half * (keeper->rate[1] + rate[1]);
-    keeper->ledger.friction_x += 7.5 * run->setup->chi * half * (keeper->rate[2] + rate[2]);
+    keeper->ledger.viscous_z += z * half * (keeper->rate[0] + rate[0]);
+    keeper->ledger.viscous_x += x * half * (keeper->rate[1] + rate[1]);
+    keeper->ledger.friction_x += x * half * (keeper->rate[2] + rate[2]);
     const int64_t inside = count_inside(run);
     if (run->scene.restitution) post_left(run, keeper, inside);
     memcpy(keeper->rate, rate, sizeof rate);
@@ -72,34 +86,27 @@ static void post(struct run *run, double from, double to)
     keeper->inside = inside;
 }
 
-/* While all slips, q = f, friction does the work int f (U' - D'), and f is minus the acceleration: D' = 1 to
- * `velocity`. */
-static double gross_slip_work(double chi, double psi, double velocity)
-{
-    return 4 * chi * ((psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
-}
-
 /* What friction takes before the contact sticks; without sticking, to the end. */
-static void add_gross_slip(const struct run_setup *setup, double end, struct rst_ledger *ledger)
+static void add_gross_slip(const struct rst_problem *problem, double end, struct rst_ledger *ledger)
 {
-    if (setup->mode == RST_FRICTIONLESS)
+    if (problem->mode == RST_FRICTIONLESS)
         ledger->viscous_x = ledger->left_x = 0;
-    else if (setup->mode == RST_GROSS_SLIP)
-        ledger->friction_x += gross_slip_work(setup->chi, setup->psi, end);
+    else if (problem->mode == RST_GROSS_SLIP)
+        ledger->friction_x += rst_gross_slip_work(problem, end);
 }
 
 /* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all
  * relax. */
-static void sink(const struct run_setup *setup, struct rst_outcome *outcome)
+static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     struct rst_ledger *ledger = &outcome->ledger;
-    const double chi = setup->chi, psi = setup->psi * setup->shear_scale;
+    const double before = problem->shear_speed, after = outcome->shear_velocity;
     *ledger = (struct rst_ledger){.viscous_z = 1};
-    if (setup->mode == RST_FRICTIONLESS) return;
-    if (setup->mode == RST_GROSS_SLIP)
+    if (problem->mode == RST_FRICTIONLESS) return;
+    if (problem->mode == RST_GROSS_SLIP)
         ledger->friction_x =
-            gross_slip_work(chi, psi, outcome->shear_velocity == 0 ? (2 * chi - psi) / (2 * chi - 1) : 0);
-    ledger->viscous_x = psi * psi - outcome->shear_velocity * outcome->shear_velocity - ledger->friction_x;
+            rst_gross_slip_work(problem, rst_never_sticks(problem, 0) ? 0 : rst_end_of_gross_slip(problem));
+    ledger->viscous_x = before * before - after * after - ledger->friction_x;
 }
 
 int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
@@ -109,7 +116,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     struct bookkeeper keeper = {.ledger = {0}};
     struct run run = {.observe = post, .observer = &keeper};
     if (outcome->sunk) {
-        sink(setup, outcome);
+        sink(setup->problem, outcome);
         return RESTITUTE_OK;
     }
     all.n_nodes = outcome->elements > most_ledger_elements ? most_ledger_elements : outcome->elements;
@@ -124,11 +131,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     keeper.before_z = keeper.held_x + all.n_nodes;
     keeper.before_x = keeper.before_z + all.n_nodes;
     const int status = rst_run_follow(&run, &all, &memory->trace, NULL);
-    add_gross_slip(&all, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
-    const double scale = setup->shear_scale * setup->shear_scale; /* of energies */
-    keeper.ledger.friction_x *= scale;
-    keeper.ledger.viscous_x *= scale;
-    keeper.ledger.left_x *= scale;
+    add_gross_slip(setup->problem, run.shears ? run.slip_end : outcome->velocity, &keeper.ledger);
     if (status == RESTITUTE_OK) outcome->ledger = keeper.ledger;
     rst_run_release(&run);
     free(keeper.held_z);

@@ -13,7 +13,7 @@
 struct cvode_record {
     struct event_log log;
     struct rst_units units; /* of that impact */
-    double psi;             /* of it, to which units.shear_velocity belongs */
+    double shear_speed;     /* of it: U' to which units.shear_velocity belongs */
     restitute_cvode_work work;
 };
 

@@ -1,4 +1,5 @@
-/* The history of an impact by the method cvode: the run once more, sampled evenly by CVODE's own interpolation.
+/* The history of an impact by the method cvode: the run once more, sampled evenly by CVODE's own
+ * interpolation.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -8,23 +9,21 @@
 struct recorder {
     struct rst_history *history;
     double interval, end;
-    double psi;
 };
 
 static void keep(struct run *run, double t, const double *y)
 {
-    const struct recorder *recorder = run->observer;
-    struct rst_history *history = recorder->history;
-    const double force = run->setup->mode == RST_FRICTIONLESS ? 0 : run->shears ? run->sums.force : run->contact.force;
+    struct rst_history *history = ((const struct recorder *)run->observer)->history;
+    const double force = run->setup->problem->mode == RST_FRICTIONLESS ? 0 : run->shears ? run->sums.force : run->contact.force;
     history->samples[history->count++] =
         (struct rst_sample){.time = t,
                             .indentation = y[0],
                             .contact_radius = run->contact.radius,
                             .stick_radius = rst_run_stick_radius(run),
-                            .normal_force = 15.0 / 8 * run->contact.force,
-                            .shear_force = 15.0 / 8 * force * run->setup->shear_scale,
+                            .normal_force = run->contact.force,
+                            .shear_force = force,
                             .velocity = rst_run_velocity(run, y),
-                            .shear_velocity = rst_run_shear_velocity(run, y) / recorder->psi};
+                            .shear_velocity = rst_run_shear_velocity(run, y) / run->setup->problem->shear_speed};
 }
 
 static void sample(struct run *run)
@@ -43,7 +42,7 @@ int rst_cvode_record(const struct rst_problem *problem, struct cvode_memory *mem
                      struct rst_history *history, restitute_error *error)
 {
     struct run_setup setup = rst_cvode_setup(problem);
-    struct recorder recorder = {.history = history, .psi = setup.psi};
+    struct recorder recorder = {.history = history};
     struct run run = {.sample = sample, .observer = &recorder};
     const double *y;
     recorder.end = outcome->followed_time;

@@ -77,7 +77,7 @@ static void hand_out(const struct cvode_record *record, restitute_cvode_events *
         event->position *= units->length_x;
         event->indentation *= units->length_z;
         event->normal_velocity *= units->velocity;
-        event->tangential_velocity *= units->shear_velocity / record->psi;
+        event->tangential_velocity *= units->shear_velocity / record->shear_speed;
     }
 }
 

@@ -1,8 +1,10 @@
-/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it (docs/theory.md, section 4).
+/* Follows one impact: compression, restitution and, with a tangential side, gross slip before it
+ * (docs/theory.md, section 4).
  *
- * CVODE starts anew at first touch, when gross slip ends, at the largest indentation, where the formula of the force
- * changes, and where elements that stick again would otherwise have been taken to slip for too long a part of a step.
- * Entries, exits and stick -> slip leave the right-hand side continuous and do not interrupt it.
+ * CVODE restarts at the end of gross slip and at the largest indentation, where the formula of the
+ * force changes. It also restarts where elements stick again, if treating them as slipping for the
+ * rest of the step would be too inaccurate. At entries, exits and stick -> slip the right-hand side
+ * is continuous, and CVODE is not interrupted.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "cvode/run.h"
 
@@ -11,29 +13,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
+
 /* Root functions before those of the elements. */
 enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 
-/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root of the error of a
- * step: Hermite's cubic between them, of fourth order, then errs by less than a hundredth of that. */
+/* Knots of the trace are at most this far apart, in units of the depth scale times the fourth root
+ * of the error of a step: Hermite's cubic between them, of fourth order, then errs by less than a
+ * hundredth of that. */
 static const double knot_factor = 0.5;
 
-/* Functions of elements that are 0 by construction are shifted by this part of the allowed error, so that CVODE does
- * not take them for events; an element changes its motion that much later. */
+/* Functions of elements that are 0 by construction are shifted by this share of the allowed error,
+ * so that CVODE does not report events. An element changes its motion later by as much. */
 static const double shift_of_root = 1e-3;
 
-/* A step after which elements prove to have stuck for a while is taken back if that changed U' by more than this part
- * of the error allowed. */
+/* If some elements already stuck within a step, the step is repeated if this changed U' by more
+ * than this share of the allowed error. */
 static const double late_part = 1;
 
-/* The velocity of a sphere that may sink in is followed more closely where it is small: it must not pass through 0 by
- * errors while it is told from rest_speed. */
+/* A small velocity of a sphere that may sink in is computed more accurately: errors must not change
+ * its sign while it is compared with rest_speed. */
 static const double sinking_scale = 0.02;
 
-/* Below this psi tangential stresses are small beside the normal ones almost everywhere. */
+/* Below this psi tangential stresses are much smaller than normal ones almost everywhere. */
 static const double mostly_sticks = 0.2;
 
-/* How many times the error of a step the states may be off (docs/cvode.md). */
+/* Error of the states over the error of a step (docs/cvode.md). */
 static const double error_margin = 100;
 
 static size_t position_of_shear(const struct cvode_scene *scene)
@@ -47,13 +52,11 @@ double rst_run_velocity(const struct run *run, const double *y)
     return y[1];
 }
 
-/* While all slips, U' follows from D' (27); without friction it does not change. */
+/* In gross slip U' follows from D' (27); without friction U' is constant. */
 double rst_run_shear_velocity(const struct run *run, const double *y)
 {
-    const struct run_setup *s = run->setup;
     if (run->shears) return y[position_of_shear(&run->scene) + 1];
-    if (s->mode == RST_FRICTIONLESS) return s->psi;
-    return s->psi - 2 * s->chi * (1 - y[1]);
+    return rst_slipping_velocity(run->setup->problem, y[1]);
 }
 
 double rst_run_stick_radius(const struct run *run)
@@ -61,7 +64,7 @@ double rst_run_stick_radius(const struct run *run)
     const struct elements *e = &run->elements;
     int64_t i = run->inside;
     if (!run->shears || i == 0) return 0;
-    if (run->scene.no_slip) return run->contact.radius;
+    if (run->scene.mode == RST_NO_SLIP) return run->contact.radius;
     while (i > 0 && !(e->motion[i - 1] == RST_ELEMENT_STICKS && e->d[i - 1] > 0 && e->d[i - 1] < 2 * e->f[i - 1]))
         i--;
     if (i == run->inside) return run->contact.radius;
@@ -70,7 +73,7 @@ double rst_run_stick_radius(const struct run *run)
 
 static void evaluate(struct run *run, double t, const double *y, double *rate)
 {
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const struct elements *e = &run->elements;
     rst_cvode_normal_rates(&run->scene, s->g, s->tau, run->trace->knot, run->trace->memory, &run->near, t, y, rate,
                            &run->contact);
@@ -78,14 +81,14 @@ static void evaluate(struct run *run, double t, const double *y, double *rate)
     rst_cvode_margins(&run->scene, s->g, s->tau, &run->contact, e->x, e->entry, e->past, e->shift, e->c, e->b,
                       e->layer_weight, run->start_y, run->start_rate, t, y, &run->inside, e->d, e->f, e->layer);
     struct cvode_contact contact = run->contact;
-    if (run->setup->psi < mostly_sticks || run->scene.no_slip)
+    if (run->setup->problem->shear_speed < mostly_sticks || run->scene.mode == RST_NO_SLIP)
         rst_cvode_force_by_rule(&run->scene, s->tau, &run->contact, e->x, e->entry, e->past, e->c, e->layer_weight,
                                 run->inside, e->f, t, y, &contact.force);
     rst_cvode_shear_rates(&run->scene, s->g, s->tau, &contact, e->x, e->entry, e->motion, run->inside, e->d, e->f,
                           e->layer, t, y, rate, &run->sums);
 }
 
-/* ------------------------------------------------------------------------------------------------ what CVODE calls */
+/* ---- what CVODE calls */
 
 static int call_rates(void *owner, double t, const double *y, double *rate)
 {
@@ -99,10 +102,10 @@ static int call_rates(void *owner, double t, const double *y, double *rate)
 
 static double error_scale(const struct run *run)
 {
-    return run->setup->closeness * fmin(1, run->setup->psi);
+    return run->setup->closeness * fmin(1, run->setup->problem->shear_speed);
 }
 
-/* What counts as 0 where something is 0 by construction. */
+/* Threshold below which a value that is 0 by construction counts as 0. */
 static double nearly(const struct run *run)
 {
     return shift_of_root * error_scale(run);
@@ -114,7 +117,7 @@ static void call_roots(void *owner, double t, const double *y, double *value)
     const struct elements *e = &run->elements;
     evaluate(run, t, y, run->scratch);
     value[ROOT_PHASE] = run->scene.restitution ? run->contact.square : y[1];
-    value[ROOT_SLIP_END] = run->shears ? 1 : y[1] - run->slip_end; /* behind it D' may stay there: refused by CVODE */
+    value[ROOT_SLIP_END] = run->shears ? 1 : y[1] - run->slip_end; /* after it D' may stay there, which CVODE refuses */
     value[ROOT_ENTRY] = value[ROOT_EXIT] = 1;
     if (run->log && run->setup->n_nodes > 0) {
         if (!run->scene.restitution && run->next_entry < run->setup->n_nodes)
@@ -131,35 +134,35 @@ static void call_roots(void *owner, double t, const double *y, double *value)
 static void call_newton(void *owner, double gamma, const double *y, const double *b, double *x)
 {
     struct run *run = owner;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     rst_cvode_solve_newton(&run->scene, s->g, s->tau, &run->contact, &run->sums, gamma, y, b, x);
 }
 
-/* Relative for what may grow, absolute by the scales of the impact: velocities 1 (tangential ones psi), stresses those
- * that stop the sphere. */
+/* Error weights: relative for states that may grow, absolute for the others, by the scales of the
+ * impact: velocities 1 (tangential ones psi), stresses those that stop the sphere. */
 static void call_weights(void *owner, const double *y, double *weight)
 {
     const struct run *run = owner;
     const struct run_setup *s = run->setup;
     const double close = s->closeness, stress = 1 / (s->depth * sqrt(s->depth));
-    const size_t n = (size_t)s->solid.n_terms, shear = position_of_shear(&run->scene);
+    const size_t n = (size_t)s->problem->solid.n_terms, shear = position_of_shear(&run->scene);
     weight[0] = 1 / (close * fmax(s->depth, fabs(y[0])));
-    weight[1] = 1 / (close * (s->solid.can_sink ? fmax(sinking_scale, fabs(y[1])) : 1));
+    weight[1] = 1 / (close * (s->problem->solid.can_sink ? fmax(sinking_scale, fabs(y[1])) : 1));
     for (size_t k = 0; k < n; k++) {
         weight[2 + k] = 1 / (close * fmax(stress, fabs(y[2 + k])));
         weight[2 + n + k] = 1 / (close * fmax(stress * sqrt(s->depth), fabs(y[2 + n + k])));
     }
     if (!run->shears) return;
-    const double share = fmin(1, s->psi);
+    const double share = fmin(1, s->problem->shear_speed);
     weight[shear] = 1 / (close * share * fmax(s->depth, fabs(y[shear])));
     weight[shear + 1] = 1 / (close * share);
     for (size_t k = 0; k < n; k++)
         weight[shear + 2 + k] = 1 / (close * share * fmax(stress, fabs(y[shear + 2 + k])));
 }
 
-/* ------------------------------------------------------------------------------------------------ memory */
+/* ---- memory */
 
-/* What is taken of a block; without one it is only counted. */
+/* Take memory from a block; without a block only count it. */
 struct taken {
     double *block;
     int64_t count;
@@ -209,7 +212,8 @@ static int fail(struct run *run, int status, const char *text)
     return status;
 }
 
-/* Places that the edge passes evenly in the angle, when it did, and the memory that elements start with. */
+/* Positions of the elements, equally spaced in the angle of the edge; when the edge passed them;
+ * and the memory that elements start with. */
 static void place_elements(struct run *run)
 {
     const int64_t n = run->setup->n_nodes, terms = run->scene.n_terms;
@@ -223,22 +227,23 @@ static void place_elements(struct run *run)
         for (int64_t k = 0; k < terms; k++)
             e->past[k * n + i] = i > 0 ? past[k] : 0;
     }
-    rst_cvode_layer_weights(&run->scene, run->setup->solid.tau, e->entry, e->layer_weight);
+    rst_cvode_layer_weights(&run->scene, run->setup->problem->solid.tau, e->entry, e->layer_weight);
 }
 
 static int prepare(struct run *run)
 {
     const struct run_setup *s = run->setup;
-    const int64_t k = s->solid.n_terms, n = s->n_nodes;
-    run->scene = (struct cvode_scene){.chi = s->chi,
-                                      .g_inf = s->solid.g_inf,
-                                      .eta = s->solid.eta,
+    const struct rst_solid *solid = &s->problem->solid;
+    const int64_t k = solid->n_terms, n = s->n_nodes;
+    run->scene = (struct cvode_scene){.chi = s->problem->chi,
+                                      .g_inf = solid->g_inf,
+                                      .eta = solid->eta,
                                       .n_terms = k,
-                                      .n_modes = k + (s->solid.eta > 0),
+                                      .n_modes = k + (solid->eta > 0),
                                       .n_states = 2 + 2 * k,
                                       .n_knots = run->trace->count,
                                       .n_nodes = n,
-                                      .no_slip = s->mode == RST_NO_SLIP};
+                                      .mode = s->problem->mode};
     run->near = 1;
     const size_t size = (size_t)lay_out(run, run->doubles), modes = (size_t)run->scene.n_modes;
     run->doubles = calloc(size + 2 * modes * modes, sizeof(double));
@@ -253,7 +258,7 @@ static int prepare(struct run *run)
     }
     place_elements(run);
     struct recovery *r = &run->recovery;
-    rst_cvode_recovery_modes(k, run->scene.n_modes, s->solid.g_inf, s->solid.eta, s->solid.g, s->solid.tau,
+    rst_cvode_recovery_modes(k, run->scene.n_modes, solid->g_inf, solid->eta, solid->g, solid->tau,
                              run->doubles + size, r->rate, r->u, r->v, r->from_u, r->from_v);
     return RESTITUTE_OK;
 }
@@ -307,16 +312,16 @@ static int integrate_from(struct run *run)
     return rst_integrator_create(&system, run->time, run->y, &run->integrator, run->text, sizeof run->text);
 }
 
-/* ------------------------------------------------------------------------------------------------ elements */
+/* ---- elements */
 
 static void fade_to(struct run *run, double t)
 {
     const struct elements *e = &run->elements;
-    rst_cvode_fade(&run->scene, run->setup->solid.tau, run->recovery.rate, t, e->c, e->b, e->amplitude);
+    rst_cvode_fade(&run->scene, run->setup->problem->solid.tau, run->recovery.rate, t, e->c, e->b, e->amplitude);
     run->scene.reference = t;
 }
 
-/* Elements that have entered up to now get their memory, which is kept from now on. Nonzero: CVODE does not reach
+/* Set the memory of the elements that have entered by now. Nonzero: CVODE cannot interpolate so far
  * back. */
 static int admit(struct run *run, double t)
 {
@@ -332,7 +337,7 @@ static int admit(struct run *run, double t)
             y = run->look;
         }
         run->scene.n_entered++;
-        rst_cvode_enter_element(&run->scene, run->setup->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
+        rst_cvode_enter_element(&run->scene, run->setup->problem->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
                                 e->b, e->amplitude);
     }
     return 0;
@@ -347,13 +352,13 @@ static void begin_step(struct run *run)
     evaluate(run, run->time, run->y, run->start_rate);
 }
 
-/* All elements in contact stick with the force that they slipped with: tangential memory is that of the normal side,
- * and with U = D nothing else is to be kept. */
+/* All elements in contact stick with the force of gross slip: the tangential memory equals the
+ * normal one, and with U = D nothing else is needed. */
 static void take_over_gross_slip(struct run *run)
 {
     const struct elements *e = &run->elements;
     const int64_t n = run->scene.n_nodes, terms = run->scene.n_terms;
-    const double *tau = run->setup->solid.tau;
+    const double *tau = run->setup->problem->solid.tau;
     double *shear = run->y + position_of_shear(&run->scene);
     shear[0] = run->y[0];
     shear[1] = run->slip_end;
@@ -377,13 +382,13 @@ static int begin_shear(struct run *run, int after_gross_slip)
     if (after_gross_slip)
         take_over_gross_slip(run);
     else
-        run->y[position_of_shear(&run->scene) + 1] = run->setup->psi;
+        run->y[position_of_shear(&run->scene) + 1] = run->setup->problem->shear_speed;
     const int status = integrate_from(run);
     if (!status) begin_step(run);
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------ events */
+/* ---- events */
 
 static int note(struct run *run, int kind, double position, int elements)
 {
@@ -399,11 +404,11 @@ static int note(struct run *run, int kind, double position, int elements)
     return rst_log_add(run->log, &event) ? fail(run, RESTITUTE_ERROR_MEMORY, "out of memory for events") : RESTITUTE_OK;
 }
 
-/* How much U' has suffered from elements that have stuck since now, over a weight of contact, until the end of CVODE's
- * step. */
+/* Error of U' at the end of CVODE's step, over a weight of contact, if elements that stick from now
+ * on are treated as slipping. */
 static double suffered(struct run *run, double weight)
 {
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     const double reached = rst_integrator_reached(run->integrator), late = reached - run->time;
     double stiffness = s->g_inf;
     for (int64_t k = 0; k < s->n_terms; k++)
@@ -413,7 +418,7 @@ static double suffered(struct run *run, double weight)
     const size_t v = position_of_shear(&run->scene) + 1;
     const double slip =
         fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
-    return 3.75 * run->setup->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
+    return 2 * rst_mass_factor() * run->setup->problem->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
 }
 
 /* The functions of the elements, of the margins last computed. */
@@ -424,8 +429,8 @@ static void watch(struct run *run)
                          e->d, e->f, run->time, run->y, e->value);
 }
 
-/* At an event those that CVODE saw change, and those that entered with slip since its last return, from `first` on, if
- * the slip has come to its end: CVODE did not watch them. */
+/* At an event: elements whose change CVODE found; and elements from `first` on, which entered with
+ * slip since its last return and whose slip has ended, since CVODE did not watch them. */
 static void find_changes(struct run *run, int64_t first, const int *fell)
 {
     const struct elements *e = &run->elements;
@@ -434,8 +439,8 @@ static void find_changes(struct run *run, int64_t first, const int *fell)
         e->change[i] = fell[i] || (i >= first && e->motion[i] != RST_ELEMENT_STICKS && e->value[i] <= nearly(run));
 }
 
-/* At the end of a step those that are past their change by more than errors can explain: they entered and changed
- * within it. */
+/* At the end of a step: elements that are past their change by more than the error. They entered
+ * and changed within the step. */
 static int find_late(struct run *run)
 {
     const struct elements *e = &run->elements;
@@ -450,11 +455,11 @@ static int find_late(struct run *run)
     return late;
 }
 
-/* Elements that are to change their motion do so. */
+/* Change the motion of the marked elements. */
 static int change_motion(struct run *run, int *restart)
 {
     const struct elements *e = &run->elements;
-    const struct rst_solid *s = &run->setup->solid;
+    const struct rst_solid *s = &run->setup->problem->solid;
     int slipping = 0, sticking = 0, status = RESTITUTE_OK;
     double slip_at = 0, stick_at = 0, weight = 0;
     for (int64_t i = 0; i < run->inside; i++) {
@@ -492,7 +497,8 @@ static int end_contact(struct run *run)
     return note(run, RESTITUTE_CVODE_EVENT_CONTACT_END, 0, 1);
 }
 
-/* The foundation of a solid that has forgotten all it bore may have let go by then: nothing would fall through 0. */
+/* If the solid has relaxed completely, contact may already have ended: no function would fall
+ * through 0. */
 static int turn(struct run *run)
 {
     run->y[1] = 0;
@@ -519,7 +525,8 @@ static int end_gross_slip(struct run *run)
     return status ? status : begin_shear(run, 1);
 }
 
-/* Gross slip may end there too (psi = 2 chi): restarted on that root, CVODE would not see it fall. */
+/* Gross slip may end at the same instant (psi = 2 chi). After a restart on that root CVODE would
+ * not find it. */
 static int turn_and_stick(struct run *run)
 {
     const int both = !run->shears && run->setup->n_nodes > 0 && fabs(run->slip_end) <= nearly(run);
@@ -552,7 +559,7 @@ static int react(struct run *run, int64_t first)
     return RESTITUTE_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------ following */
+/* ---- following */
 
 /* Knots of the trace within the step that led from `from` to run->time. */
 static int extend_trace(struct run *run, double from)
@@ -573,17 +580,15 @@ static int extend_trace(struct run *run, double from)
     return RESTITUTE_OK;
 }
 
-/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the contact, in units
- * of the impact energy: below rest_speed^2 the sphere stays (docs/theory.md, section 6). */
+/* Kinetic energy and twice what the springs could give back, with the mean stress of each over the
+ * contact, in units of the impact energy: below rest_speed^2 the sphere has stopped
+ * (docs/theory.md, section 6). */
 static int is_lost(const struct run *run)
 {
-    const struct rst_solid *s = &run->setup->solid;
-    const double depth = run->y[0], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
-    if (!s->can_sink || run->scene.restitution || !(run->y[1] < rest)) return 0;
-    double energy = s->g_inf * (8.0 / 15) * depth * depth * sqrt(depth);
-    for (int64_t k = 0; k < s->n_terms; k++)
-        energy += 2 * loading[k] * loading[k] / (s->g[k] * sqrt(depth));
-    return run->y[1] * run->y[1] + 15.0 / 8 * energy < rest * rest;
+    const struct rst_solid *s = &run->setup->problem->solid;
+    const double speed = run->y[1], rest = run->setup->rest_speed, *loading = run->y + 2 + s->n_terms;
+    if (!s->can_sink || run->scene.restitution || !(speed < rest)) return 0;
+    return speed * speed + rst_recoverable_energy(run->y[0], s->g_inf, s->n_terms, s->g, loading) < rest * rest;
 }
 
 static void keep_largest(struct run *run)
@@ -591,12 +596,12 @@ static void keep_largest(struct run *run)
     run->max_force = fmax(run->max_force, run->contact.force);
 }
 
-/* A step without an event, or behind its last one. */
+/* A step without an event, or its part after the last event. */
 static int end_step(struct run *run)
 {
     int status = RESTITUTE_OK, again = 0;
     begin_step(run);
-    if (!run->shears || run->scene.no_slip || !find_late(run)) return status;
+    if (!run->shears || run->scene.mode == RST_NO_SLIP || !find_late(run)) return status;
     status = change_motion(run, &again);
     begin_step(run);
     return status;
@@ -626,29 +631,33 @@ static int is_late(struct run *run)
 {
     const struct run_setup *s = run->setup;
     enum { steps_between_looks = 16 };
-    return s->timed && s->timed->clock && run->checks++ % steps_between_looks == 0 && s->timed->clock() > s->until;
+    double (*clock)(void) = s->problem->clock;
+    return clock && run->checks++ % steps_between_looks == 0 && clock() > s->until;
 }
 
 static int check_work(struct run *run)
 {
     const struct run_setup *s = run->setup;
-    if (run->event_count > s->most_events * (s->n_nodes + 4))
-        snprintf(run->text, sizeof run->text,
+    const size_t size = sizeof run->text;
+    int status = RESTITUTE_OK;
+    if (run->event_count > s->most_events * (s->n_nodes + 4)) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size,
                  "an event storm: %lld events of %lld elements, which change between stick and slip without end",
                  (long long)run->event_count, (long long)s->n_nodes);
-    else if (rst_integrator_work(run->integrator).steps > s->most_steps)
-        snprintf(run->text, sizeof run->text, "more than %lld steps of CVODE", (long long)s->most_steps);
-    else if (spent(run) > s->budget) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "max_work = %g: spent in a run with elements = %lld; raise it",
-                 s->max_work, (long long)s->n_nodes);
+    } else if (rst_integrator_work(run->integrator).steps > s->most_steps) {
+        status = RESTITUTE_ERROR_CONVERGENCE;
+        snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
+    } else if (spent(run) > s->budget) {
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "max_work = %g: spent in a run with elements = %lld; raise it", s->problem->max_work,
+                 (long long)s->n_nodes);
     } else if (is_late(run)) {
-        run->spent = 1;
-        snprintf(run->text, sizeof run->text, "time_limit = %g s: spent in a run with elements = %lld; raise it",
-                 s->timed->time_limit, (long long)s->n_nodes);
-    } else
-        return RESTITUTE_OK;
-    return RESTITUTE_ERROR_TOO_MUCH_WORK;
+        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
+        snprintf(run->text, size, "time_limit = %g s: spent in a run with elements = %lld; raise it",
+                 s->problem->time_limit, (long long)s->n_nodes);
+    }
+    return status;
 }
 
 int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log)
@@ -658,19 +667,19 @@ int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace 
     run->log = log;
     int status = prepare(run);
     if (status) return status;
-    const int friction = setup->n_nodes > 0 && setup->mode != RST_FRICTIONLESS;
+    const struct rst_problem *problem = setup->problem;
+    const int friction = setup->n_nodes > 0 && problem->mode != RST_FRICTIONLESS;
     run->y[1] = 1;
     run->next_entry = 1; /* the middle is in contact from the first touch on */
     run->slip_end = -2;
-    const double psi_c = isfinite(setup->rebound) ? 2 * setup->chi * (1 + setup->rebound) - setup->rebound : 0;
-    const int slides_on = setup->mode == RST_GROSS_SLIP && (2 * setup->chi <= 1 || setup->psi >= psi_c);
-    if (friction && setup->mode == RST_GROSS_SLIP && !slides_on)
-        run->slip_end = (2 * setup->chi - setup->psi) / (2 * setup->chi - 1);
+    const double rebound = isfinite(setup->rebound) ? setup->rebound : 0;
+    if (friction && problem->mode == RST_GROSS_SLIP && !rst_never_sticks(problem, rebound))
+        run->slip_end = rst_end_of_gross_slip(problem);
     if (setup->n_nodes == 0 && rst_trace_add(trace, 0, 0, 1, run->y + 2))
         return fail(run, RESTITUTE_ERROR_MEMORY, "out of memory");
     if (setup->n_nodes > 0) status = note(run, RESTITUTE_CVODE_EVENT_ENTRY, 0, 1);
     if (status) return status;
-    status = friction && setup->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);
+    status = friction && problem->mode != RST_GROSS_SLIP ? begin_shear(run, 0) : integrate_from(run);
     while (!status && !run->ended) {
         status = advance(run);
         if (!status) status = check_work(run);

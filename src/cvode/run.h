@@ -9,24 +9,18 @@
 #include "cvode/log.h"
 #include "cvode/trace.h"
 
-/* The scene and how closely it is followed. */
+/* The scene and the accuracy of the run. */
 struct run_setup {
-    double chi, psi;
-    struct rst_solid solid;
-    enum rst_mode mode;
-    double shear_scale; /* tangential quantities of the problem over those here: 1, or psi where slip is left out */
+    const struct rst_problem *problem;
     int64_t n_nodes;    /* elements; 0: the normal side alone */
     double closeness;   /* relative error of a step */
     double depth;       /* scale of the depth */
     double radius;      /* largest, of the elements; 0 without elements */
     double rebound;     /* D' at the end, where known: decides on slip to the end */
-    double rest_speed;  /* a sphere that cannot rebound faster has sunk in */
+    double rest_speed;  /* a sphere that cannot rebound faster than this has sunk in */
     enum integrator_family family;
-    double max_work;                 /* of the whole call, for messages */
-    int64_t max_updates;             /* likewise, in what is counted here */
-    int64_t budget;                  /* of them, what this run may spend */
-    const struct rst_problem *timed; /* has the clock of the call; NULL: no limit of time */
-    double until;                    /* of that clock: when this run has to end */
+    int64_t budget;                  /* of updates: what this run may spend */
+    double until;                    /* of the problem's clock: when this run has to end */
     int64_t most_events, most_steps; /* events an element, steps of CVODE: more mean that something is wrong */
 };
 
@@ -47,9 +41,8 @@ struct run {
     struct trace *trace;   /* of the compression: written by a run without elements, read by all */
     struct event_log *log; /* NULL: not wanted */
     void (*sample)(
-        struct run *run); /* after each part of a step, while run_look() sees all of it; NULL: nobody looks */
-    void (*observe)(struct run *run, double from, double to); /* then, with the memory of elements at its end, and once
-                                                                 more after an event, from where to where it was */
+        struct run *run); /* after each part of a step, while run_look() can evaluate it; NULL: not called */
+    void (*observe)(struct run *run, double from, double to); /* then, with the memory at its end; again after an event */
     void *observer;
 
     struct cvode_scene scene;
@@ -60,7 +53,7 @@ struct run {
     double *doubles; /* what the last two point into */
     struct integrator *integrator;
     double time, *y, *start_y, *start_rate, *look, *scratch;
-    int64_t near, inside;          /* where to look first */
+    int64_t near, inside;          /* where the search starts */
     int64_t next_entry, outermost; /* for entry and exit events */
     double slip_end;               /* D' at which gross slip ends; below any: it does not */
     int shears;                    /* tangential states are being integrated */
@@ -70,30 +63,29 @@ struct run {
     double end_velocity, end_shear_velocity, depth; /* where it ended */
     struct integrator_counts work;
     int64_t updates, event_count;
-    int spent;      /* a limit is: rst_run_follow() ended with TOO_MUCH_WORK for that, and not for what went wrong */
     int64_t checks; /* of work */
     double seconds; /* that it took, of timed runs */
     char text[200];
 };
 
-/* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is released by
- * rst_run_release(), whatever the status. */
+/* Follow an impact; 0, or a status with its reason in run->text. The outcome is in `run`. Memory is
+ * released by rst_run_release(), whatever the status. */
 int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace *trace, struct event_log *log);
 void rst_run_release(struct run *run);
 
-/* States at a time within the last step, with the contact and, where there are elements, their margins and sums.
- * Nonzero: not there. Memory of elements fades from where it is kept: looking back from there would make exp(t/tau)
- * overflow. */
+/* States at a time within the last step, with the contact and, where there are elements, their
+ * margins and sums. Nonzero: not there. The memory of elements decays from its reference time. At
+ * an earlier time exp(t/tau) would overflow. */
 int rst_run_look(struct run *run, double t, const double **y);
 
-/* The contact, margins and sums of where the run is. */
+/* The contact, margins and sums at the present time. */
 void rst_run_evaluate(struct run *run);
 
 /* Velocities of the sphere now. */
 double rst_run_velocity(const struct run *run, const double *y);
 double rst_run_shear_velocity(const struct run *run, const double *y);
 
-/* Radius of the zone that sticks, of the margins last computed. */
+/* Stick radius, from the margins last computed. */
 double rst_run_stick_radius(const struct run *run);
 
 #endif

@@ -1,68 +1,54 @@
-/* The method `cvode`: the normal side at two tolerances, then elements in doubled numbers until their pairs agree.
+/* The method `cvode`: the normal motion at two tolerances, then twice as many elements until the
+ * pairs agree.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "cvode/solve.h"
+#include "base/gross_slip.h"
 #include "base/report.h"
 
-/* A step of CVODE may err by this part of the tolerance. Errors of some thousand steps, and of the kinks in them, add
- * up to this many times as much (docs/cvode.md). */
+/* Error of a step of CVODE as a share of the tolerance. The errors of some thousand steps, and of
+ * the kinks in them, add up to the second value times as much (docs/cvode.md). */
 static const double closeness_part = 2e-3, adding_up = 50;
 
-/* The normal side is also followed this much less closely; a part of the change is left. */
+/* The normal motion is also computed with this much larger errors. The second value is the share of
+ * the change that estimates the error. */
 static const double looser = 10, share_of_change_ez = 0.3;
 
 /* Rounding in CVODE's predictions. */
 static const double closest = 1e-13;
 
-/* The trapezium rule is of second order: a third of the change from half as many elements is taken off. What is left
- * is judged by how much that result changed from half as many elements. A change may be small by chance, so the error
- * of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2), is added. */
+/* The trapezoidal rule is of second order: a third of the change from half as many elements is
+ * taken off. The estimate follows from the change of this result from half as many elements. A
+ * change may be small by chance, so the error of the median impact, 0.2 max(1, chi)^(3/2) n^(-5/2),
+ * is added. */
 static const double part_taken_ex = 1.0 / 3, share_of_change_ex = 0.5, usual_error = 0.2;
 
-/* e_x differs from that without slip by at most this times psi (docs/accuracy.md), which is left out where it is a
- * small part of the tolerance. */
-static const double change_by_slip = 2, negligible_part = 0.05;
-
-/* The rest of the tolerance is for merged terms. */
+/* The rest of the tolerance is for what the solver leaves out. */
 static const double acceptance = 0.9;
 
 static const int64_t most_elements = 16384;
 
-/* Events that an element may have before it counts as a storm, and steps that mean that something is wrong. */
+/* Limits of the events an element and of steps. More mean a failure. */
 static const int64_t most_events = 64, most_steps = 1000000;
 
-/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance; those of a log where
- * the pair needs none. */
+/* Elements that the median impact needs for 1e-5, and how their number falls with the tolerance;
+ * those of a log where the pair needs none. */
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
-/* Relaxation, or damping, faster than this many times in a compression is left to backward differentiation; where it
- * is faster than the other, Adams' formulas would take their steps at the limit of stability, where their error is not
- * estimated any more. */
+/* If the solid relaxes or damps more often than the first value in a compression, backward
+ * differentiation is used. Above the second value Adams' formulas are refused: their steps would be
+ * at the stability limit, where the error estimate does not hold. */
 static const double stiff = 30, too_stiff = 300;
-
-/* Estimate of the largest indentation: energy balance with the modulus of that age (docs/sync.md has the exact motion).
- * It gives scales, on which nothing depends but the work. */
-static double likely_depth(const struct rst_solid *s)
-{
-    double depth = 1;
-    for (int i = 0; i < 60; i++) {
-        double modulus = s->g_inf + 1.25 * s->eta / depth;
-        for (int64_t k = 0; k < s->n_terms; k++)
-            modulus += s->g[k] / (1 + 0.8 * depth / s->tau[k]);
-        depth *= 1 / sqrt(modulus * depth * depth * sqrt(depth));
-    }
-    return depth;
-}
 
 /* The fastest relaxation in a compression. */
 static double stiffness_of(const struct rst_problem *problem, double depth)
 {
     const struct rst_solid *s = &problem->solid;
-    double fastest = 3.75 * fmax(1, problem->chi) * s->eta * sqrt(depth);
+    double fastest = 2 * rst_mass_factor() * fmax(1, problem->chi) * s->eta * sqrt(depth);
     for (int64_t k = 0; k < s->n_terms; k++)
         fastest = fmax(fastest, 1 / s->tau[k]);
     return fastest * depth;
@@ -76,33 +62,18 @@ static enum integrator_family family_of(const struct rst_problem *problem, doubl
 struct run_setup rst_cvode_setup(const struct rst_problem *problem)
 {
     const enum integrator_family *family = rst_cvode_method_of(problem)->family;
-    const double depth = likely_depth(&problem->solid);
-    const int strong = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-                       change_by_slip * problem->psi < negligible_part * problem->tolerance;
-    return (struct run_setup){.chi = problem->chi,
-                              .psi = strong ? 1 : problem->psi,
-                              .shear_scale = strong ? problem->psi : 1,
-                              .solid = problem->solid,
-                              .mode = strong ? RST_NO_SLIP : problem->mode,
+    const struct rst_solid *solid = &problem->solid;
+    const double depth = rst_likely_depth(solid->g_inf, solid->eta, solid->n_terms, solid->g, solid->tau);
+    return (struct run_setup){.problem = problem,
                               .closeness = fmax(closest, closeness_part * problem->tolerance),
                               .depth = depth,
                               .rebound = NAN,
                               .rest_speed = 0.01 * problem->tolerance,
                               .family = family ? *family : family_of(problem, depth),
-                              .max_work = problem->max_work,
-                              .max_updates = problem->max_updates,
                               .budget = problem->max_updates,
-                              .timed = problem->clock ? problem : NULL,
                               .until = problem->deadline,
                               .most_events = most_events,
                               .most_steps = most_steps};
-}
-
-static int slips_to_the_end(const struct run_setup *setup, double rebound)
-{
-    if (setup->mode == RST_FRICTIONLESS) return 1;
-    if (setup->mode != RST_GROSS_SLIP) return 0;
-    return 2 * setup->chi <= 1 || setup->psi >= 2 * setup->chi * (1 + rebound) - rebound;
 }
 
 static void add_work(struct cvode_memory *memory, const struct run *run)
@@ -114,8 +85,8 @@ static void add_work(struct cvode_memory *memory, const struct run *run)
     memory->updates += run->updates;
 }
 
-/* The normal side alone, followed `looser` times less closely and as closely as is wanted; its trace stays in memory.
- * */
+/* The normal motion alone, once with `looser` times the error and once with the wanted error. Its
+ * trace stays in memory. */
 static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, struct rst_outcome *outcome,
                         restitute_error *error)
 {
@@ -124,7 +95,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
     for (int i = 0; i < 2; i++) {
         struct run run = {0};
         setup->closeness = i == 0 ? fmin(looser * close, 1e-3) : close;
-        setup->budget = setup->max_updates - memory->updates;
+        setup->budget = setup->problem->max_updates - memory->updates;
         const int status = rst_run_follow(&run, setup, &memory->trace, NULL);
         rst_run_release(&run);
         add_work(memory, &run);
@@ -136,7 +107,7 @@ static int solve_normal(struct run_setup *setup, struct cvode_memory *memory, st
             .contact_time = run.sunk ? INFINITY : run.time,
             .followed_time = run.time,
             .max_indentation = run.sunk ? run.depth : run.max_depth,
-            .max_normal_force = 15.0 / 8 * run.max_force,
+            .max_normal_force = run.max_force,
             .steps = run.work.steps,
             .step = run.time / (double)run.work.steps,
             .sunk = run.sunk};
@@ -153,9 +124,9 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     struct run_setup with_elements = *setup;
     with_elements.n_nodes = n;
     *run = (struct run){0};
-    const double begin = setup->timed ? setup->timed->clock() : 0;
+    const double begin = setup->problem->clock ? setup->problem->clock() : 0;
     const int status = rst_run_follow(run, &with_elements, &memory->trace, log);
-    if (setup->timed) run->seconds = setup->timed->clock() - begin;
+    if (setup->problem->clock) run->seconds = setup->problem->clock() - begin;
     rst_run_release(run);
     add_work(memory, run);
     return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
@@ -175,28 +146,33 @@ static double extrapolated(const struct run *coarse, const struct run *fine)
     return fine->end_shear_velocity + part_taken_ex * (fine->end_shear_velocity - coarse->end_shear_velocity);
 }
 
-/* What three runs, each with twice the elements of the one before, say of the pair. */
+/* The pair and its error from three runs, each with twice the elements of the one before. */
 static void compare(const struct run_setup *setup, const struct run *run, int64_t n, struct rst_outcome *outcome)
 {
     const struct run *fine = &run[2];
     const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
-    const double usual = usual_error * pow(fmax(1, setup->chi), 1.5) * pow((double)n, -2.5);
-    outcome->shear_velocity = setup->shear_scale * best;
-    outcome->error_ex = share_of_change_ex * changed / setup->psi + usual + outcome->error_ez;
-    if (setup->shear_scale < 1) outcome->error_ex += change_by_slip * setup->shear_scale;
+    const double usual = usual_error * pow(fmax(1, setup->problem->chi), 1.5) * pow((double)n, -2.5);
+    outcome->shear_velocity = best;
+    outcome->error_ex = share_of_change_ex * changed / setup->problem->shear_speed + usual + outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
     outcome->steps = fine->work.steps;
     outcome->step = fine->time / (double)fine->work.steps;
 }
 
-/* The pair as it is, and what stands in the way of a better one. */
+/* Return the present pair, with the reason why there is no better one. */
 static int too_coarse(const struct rst_problem *problem, const struct rst_outcome *outcome, const char *obstacle,
                       restitute_error *error)
 {
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s",
                       problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
+}
+
+/* What ends a finer run leaves the coarser ones as they are. */
+static int is_obstacle(int status)
+{
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
 }
 
 /* Three runs, the last with n of the `wanted` elements, each with twice as many as the one before. */
@@ -211,36 +187,37 @@ static int64_t halved(int64_t n, int times)
     return (n + ((int64_t)1 << times) - 1) >> times;
 }
 
-/* A first run, with a quarter of the elements or as few as an eighth of what is left to spend allows: the next one
- * takes four times as much, and what trials cost that were too dear stays small. */
+/* The first run has a quarter of the elements, or as many as an eighth of the remaining work
+ * allows. The next run takes four times as much, so trials that are too expensive cost little. */
 static int begin_ladder(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
                         restitute_error *error)
 {
     int status;
     for (ladder->halvings = 2;; ladder->halvings++) {
         ladder->n = halved(ladder->wanted, ladder->halvings);
-        setup->budget = (setup->max_updates - memory->updates) / 8;
-        if (setup->timed) setup->until = setup->timed->deadline - rst_time_left(setup->timed) * 7 / 8;
+        setup->budget = (setup->problem->max_updates - memory->updates) / 8;
+        if (setup->problem->clock) setup->until = setup->problem->deadline - rst_time_left(setup->problem) * 7 / 8;
         status = solve_elements(setup, ladder->n, memory, NULL, &ladder->run[2], error);
-        if (!ladder->run[2].spent || ladder->n == 1) return status;
+        if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || ladder->n == 1) return status;
     }
 }
 
-/* The next run takes four times as much as the last: twice the elements see twice the events, each looked for over all
- * of them. Once more as much is left for coarser ones. */
+/* The next run takes four times as much as the last: twice the elements have twice the events, each
+ * searched for over all elements. As much again is left for coarser runs. */
 static int can_climb(const struct run_setup *setup, const struct cvode_memory *memory, const struct ladder *ladder)
 {
-    if (setup->timed && rst_time_left(setup->timed) < 5 * ladder->run[2].seconds) return 0;
-    return memory->updates + 5 * ladder->run[2].updates <= setup->max_updates;
+    if (rst_time_left(setup->problem) < 5 * ladder->run[2].seconds) return 0;
+    return memory->updates + 5 * ladder->run[2].updates <= setup->problem->max_updates;
 }
 
-/* One more run with twice the elements. It leaves enough for those with half and a quarter of what there is now. */
+/* One more run with twice the elements. It leaves enough work for runs with half and a quarter of
+ * the present number. */
 static int climb(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder, restitute_error *error)
 {
     struct run next;
     const int64_t n = ladder->halvings > 0 ? halved(ladder->wanted, ladder->halvings - 1) : 2 * ladder->n;
-    setup->budget = setup->max_updates - memory->updates - ladder->run[2].updates;
-    if (setup->timed) setup->until = setup->timed->deadline - ladder->run[2].seconds;
+    setup->budget = setup->problem->max_updates - memory->updates - ladder->run[2].updates;
+    if (setup->problem->clock) setup->until = setup->problem->deadline - ladder->run[2].seconds;
     const int status = solve_elements(setup, n, memory, NULL, &next, error);
     if (status) return status;
     ladder->run[0] = ladder->run[1];
@@ -251,7 +228,8 @@ static int climb(struct run_setup *setup, struct cvode_memory *memory, struct la
     return RESTITUTE_OK;
 }
 
-/* Runs with a quarter, half and all of the elements. If that costs too much, it is coarser ones that make three. */
+/* Runs with a quarter, half and all of the elements. If that costs too much, coarser runs complete
+ * the three. */
 static int start_refining(struct run_setup *setup, struct cvode_memory *memory, struct ladder *ladder,
                           restitute_error *error)
 {
@@ -259,12 +237,12 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     if (status) return status;
     while (runs < 3 && !status && can_climb(setup, memory, ladder)) {
         status = climb(setup, memory, ladder, error);
-        if (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+        if (status && !is_obstacle(status)) return status;
         runs += !status;
     }
     for (; runs < 3; runs++) { /* run[2], and run[1] if there are two, have been done */
         const int place = 2 - runs;
-        setup->budget = setup->max_updates - memory->updates;
+        setup->budget = setup->problem->max_updates - memory->updates;
         setup->until = INFINITY; /* each takes a quarter of the one before */
         status = solve_elements(setup, halved(ladder->wanted, ladder->halvings + runs), memory, NULL,
                                 &ladder->run[place], error);
@@ -273,8 +251,8 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
     return RESTITUTE_OK;
 }
 
-/* Elements are doubled until the pair settles. What stands in the way of that leaves the pair as it is, with a remark.
- * */
+/* Double the elements until the pair converges. If that is impossible, return the present pair with
+ * a remark. */
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
@@ -292,14 +270,14 @@ static int refine(const struct rst_problem *problem, struct run_setup *setup, st
         if (ladder.halvings == 0 && (problem->elements > 0 || 2 * ladder.n > most_elements))
             return too_coarse(problem, outcome, obstacle, error);
         if (!can_climb(setup, memory, &ladder)) {
-            const int late = setup->timed && rst_time_left(setup->timed) < 5 * ladder.run[2].seconds;
+            const int late = rst_time_left(setup->problem) < 5 * ladder.run[2].seconds;
             snprintf(obstacle, sizeof obstacle, "%s: no more allowed", rst_spent(problem, late).text);
             return too_coarse(problem, outcome, obstacle, error);
         }
         restitute_error failure;
         status = climb(setup, memory, &ladder, &failure);
         outcome->updates = memory->updates;
-        if (status == RESTITUTE_ERROR_TOO_MUCH_WORK) return too_coarse(problem, outcome, failure.message, error);
+        if (is_obstacle(status)) return too_coarse(problem, outcome, failure.message, error);
         if (status && error) *error = failure;
     }
     return status;
@@ -311,37 +289,36 @@ static int without_elements(const struct rst_problem *problem, const struct rst_
 {
     *outcome = *normal;
     if (problem->mode != RST_FRICTIONLESS) {
-        outcome->shear_velocity = problem->psi - 2 * problem->chi * (1 - normal->velocity);
-        outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->psi;
+        outcome->shear_velocity = rst_slipping_velocity(problem, normal->velocity);
+        outcome->error_ex = 2 * problem->chi * outcome->error_ez / problem->shear_speed;
     }
     if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
-/* The sphere stays (theory.md, 6). With 2 chi > 1 what still slides then comes to rest too. With 2 chi <= 1, rotation
- * being blocked, it creeps on or slides slower and slower, without a closed form. */
+/* The sphere has stopped (docs/theory.md, section 6). With 2 chi > 1 sliding then stops, too. With
+ * 2 chi <= 1 (blocked rotation) it creeps or slides ever more slowly, and there is no closed
+ * form. */
 static int stay(const struct rst_problem *problem, const struct run_setup *setup, struct rst_outcome *outcome,
                 restitute_error *error)
 {
-    const int slides = problem->mode == RST_FRICTIONLESS ||
-                       (problem->mode == RST_GROSS_SLIP && (2 * problem->chi <= 1 || problem->psi >= 2 * problem->chi));
+    const int slides = rst_never_sticks(problem, 0);
     if (!slides && 2 * problem->chi <= 1)
         return rst_report(
             error, RESTITUTE_ERROR_DOMAIN,
             "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",
             problem->chi, problem->psi);
-    outcome->shear_velocity =
-        slides ? (problem->mode == RST_FRICTIONLESS ? problem->psi : problem->psi - 2 * problem->chi) : 0;
+    outcome->shear_velocity = slides ? rst_slipping_velocity(problem, 0) : 0;
     /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all
      * sticks, psi < 1, U' falls with D' in proportion */
     outcome->error_ez = setup->rest_speed;
     outcome->error_ex =
-        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->psi);
+        problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->shear_speed);
     return rst_done(error);
 }
 
-/* Once more with the log, for those who asked for it. */
+/* Repeat the run with the log, if it was asked for. */
 static int log_events(const struct run_setup *setup, const struct rst_outcome *outcome, struct cvode_memory *memory,
                       struct event_log *log, restitute_error *error)
 {
@@ -351,11 +328,7 @@ static int log_events(const struct run_setup *setup, const struct rst_outcome *o
     all.rebound = -outcome->velocity;
     all.budget = INT64_MAX;
     all.until = INFINITY;
-    const int status =
-        solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, log, &run, error);
-    for (size_t i = 0; i < log->count; i++)
-        log->event[i].tangential_velocity *= setup->shear_scale;
-    return status;
+    return solve_elements(&all, outcome->elements > 0 ? outcome->elements : elements_of_log, memory, log, &run, error);
 }
 
 static int solve(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
@@ -377,7 +350,7 @@ static int solve(const struct rst_problem *problem, struct run_setup *setup, str
     outcome->updates = memory->updates;
     if (normal.sunk)
         status = stay(problem, setup, outcome, error);
-    else if (slips_to_the_end(setup, setup->rebound))
+    else if (rst_never_sticks(problem, setup->rebound))
         status = without_elements(problem, &normal, outcome, error);
     else
         status = refine(problem, setup, memory, outcome, error);
@@ -395,7 +368,7 @@ int rst_cvode_solve(const struct rst_problem *problem, struct cvode_memory *memo
     const int status = solve(problem, &setup, memory, keep_ledger, outcome, error);
     if (!record) return status;
     record->units = problem->units;
-    record->psi = problem->psi;
+    record->shear_speed = problem->shear_speed;
     record->work = memory->work; /* without what the log takes */
     record->log.count = 0;
     if (status < 0) return status;

@@ -1,4 +1,4 @@
-/* Solving and recording by the method cvode, whatever the family of formulas.
+/* Solving and recording by the method cvode, for any family of formulas.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_SOLVE_H
 #define RST_CVODE_SOLVE_H
@@ -6,7 +6,7 @@
 #include "cvode/method.h"
 #include "cvode/run.h"
 
-/* What a solver keeps from call to call. */
+/* Memory that a solver keeps between calls. */
 struct cvode_memory {
     struct rst_own_memory base; /* first */
     struct trace trace;         /* of the last impact */

@@ -1,4 +1,4 @@
-/* The compression as it was: depth, velocity and memory at instants close enough to interpolate.
+/* The compression: depth, velocity and memory at instants that are close enough to interpolate.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CVODE_TRACE_H
 #define RST_CVODE_TRACE_H
@@ -17,7 +17,7 @@ void rst_trace_begin(struct trace *trace, int64_t n_terms);
 /* One more instant, later than all before. Nonzero: no memory. */
 int rst_trace_add(struct trace *trace, double time, double depth, double velocity, const double *memory);
 
-/* When the sphere first was that deep, which it has been. */
+/* The time when the sphere first reached this depth; it must have reached it. */
 double rst_trace_time(const struct trace *trace, double depth);
 
 void rst_trace_release(struct trace *trace);

@@ -1,29 +1,32 @@
-/* The method `euler`: the paper's foundation and explicit Euler (9)-(17), refined until its error estimate is met.
+/* The method `euler`: the paper's foundation and explicit Euler (9)-(17), refined until its error
+ * estimate is met.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "euler/euler.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/gross_slip.h"
 #include "base/status.h"
 #include "euler/kernels.h"
 
-/* A level of refinement: steps per element of the largest radius and compression time. Time needs 16 times finer
- * division than space for errors of like size (docs/theory.md, "The default method"). */
+/* Steps in the compression for each element over the largest radius. With 16 the errors in time and
+ * in space are of similar size (docs/theory.md, section 4). */
 static const double steps_per_element = 16;
 static const int64_t first_elements = 8;
 
-/* The estimate is this times the change between levels. The method is of first order: the change is the error itself;
- * the rest covers what is not yet asymptotic. */
+/* Estimate over the change between levels. For a method of first order the change equals the error;
+ * the factor covers levels that are not yet asymptotic. */
 static const double estimate_slack = 1.25;
 
-/* Refinement stops when the estimate is below this part of the tolerance: one estimate in a hundred is too small. */
+/* Refinement stops when the estimate is below this share of the tolerance, because some estimates
+ * are too small (docs/records/accuracy.md). */
 static const double acceptance = 0.8;
 
 /* Some milliseconds. */
 static const int64_t updates_between_looks = 4000000;
 
-/* Of the largest stable step, for the coarsest level. */
+/* Step of the coarsest level over the largest stable step, at most. */
 static const double stability_margin = 0.5;
 
 /* Resolution of one run, and what it returned. */
@@ -49,20 +52,19 @@ static double rest_speed(const struct rst_problem *problem)
     return 0.01 * problem->tolerance; /* a rebound this slow changes e_z by far less than the tolerance */
 }
 
-/* Whether tangential elements will be stepped: not without friction, and not in slip to the end (27), psi_c <= 4 chi -
- * 1. */
+/* Whether tangential elements will be stepped: not without friction, and not in slip to the end
+ * (27), psi_c <= 4 chi - 1. */
 static int moves_tangentially(const struct rst_problem *problem)
 {
-    return problem->mode != RST_FRICTIONLESS &&
-           !(problem->mode == RST_GROSS_SLIP && problem->psi > fmax(1, 4 * problem->chi - 1));
+    return !rst_never_sticks(problem, 1);
 }
 
 static int64_t capacity_of(int64_t elements)
 {
-    return 2 * elements + 8; /* the scout may have underrated the depth, a coarse run may overshoot it */
+    return 2 * elements + 8; /* the estimated depth may be too small, and a coarse run may exceed it */
 }
 
-/* The terms have arrays before the elements have any. */
+/* Terms get their arrays before the elements. */
 static double *array_of_terms(const struct rst_workspace *workspace, size_t number)
 {
     return workspace->terms + number * (workspace->terms_size / rst_term_arrays);
@@ -91,7 +93,7 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem),
                           array_of_terms(workspace, 4), &scout->depth, &scout->time, &scout->force, &scout->sinks);
     /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
-    double coupling = 15.0 / 8.0 * sqrt(scout->depth);
+    double coupling = rst_mass_factor() * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);
     scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);
 }
@@ -104,7 +106,7 @@ static int prepare(const struct rst_problem *problem, struct rst_workspace *work
     if (rst_workspace_elements(workspace, capacity * (7 + 2 * (size_t)s->n_terms))) return 1;
     *l = lay_out(problem, workspace, (int64_t)capacity);
     *scene = (struct euler_scene){.chi = problem->chi,
-                                  .psi = problem->psi,
+                                  .shear_speed = problem->shear_speed,
                                   .g_inf = s->g_inf,
                                   .eta = s->eta,
                                   .step = run->step,
@@ -125,7 +127,7 @@ static void advance(const struct euler_scene *scene, const struct layout *l, int
                        l->q_before, n_steps, state);
 }
 
-/* As many steps as the limits allow. Returned is whether there is no time left. */
+/* Take as many steps as the limits allow. Returns whether the time limit was reached. */
 static int advance_within(const struct rst_problem *problem, const struct euler_scene *scene, const struct layout *l,
                           int64_t updates, struct run *run)
 {
@@ -151,7 +153,7 @@ static int run_once(const struct rst_problem *problem, struct rst_workspace *wor
     const int late = advance_within(problem, &scene, &l, *updates, run);
     *updates += run->state.n_updates * (1 + problem->solid.n_terms);
     if (run->state.phase == RST_STALLED)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                           "rebound too slow: steps of %.3g %s are lost in the rounding of the indentation; "
                           "the damping is too strong for this method",
                           run->step * problem->time_unit, problem->unit_name);
@@ -174,7 +176,7 @@ static double ez_of(const struct euler_state *state)
 
 static double ex_of(const struct rst_problem *problem, const struct euler_state *state)
 {
-    return -state->shear_velocity / problem->psi;
+    return -state->shear_velocity / problem->shear_speed;
 }
 
 static void change(const struct rst_problem *problem, const struct run *a, const struct run *b, double *ez, double *ex)
@@ -188,9 +190,9 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
 {
     const struct euler_state *s = &run->state;
     const int sunk = s->phase == RST_SUNK;
-    if (sunk) { /* the velocities that the run stopped with are still to go, |dU'| <= 2 chi |dD'| */
+    if (sunk) { /* the run stopped with these velocities still left; |dU'| <= 2 chi |dD'| */
         error_ez += rest_speed(problem);
-        error_ex += 2 * problem->chi * rest_speed(problem) / problem->psi;
+        error_ex += 2 * problem->chi * rest_speed(problem) / problem->shear_speed;
     }
     *outcome = (struct rst_outcome){.velocity = sunk ? 0 : s->velocity,
                                     .shear_velocity = s->shear_velocity,
@@ -200,7 +202,7 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
                                     .followed_time = s->time,
                                     .max_indentation = s->max_depth,
                                     .max_contact_radius = sqrt(s->max_depth),
-                                    .max_normal_force = 15.0 / 8.0 * s->max_force,
+                                    .max_normal_force = s->max_force,
                                     .spacing = sqrt(scout->depth) / (double)run->elements,
                                     .step = run->step,
                                     .elements = run->elements,
@@ -211,15 +213,15 @@ static void fill(const struct rst_problem *problem, const struct scout *scout, c
     if (outcome->sunk && problem->mode == RST_NO_SLIP) outcome->shear_velocity = 0; /* stuck for good */
 }
 
-/* The tangential oscillation in stick is faster than the normal one by sqrt(2 chi) and wants as much more resolution;
- * the counts are made for solid spheres, chi = 7/6. */
+/* The tangential oscillation in stick is faster than the normal one by sqrt(2 chi), and needs as
+ * many more elements and steps. The default numbers are for solid spheres, chi = 7/6. */
 static int64_t elements_to_start(const struct rst_problem *problem)
 {
     if (!moves_tangentially(problem)) return first_elements;
     return llround((double)first_elements * sqrt(fmax(1, problem->chi * 6 / 7)));
 }
 
-/* The tolerance is met; at what cost is said where it is high. By work and not by a clock: equal calls say the same. */
+/* The tolerance is met. A remark names the cost if it is high. */
 static int finish(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_error *error)
 {
     const double work = (double)outcome->updates / problem->method->updates_per_second, high = 1;
@@ -237,7 +239,7 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     int64_t updates = 0;
     int found = 0, late = 0;
     last.step = fmin(scout->time / (steps_per_element * (double)last.elements), stability_margin * scout->stable_step);
-    if (scout->sinks) last.step *= 0.25; /* the scout's time is that of the decay, not of the impact */
+    if (scout->sinks) last.step *= 0.25; /* the estimated time is that of the decay, not of the impact */
     int status = run_once(problem, workspace, scout, keep_ledger, &updates, &last, error);
     for (int level = 1; !status; level++) {
         const double left = rst_time_left(problem);
@@ -245,9 +247,10 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         status = run_once(problem, workspace, scout, keep_ledger, &updates, &now, error);
         if (status) break;
         change(problem, &now, &last, &ez, &ex);
-        if (level > 1) { /* two changes guard against one that is small by chance */
+        if (level > 1) { /* two changes, since one may be small by chance */
             double error_ez = estimate_slack * fmax(ez, 0.5 * before_ez);
-            /* the error of the normal motion reaches e_x too, even where the changes of e_x happen to cancel */
+            /* the error of the normal motion reaches e_x too, even where the changes of e_x happen
+             * to cancel */
             double error_ex = fmax(error_ez, estimate_slack * fmax(ex, 0.5 * before_ex));
             fill(problem, scout, &now, error_ez, error_ex, updates, outcome);
             found = 1;
@@ -260,10 +263,14 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
         before_ex = ex;
         last = now;
     }
+    if (found && status == RESTITUTE_ERROR_CONVERGENCE)
+        return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); finer steps are lost in rounding",
+                          problem->tolerance, outcome->error_ez, outcome->error_ex);
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
-        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent; the method sync is faster",
+        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was reached; the method sync is faster",
         problem->tolerance, outcome->error_ez, outcome->error_ex,
         rst_spent(problem, late || rst_time_left(problem) <= 0).text);
 }
@@ -271,10 +278,10 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
 static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,
                              restitute_error *error)
 {
-    const double below = scout->stable_step * (1 - 1e-5); /* printed with six digits it is still stable */
+    const double below = scout->stable_step * (1 - 1e-5); /* stable when printed with six digits */
     if (problem->time_step > scout->stable_step)
         return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
-                          "time_step = %.6g %s: cannot be stable here; the largest step that is: %.6g %s",
+                          "time_step = %.6g %s: is unstable; the largest stable step: %.6g %s",
                           problem->time_step * problem->time_unit, problem->unit_name, below * problem->time_unit,
                           problem->unit_name);
     run->elements = problem->elements;
@@ -287,10 +294,12 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
     return RESTITUTE_OK;
 }
 
-/* Steps above this part of the largest stable one follow the impact so roughly that a coarser run tells nothing. */
+/* A step above this share of the largest stable one is so coarse that a comparison with a coarser
+ * run is not meaningful. */
 static const double smooth_part = 0.2;
 
-/* Elements or step given: one run with them, and one beside it, coarser or finer, for the error. */
+/* Elements or step prescribed: one run with them, and a coarser or finer one for the error
+ * estimate. */
 static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
@@ -311,7 +320,7 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex);
+                      problem->asked, outcome->error_ez, outcome->error_ex);
 }
 
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
@@ -324,8 +333,8 @@ static int euler_solve(const struct rst_problem *problem, struct rst_workspace *
     return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
 }
 
-/* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly from the two
- * outermost, by at most one cell. */
+/* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly
+ * from the two outermost, by at most one cell. */
 static double zero_beyond(double spacing, int64_t n, double outermost, double neighbour)
 {
     double position = ((double)n - 0.5) * spacing;
@@ -365,10 +374,10 @@ static struct rst_sample sample(const struct rst_problem *problem, const struct 
                                .indentation = state->depth,
                                .contact_radius = contact,
                                .stick_radius = state->n_steps > 0 ? stick_radius(scene, state, l, contact) : 0,
-                               .normal_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_force,
-                               .shear_force = ended ? 0 : 15.0 / 8.0 * state->true_edge_shear,
+                               .normal_force = ended ? 0 : state->true_edge_force,
+                               .shear_force = ended ? 0 : state->true_edge_shear,
                                .velocity = state->velocity,
-                               .shear_velocity = state->shear_velocity / problem->psi};
+                               .shear_velocity = state->shear_velocity / problem->shear_speed};
 }
 
 static int euler_record(const struct rst_problem *problem, struct rst_workspace *workspace,

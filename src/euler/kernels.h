@@ -1,4 +1,5 @@
-/* The Fortran procedures of the method `euler`, and the twins of their derived types; see fortran/euler/interface.f90.
+/* The Fortran procedures of the method `euler`, and the twins of their derived types; see
+ * fortran/euler/interface.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_EULER_KERNELS_H
 #define RST_EULER_KERNELS_H
@@ -17,7 +18,7 @@ enum rst_phase {
 
 /* Twin of scene_type. */
 struct euler_scene {
-    double chi, psi;
+    double chi, shear_speed;
     double g_inf, eta;
     double step, spacing;
     double rest_speed;

@@ -1,4 +1,5 @@
-/* CSV tables: libcsv splits the text into cells; this file keeps them and checks that they form a table.
+/* CSV tables: libcsv splits the text into cells; this file keeps them and checks that they form a
+ * table.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "files/csv_table.h"
 
@@ -150,7 +151,7 @@ static void on_row_end(int terminator, void *data)
     }
 }
 
-/* What the parser did not like, unless a cell or a row was refused before. */
+/* The error of the parser, unless a cell or a row was refused before. */
 static void parser_stopped(struct reading *reading, struct csv_parser *parser)
 {
     if (reading->status != RESTITUTE_OK) return;
@@ -161,7 +162,8 @@ static void parser_stopped(struct reading *reading, struct csv_parser *parser)
                                      reading->line, csv_strerror(csv_error(parser)));
 }
 
-/* Feed the text line by line: libcsv knows no comments and counts no lines. A # inside quotes is no comment. */
+/* Feed the text line by line: libcsv has no comments and does not count lines. A # inside quotes is
+ * no comment. */
 static void feed_lines(struct csv_parser *parser, struct reading *reading, const struct file_text *text)
 {
     const char *at = text->bytes, *end = text->bytes + text->length;

@@ -20,7 +20,8 @@ const char *rst_file_name_for_message(const char *path)
     return length > longest ? path + (length - longest) : path;
 }
 
-/* Standard input has no size to look at before. On failure errno tells why, if 0: too much, and nothing is left. */
+/* Standard input has no known size. On failure errno has the reason (0: too large), and everything
+ * is released. */
 static int read_standard_input(uint64_t most, struct file_text *text)
 {
     char *bytes = NULL;

@@ -1,4 +1,4 @@
-/* Materials from .json and .csv files: what the file must hold, checked key by key, then handed to the core.
+/* Materials from .json and .csv files: the content is checked key by key, then passed to the core.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
 #include <jansson.h>
@@ -26,7 +26,7 @@ struct material_file {
     restitute_error *error;
 };
 
-/* What a file says, before it becomes a material. */
+/* The content of a file, before it becomes a material. */
 struct material_content {
     restitute_material_info info;
     double poisson_ratio;
@@ -247,7 +247,7 @@ static int create_prony(struct material_file *file, const struct material_conten
     struct prony_terms terms;
     int status = read_terms(file, &terms);
     if (status != RESTITUTE_OK) {
-        why->message[0] = '\0'; /* told in file->error already */
+        why->message[0] = '\0'; /* already reported in file->error */
         return status;
     }
     status =
@@ -257,7 +257,7 @@ static int create_prony(struct material_file *file, const struct material_conten
     return status;
 }
 
-/* What single values did not show the library may still refuse, such as tau = viscosity/modulus2 beyond a double. */
+/* The library may still refuse combinations, such as tau = viscosity/modulus2 beyond a double. */
 static int create_material(struct material_file *file, const struct model *model,
                            const struct material_content *content, restitute_material **material)
 {
@@ -303,7 +303,7 @@ static int read_json_material(const char *path, restitute_material **material, r
     json_error_t reason;
     struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
     file.fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
-    errno = 0; /* for want of memory Jansson says nothing, or speaks of syntax */
+    errno = 0; /* if memory runs out, Jansson reports nothing, or a syntax error */
     file.root = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
     if (file.root)
         status = material_from_root(&file, material, info);

@@ -1,4 +1,5 @@
-/* The terms of a Prony series on their way from a file to the material: checked, with the line each came from.
+/* The terms of a Prony series on their way from a file to the material: checked, with the line each
+ * came from.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RESTITUTE_PRONY_TERMS_H
 #define RESTITUTE_PRONY_TERMS_H
@@ -16,8 +17,8 @@ struct prony_terms {
 int rst_prony_terms_allocate(size_t count, struct prony_terms *terms, restitute_error *error);
 void rst_prony_terms_release(struct prony_terms *terms);
 
-/* Refuse values that are not finite and > 0 and two terms with one relaxation time; `file` is for the message, the key
- * names are those of the file's format. */
+/* Refuse values that are not finite and > 0 and two terms with one relaxation time; `file` is for
+ * the message, the key names are those of the file's format. */
 int rst_prony_terms_check(const struct prony_terms *terms, const char *file, const char *time_key,
                           const char *modulus_key, restitute_error *error);
 

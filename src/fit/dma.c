@@ -44,8 +44,9 @@ static int check_options(const restitute_dma_options *o, restitute_error *error)
     return status ? status : rst_fit_outside("options.noise", o->noise, 1e-4, 0.5, error);
 }
 
-/* Curves of neighbouring temperatures laid over each other, from the reference outwards: every row of t on the row of s whose
- * moduli are most alike, their mean distance weighted by how alike. A start for the refinement. */
+/* First shifts between neighbouring temperatures, from the reference outwards. Each row of t is
+ * paired with the row of s that has the most similar moduli. The shift is the mean distance,
+ * weighted by similarity. Refinement starts from it. */
 static void overlay(struct rst_dma *d, size_t s, size_t t)
 {
     double sum = 0, weights = 0;
@@ -78,8 +79,8 @@ static void first_shifts(struct rst_dma *d)
         overlay(d, t + 1, t);
 }
 
-/* What cannot be known from these rows. A term's loss peak is 1.14 decades wide at half height: rows within one decade
- * cannot place it. */
+/* Remarks on what these rows do not determine. The loss peak of a term is 1.14 decades wide at half
+ * height, so rows within one decade do not determine its time. */
 static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
 {
     double low = INFINITY, high = 0, first[RESTITUTE_DMA_SHIFTS], last[RESTITUTE_DMA_SHIFTS];
@@ -102,7 +103,8 @@ static void remark_range(const struct rst_dma *d, restitute_dma_result *r)
             high / low);
 }
 
-/* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted so that errors of log10 a count alike. */
+/* log10 a (c2 + dT) = -c1 dT is the line dT/log10 a = -c2/c1 - dT/c1, weighted for equal errors of
+ * log10 a. */
 static void find_wlf(const struct rst_temperatures *all, restitute_dma_result *r)
 {
     double x[RESTITUTE_DMA_SHIFTS], y[RESTITUTE_DMA_SHIFTS], w[RESTITUTE_DMA_SHIFTS], c0, c1, ignored;

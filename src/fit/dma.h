@@ -1,11 +1,12 @@
-/* A Prony series under construction, beside the moduli that it is to follow.
+/* A Prony series during its fit, and the moduli to which it is fitted.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_FIT_DMA_H
 #define RST_FIT_DMA_H
 
 #include "fit/model.h"
 
-/* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then loss. */
+/* Logarithms are natural. Residuals are relative, over the noise: storage of all rows, then
+ * loss. */
 struct rst_dma {
     size_t n;
     const double *omega;
@@ -21,7 +22,7 @@ struct rst_dma {
     double sum;                                                           /* of squared residuals */
 };
 
-/* dma_terms.c: from shifts to a first series; refine it; make it as short as the data allow. */
+/* dma_terms.c: from shifts to a first series; refine it; shorten it as far as the data allow. */
 int rst_dma_begin(struct rst_dma *dma);
 int rst_dma_shorten(struct rst_dma *dma);
 double rst_dma_sum(const struct rst_dma *dma); /* of squared residuals */

@@ -9,9 +9,10 @@
 #include "fit/dma.h"
 #include "fit/least.h"
 
-/* PER_DECADE: terms of the first series; the end has about one a decade. BEYOND: decades before and behind the window of
- * 1/w, where terms still are seen. STEPS of one refinement. TRIES: shorter series that are refined, the cheapest first,
- * before one counts as short enough. */
+/* PER_DECADE: terms of the first series; the last has about one a decade. BEYOND: decades on both
+ * sides of the window of 1/w in which terms still matter. STEPS: of one refinement. TRIES: shorter
+ * series that are refined, those with the smallest misfit first, before a series counts as short
+ * enough. */
 enum { PER_DECADE = 2, STEPS = 40, TRIES = 3 };
 static const double BEYOND = 1;
 
@@ -41,8 +42,8 @@ static void get(const struct rst_dma *d, double *x)
         if (t != d->temperature.reference) x[next++] = d->shift[t];
 }
 
-/* Residuals, and their derivatives unless j is NULL. x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of x/(1+x^2) it is
- * x (1-x^2)/(1+x^2)^2; tau and a_T act by x alone. */
+/* Residuals, and their derivatives unless j is NULL. x d/dx of x^2/(1+x^2) is 2 x^2/(1+x^2)^2, of
+ * x/(1+x^2) it is x (1-x^2)/(1+x^2)^2; tau and a_T act by x alone. */
 static void evaluate(const struct rst_dma *d, double *r, double *j)
 {
     const size_t p = unknowns(d), m = d->terms, shifts = 2 * m + (d->equilibrium > 0);
@@ -112,7 +113,8 @@ static int refine(struct rst_dma *d)
     return status;
 }
 
-/* The spectrum is about 2/pi of the loss modulus at 1/tau: that, at evenly spaced times, is the first series. */
+/* The spectrum is about 2/pi of the loss modulus at 1/tau: that, at evenly spaced times, is the
+ * first series. */
 int rst_dma_begin(struct rst_dma *d)
 {
     double low = INFINITY, high = -INFINITY;
@@ -153,7 +155,8 @@ static void remove_term(struct rst_dma *d, size_t i)
     memmove(d->g + i, d->g + i + 1, (d->terms - i) * sizeof *d->g);
 }
 
-/* Without term i, or with it merged into the next, of their sum at their mean time; the last without equilibrium modulus. */
+/* Without term i, or with it merged into the next, of their sum at their mean time; the last
+ * without equilibrium modulus. */
 static void make_candidate(const struct rst_dma *d, size_t which, struct rst_dma *candidate)
 {
     const size_t i = which / 2;
@@ -170,7 +173,8 @@ static void make_candidate(const struct rst_dma *d, size_t which, struct rst_dma
     }
 }
 
-/* The cheapest shorter series, refined, if it is worth it: unknowns less against chi^2 (Bayesian information). */
+/* The best shorter series, refined, if it is better by the Bayesian information criterion: fewer
+ * unknowns against a larger chi^2. */
 static int shorten_once(struct rst_dma *d, int *shorter)
 {
     struct rst_dma candidate;
@@ -190,7 +194,7 @@ static int shorten_once(struct rst_dma *d, int *shorter)
         make_candidate(d, best, &candidate);
         const int status = refine(&candidate);
         if (status < 0) return status;
-        *shorter = unknowns(d) > 2 * d->n || /* more than any data determine, and not refined */
+        *shorter = unknowns(d) > 2 * d->n || /* more terms than any data determine, and not refined */
                    candidate.sum - d->sum < (double)(unknowns(d) - unknowns(&candidate)) * log(2 * (double)d->n);
     }
     if (*shorter) *d = candidate;

@@ -1,4 +1,4 @@
-/* The handle of a fit: a scan, local fits, robust weights, rivals, and the result put together from them.
+/* The handle of a fit: a scan, local fits, robust weights, rival models, and the result.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -23,8 +23,8 @@ struct restitute_fitter {
     restitute_fit_result result;
 };
 
-/* A model that could have made the data too, fitted from our constants: one fit, from the best of three viscosities. `from`
- * are its constants, as far as those of the solid go. */
+/* A rival model that may explain the data as well. One fit, which starts from the present constants
+ * and the best of three viscosities. `from`: the constants of the solid. */
 static int try_rival(restitute_fitter *f, int kind, const double *known, const double *from)
 {
     const struct rst_fit_model *m = &f->search.model;
@@ -66,8 +66,8 @@ static int try_shorter_series(restitute_fitter *f)
     return try_rival(f, RESTITUTE_FIT_MODEL_PRONY, known, ours);
 }
 
-/* Solids with a constant more or less, and Maxwell's beside Kelvin and Voigt's. A spring that is new begins as strong as the
- * other. */
+/* Solids with one constant more or fewer, and Maxwell for Kelvin-Voigt. A new spring starts with
+ * the modulus of the other. */
 static int try_rivals(restitute_fitter *f)
 {
     static const int parts[] = {0, 1, 5, 7, 6}; /* of a kind, bits: modulus1, modulus2, viscosity */
@@ -163,7 +163,8 @@ void restitute_fitter_destroy(restitute_fitter *fitter)
     free(fitter);
 }
 
-/* Half the width of an interval in standard deviations; without degrees of freedom nothing is determined. */
+/* Half the width of an interval in standard deviations; without degrees of freedom nothing is
+ * determined. */
 static double quantile(const restitute_fitter *f)
 {
     const double upper = 0.5 + 0.5 * f->data.options.confidence;
@@ -172,7 +173,7 @@ static double quantile(const restitute_fitter *f)
                                        : INFINITY;
 }
 
-/* Robust weights until they settle, then what they determine. */
+/* Iterate robust weights until they converge, then find what the data determine. */
 static int settle(restitute_fitter *f)
 {
     double change = 1;
@@ -259,7 +260,7 @@ static int check_finished(const restitute_fitter *f, restitute_error *error)
     if (!f) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
     if (f->status < 0) return failed(f, error);
     if (f->turn == f->turns) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the fit has not come to its end: call restitute_fitter_run");
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "the fit is not finished: call restitute_fitter_run");
 }
 
 int restitute_fitter_result(const restitute_fitter *f, restitute_fit_result *result, restitute_error *error)

@@ -1,6 +1,7 @@
-/* Which impacts are solved for a set of constants, and how the values of all points follow from them.
- * For one solid e_z and the contact time over T depend on T alone, the time scale of the impact (docs/theory.md, 2). So where
- * many points measure no e_x, a few impacts evenly spaced in log T are solved, and the points lie between these.
+/* The impacts that are solved for a set of constants, and the values of all points from them. For
+ * one solid e_z and the contact time over T depend on T alone, the time scale of the impact
+ * (docs/theory.md, section 2). So for many points without e_x, impacts equally spaced in log T are
+ * solved, and the points are interpolated.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -9,15 +10,17 @@
 #include "base/report.h"
 #include "fit/model.h"
 
-/* Polynomials through six impacts. A relaxation bends e_z over y = log T as 1/(1 + exp(2 y)) does, with poles at i pi/2:
- * its sixth derivative is about 6!/(pi/2)^6 = 50, so the error is 0.005 x 50 STEP^6 = 2e-7, as that of the impacts.
- * Where e falls to 0 it is some 1e-5 (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
+/* Polynomials through six impacts. A relaxation changes e_z over y = log T like 1/(1 + exp(2 y)),
+ * which has poles at i pi/2: its sixth derivative is about 6!/(pi/2)^6 = 50, so the error is 0.005
+ * x 50 STEP^6 = 2e-7, as that of the impacts. Where e falls to 0 it is some 1e-5
+ * (tests/api/test_fit_impacts.c). Twice the step has 64 times that error. */
 static const double STEP = 0.1;
 
-/* Own impacts that are enough to find the valley of a few constants; half of it may miss one, twice only costs. */
+/* Number of own impacts that suffices to find the minimum of a few constants. Half of it may miss
+ * one; twice only takes longer. */
 enum { ENOUGH = 100 };
 
-/* A contact time has no bound where e falls to 0, so that no polynomial follows it there. */
+/* The contact time grows without bound where e falls to 0. There it is not interpolated. */
 static const double LEAST_EZ = 0.3;
 
 static int may_lie_between(const restitute_fit_point *p)
@@ -25,7 +28,8 @@ static int may_lie_between(const restitute_fit_point *p)
     return isnan(p->ex) && (isnan(p->contact_time) || p->ez >= LEAST_EZ);
 }
 
-/* T of every point, apart from a factor of its group: with the same modulus for all. The core checks the scene. */
+/* T of every point, apart from a factor of its group: with the same modulus for all. The core
+ * checks the scene. */
 static int find_times(struct rst_fit_data *d, restitute_error *error)
 {
     restitute_material *any = NULL;
@@ -54,7 +58,8 @@ static void add_impact(struct rst_fit_data *d, size_t point, double time, int ow
     if (isnan(p->ex)) impact->scene.friction = 0;                       /* saves the tangential problem */
 }
 
-/* Lagrange's weights of the impacts around a point; the first of them all is two steps below `low`. */
+/* Lagrange's weights of the impacts around a point; the first of them all is two steps below
+ * `low`. */
 static void set_between(struct rst_fit_place *place, size_t first, double low)
 {
     const double steps = log(place->time / low) / STEP, u = 2 + steps - floor(steps);
@@ -67,8 +72,9 @@ static void set_between(struct rst_fit_place *place, size_t first, double low)
     }
 }
 
-/* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds whose time was
- * measured, have their own. These come in the order of T: equal speeds at several angles share their normal motion then. */
+/* Points without e_x lie between impacts, if that halves the impacts; the others, and slow rebounds
+ * whose time was measured, have their own. These come in the order of T: equal speeds at several
+ * angles share their normal motion then. */
 static void impacts_of_group(struct rst_fit_data *d, size_t group, const size_t *order)
 {
     const size_t first = d->needed;
@@ -108,7 +114,7 @@ int rst_fit_impacts(struct rst_fit_data *d, restitute_error *error)
     return status;
 }
 
-/* By the golden section: every stride-th could be one angle of several at each speed. */
+/* By the golden section: with a constant stride the same angle could be taken at each speed. */
 int rst_fit_passed_over(const struct rst_fit_data *d, size_t impact)
 {
     return d->impact[impact].own && fmod(0.6180339887498949 * (double)impact, 1) * (double)d->stride >= 1;

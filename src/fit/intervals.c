@@ -1,4 +1,5 @@
-/* How well the data determine the constants: noise, singular values, covariance; and the weights of robust losses.
+/* How well the data determine the constants: noise, singular values, covariance; and the weights of
+ * robust losses.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -8,11 +9,12 @@
 #include "fit/least.h"
 #include "fit/search.h"
 
-/* No drop test measures e better than PRACTICAL: what would need that is called undetermined. The impacts themselves are
- * solved to SOLVED. */
+/* No drop test measures e to better than PRACTICAL. A constant that would need this counts as not
+ * determined. The impacts are solved to SOLVED. */
 static const double PRACTICAL = 1e-3, SOLVED = 1e-6;
 
-/* A direction along which the constants may change by a factor of 10 within one standard deviation is not determined. */
+/* A direction along which the constants may change by a factor of 10 within one standard deviation
+ * is not determined. */
 static const double LOOSE = 2.302585;
 
 /* Tuned for 95 % efficiency on Gaussian noise, as is usual. */
@@ -29,7 +31,7 @@ static double unit(const struct rst_fit_data *d)
     return sqrt((double)d->rows / sum);
 }
 
-/* Median of |r| over 0.6745, the scale that outliers do not move. */
+/* Median of |r| over 0.6745, a scale that does not depend on outliers. */
 static double robust_scale(const struct rst_fit_data *d, const double *r, size_t free_constants, double *sorted)
 {
     for (size_t i = 0; i < d->rows; i++)
@@ -72,7 +74,8 @@ int rst_fit_reweigh(struct rst_fit_search *s, double *weight, double *change)
     return status;
 }
 
-/* Variance of a residual. With a robust loss that of Huber's M-estimate: scale^2 sum psi^2/dof over mean(psi')^2. */
+/* Variance of a residual. With a robust loss that of Huber's M-estimate: scale^2 sum psi^2/dof over
+ * mean(psi')^2. */
 static void find_noise(const struct rst_fit_search *s, struct rst_fit_intervals *c, double *sorted)
 {
     const struct rst_fit_data *d = s->data;
@@ -88,7 +91,8 @@ static void find_noise(const struct rst_fit_search *s, struct rst_fit_intervals 
     c->judged = fmax(isnan(c->noise) ? 0 : c->noise, PRACTICAL * unit(d));
 }
 
-/* Directions beyond the first `rank` are not determined, nor is a constant that has a part in them. */
+/* Directions beyond the first `rank` are not determined, nor is a constant that has a part in
+ * them. */
 static void set_variance(const struct rst_fit_search *s, struct rst_fit_intervals *c)
 {
     const size_t p = s->model.free;
@@ -105,8 +109,8 @@ static void set_variance(const struct rst_fit_search *s, struct rst_fit_interval
     }
 }
 
-/* Another fit that is as good lies apart if a constant is more than three standard deviations away; of it, constants are not
- * determined that are more than one away. */
+/* Another fit that is equally good is separate if a constant differs by more than three standard
+ * deviations. Then constants that differ by more than one are not determined. */
 static void look_at_other(const struct rst_fit_search *s, struct rst_fit_intervals *c)
 {
     const size_t p = s->model.free;

@@ -30,7 +30,8 @@ void rst_fit_gsl_end(void)
     pthread_mutex_unlock(&lock);
 }
 
-/* Trial steps in a row that find nothing better, after which a round ends: the trust region is 1/32 of what it was. */
+/* A round ends after this many trial steps in a row without improvement. The trust region is then
+ * 1/32 of its size before. */
 enum { REJECTED = 5 };
 
 struct bridge {
@@ -54,7 +55,7 @@ static int residuals(const gsl_vector *x, void *own, gsl_vector *f)
     return b->status < 0 ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
-/* Broyden's update: the least change of the Jacobian that explains the latest step. */
+/* Broyden's update: the smallest change of the Jacobian that is consistent with the latest step. */
 static void update(struct bridge *b)
 {
     const size_t p = b->least->unknowns;
@@ -95,8 +96,9 @@ static double square(const gsl_vector *f)
     return sum;
 }
 
-/* A round from x on, with a Jacobian of its own. A step that finds nothing better is its end: GSL calls it no progress. The
- * sum decides, not the step: along a valley whose floor is flat the constants would wander for ever. */
+/* A round from x, with a new Jacobian. It ends at a step without improvement (GSL: no progress).
+ * The criterion is the sum of squares and not the step, since along a flat valley the constants
+ * would never stop. */
 static int iterate(gsl_multifit_nlinear_workspace *w, struct bridge *b, double *x, double *sum, int *converged)
 {
     const struct rst_least *least = b->least;
@@ -125,7 +127,8 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
     const size_t n = least->rows, p = least->unknowns;
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     parameters.scale = gsl_multifit_nlinear_scale_levenberg; /* unknowns are logarithms: of one scale */
-    /* QR takes a Jacobian without full rank. So does GSL's SVD, but it crashes where memory is missing within a step. */
+    /* QR accepts a Jacobian without full rank. GSL's SVD does, too, but it crashes if memory runs
+     * out within a step. */
     parameters.solver = least->full_rank ? gsl_multifit_nlinear_solver_cholesky : gsl_multifit_nlinear_solver_qr;
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p);
     double *memory = malloc((n * p + 2 * n + 3 * p) * sizeof *memory);
@@ -146,7 +149,7 @@ int rst_fit_minimise(const struct rst_least *least, double *x, double *sum, int 
 
 int rst_fit_singular(size_t rows, size_t unknowns, const double *j, double *values, double *v)
 {
-    /* GSL wants as many rows as columns: rows of zeros change nothing */
+    /* GSL needs at least as many rows as columns: rows of zeros change nothing */
     const size_t n = rows > unknowns ? rows : unknowns, p = unknowns;
     double *memory = calloc(n * p + p * p, sizeof *memory);
     if (!memory) return RESTITUTE_ERROR_MEMORY;

@@ -6,15 +6,16 @@
 
 #include "fit/search.h"
 
-/* Chance below which a model is called wrong, and residuals that are suspect whatever their order. The latter are chosen, not
- * derived: noise of 5 % is to pass, while searches that ended in a wrong place had left 6 to 18 %. */
+/* Probability below which a model is rejected, and sizes of residuals that are suspect in any
+ * order. These sizes are chosen, not derived: noise of 5 % must pass, and searches that ended at a
+ * wrong minimum had left 6 to 18 %. */
 static const double WRONG_BELOW = 0.01, LARGE_E = 0.07, LARGE_TIME = 0.1;
 
-/* A pattern below what can be measured is none: it is that of the solver's error. */
+/* A pattern below the measurable size is ignored: it comes from the error of the solver. */
 static const double PRACTICAL = 1e-3;
 
-/* A residual and where it stands in the order: by the first key that differs. The last one is the row. LEAST residuals have
- * orders that are improbable enough. */
+/* A residual and its sort keys; the last key is the row. With fewer than LEAST residuals no order
+ * is improbable enough. */
 enum { KEYS = 5, LEAST = 6 };
 struct place {
     double key[KEYS], residual;
@@ -28,9 +29,10 @@ static int compare(const void *a, const void *b)
     return 0;
 }
 
-/* Bartels (J. Am. Stat. Assoc. 77, 1982, 40): chance that neighbours in random order have ranks so alike. The sum of squared
- * differences is beta distributed, nearly: below 1 % it falls in 0.8 to 1.0 % of all orders of 6 to 9 values, counted, but in
- * 1.7 % of those of 5. Uses up the places. */
+/* Bartels (J. Am. Stat. Assoc. 77, 1982, 40): probability that neighbours in random order have so
+ * similar ranks. The sum of squared differences is beta distributed, nearly: below 1 % it falls in
+ * 0.8 to 1.0 % of all orders of 6 to 9 values, counted, but in 1.7 % of those of 5. Overwrites the
+ * places. */
 static double chance_of_order(struct place *places, size_t count)
 {
     const double n = (double)count;
@@ -66,7 +68,8 @@ static size_t arrange(const struct rst_fit_search *s, int apart, struct place *p
     return n;
 }
 
-/* Standard deviation of e, or of relative contact times, that the residuals show; 0: nothing is left to estimate it. */
+/* Standard deviation of e, or of relative contact times, from the residuals; 0: no degree of
+ * freedom is left. */
 static double noise_of(const struct rst_fit_search *s, int time)
 {
     const struct rst_fit_data *d = s->data;

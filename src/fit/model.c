@@ -1,28 +1,30 @@
-/* From constants to solids, and from solids to what was measured.
+/* From constants to solids, and from solids to the measured quantities.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fit/model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/kernels.h"
 #include "base/report.h"
 
-/* Impacts that are solved in one call: many enough for threads, few enough for options.interrupted. */
+/* Impacts that are solved in one call: many enough for threads, few enough for
+ * options.interrupted. */
 enum { BATCH = 200 };
 
-/* Beyond this factor from the centre of the starts nothing is searched: impacts are elastic or sink in there. */
+/* The search stays within this factor of the centre of the starts. Beyond, impacts are elastic or
+ * the sphere sinks in. */
 static const double widest = 18.4; /* ln 1e8 */
 
-/* 2.9432751843 T is the elastic contact time (docs/theory.md, limits). */
-static const double elastic_time = 2.9432751843;
 
 /* Impacts have T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 double rst_fit_elastic_modulus(const struct rst_fit_data *d, size_t point, double contact_time)
 {
-    return 2 * (1 - d->options.poisson_ratio) * pow(elastic_time * d->place[point].time / contact_time, 2.5);
+    return 2 * (1 - d->options.poisson_ratio) * pow(rst_elastic_contact_time() * d->place[point].time / contact_time, 2.5);
 }
 
-/* Scale of the moduli, from contact times as if elastic, else a known modulus, else 1 MPa; and T for it. */
+/* Scale of the moduli: from contact times as of an elastic solid, else from a known modulus, else 1
+ * MPa; and T for it. */
 static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, double *modulus, double *time)
 {
     const double softness = 2 * (1 - d->options.poisson_ratio);
@@ -53,8 +55,9 @@ int rst_fit_part(int kind, size_t i)
     return parts[kind][i];
 }
 
-/* Where the starts are: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus times contact time,
- * shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow to solve; the local fits may go there. */
+/* Range of the starts: moduli within a factor of 300 of the scale, a viscosity within 30 of modulus
+ * times contact time, shifts and friction within 10. Beyond, impacts are elastic, or stiff and slow
+ * to solve; the local fits may go there. */
 static void set_ranges(const struct rst_fit_data *d, struct rst_fit_model *m)
 {
     double modulus, time;
@@ -242,6 +245,6 @@ double rst_fit_residual(const struct rst_fit_data *d, size_t row, const struct r
     const struct rst_fit_row *r = &d->row[row];
     const double value = values[r->point].of[r->kind];
     if (rst_fit_passed_over(d, d->place[r->point].first)) return 0;
-    if (isnan(values[r->point].of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: no step goes there */
+    if (isnan(values[r->point].of[RST_FIT_EZ]) || !isfinite(value)) return 1e3; /* not solved, or sunk in: reject */
     return (value - r->measured) / r->sigma;
 }

@@ -1,4 +1,5 @@
-/* The data and the model of a fit: which constants there are, and what a set of them gives for the measured values.
+/* The data and the model of a fit: the constants, and the measured quantities that follow from
+ * them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_FIT_MODEL_H
 #define RST_FIT_MODEL_H
@@ -22,26 +23,28 @@ struct rst_fit_impact {
     double time;
 };
 
-/* Where a point is: its own impact, or between `count` of them. */
+/* Impacts of a point: its own one, or `count` for interpolation. */
 enum { RST_FIT_STENCIL = 6 };
 struct rst_fit_place {
     double time, weight[RST_FIT_STENCIL];
     size_t first, count;
 };
 
-/* What a set of constants gives for a point. */
+/* Results of a set of constants for a point. */
 struct rst_fit_values {
     double of[RST_FIT_KINDS];
 };
 
-/* Distinct temperatures, ascending. Of the reference, and where no temperature was given, the value may be NaN. */
+/* Distinct temperatures, ascending. Of the reference, and where no temperature was given, the value
+ * may be NaN. */
 struct rst_temperatures {
     double reference_value, c1, c2; /* NaN: the first one's; no law of shifts */
     size_t reference, count;
     double value[RESTITUTE_DMA_SHIFTS];
 };
 
-/* Copies of the points and options, what follows from them, and points of one temperature and partner. */
+/* Copies of the points and options, what follows from them, and points of one temperature and
+ * partner. */
 struct rst_fit_data {
     size_t n, rows, groups;
     restitute_fit_point *points; /* their scenes are those below */
@@ -51,7 +54,7 @@ struct rst_fit_data {
     struct rst_fit_row *row;
     size_t needed; /* impacts, of a set of constants */
     struct rst_fit_impact *impact;
-    size_t stride; /* every how manyth of the own impacts is solved; rows of the others have no residual */
+    size_t stride; /* one of so many own impacts is solved; rows of the others have no residual */
     struct rst_fit_place *place;
     size_t *group, *first, *at; /* group of a point; first point of a group; temperature of a point */
     struct rst_temperatures temperature;
@@ -59,7 +62,8 @@ struct rst_fit_data {
     int64_t impacts; /* that were solved */
 };
 
-/* One solid and which of its constants are fitted. Constants: those of the solid, friction, shifts. */
+/* One solid and which of its constants are fitted. Constants: those of the solid, friction,
+ * shifts. */
 struct rst_fit_model {
     int kind;
     size_t solid, count;
@@ -82,18 +86,21 @@ int rst_fit_outside(const char *name, double value, double low, double high, res
 /* How many constants a solid has. */
 size_t rst_fit_solid_constants(int kind, size_t terms);
 
-/* Which part of a standard solid constant i of an elastic, Kelvin-Voigt, standard solid or Maxwell body is. */
+/* The part of a standard solid that is constant i of an elastic, Kelvin-Voigt, standard solid or
+ * Maxwell body. */
 enum { RST_FIT_MODULUS1, RST_FIT_MODULUS2, RST_FIT_VISCOSITY, RST_FIT_PARTS };
 int rst_fit_part(int kind, size_t i);
 
-/* temperatures.c: sort what was measured at n places, of which `what` is the name for messages; NaN: at the reference. */
+/* temperatures.c: sort what was measured at n places, of which `what` is the name for messages;
+ * NaN: at the reference. */
 int rst_temperatures_sort(size_t n, const double *measured, const char *what, struct rst_temperatures *temperatures,
                           size_t *at, restitute_error *error);
 
 /* log10 a_T by the constants of Williams, Landel and Ferry. */
 double rst_temperatures_wlf(const struct rst_temperatures *temperatures, size_t which);
 
-/* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of theirs. */
+/* model.c: the model of the options with the data's friction and shifts; `kind` may be a rival of
+ * theirs. */
 void rst_fit_model_make(const struct rst_fit_data *data, int kind, const double *known, struct rst_fit_model *model);
 void rst_fit_name(const struct rst_fit_data *data, const struct rst_fit_model *model, size_t constant,
                   char name[RESTITUTE_FIT_NAME]);
@@ -101,13 +108,15 @@ void rst_fit_name(const struct rst_fit_data *data, const struct rst_fit_model *m
 /* Modulus of the elastic solid with this contact time at a point. */
 double rst_fit_elastic_modulus(const struct rst_fit_data *data, size_t point, double contact_time);
 
-/* All constants from logarithms of the fitted ones, which are kept within the range where impacts can be solved. */
+/* All constants from logarithms of the fitted ones, which are kept within the range where impacts
+ * can be solved. */
 void rst_fit_constants(const struct rst_fit_model *model, const double *logs, double *constants);
 
 int rst_fit_solid(const struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
                   double shift, restitute_material **material, restitute_error *error);
 
-/* What `sets` sets of constants give at every point: values[set * n + point]. e_z is NaN where an impact failed. */
+/* Results of `sets` sets of constants at every point: values[set * n + point]. e_z is NaN where an
+ * impact failed. */
 int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, size_t sets, const double *constants,
                   struct rst_fit_values *values);
 
@@ -115,7 +124,7 @@ int rst_fit_solve(struct rst_fit_data *data, const struct rst_fit_model *model, 
 int rst_fit_solve_points(struct rst_fit_data *data, const struct rst_fit_model *model, const double *constants,
                          restitute_result *results);
 
-/* Residual of a row, in its standard deviations; 0 if its impact was passed over. */
+/* Residual of a row, in its standard deviations; 0 if its impact was skipped. */
 double rst_fit_residual(const struct rst_fit_data *data, size_t row, const struct rst_fit_values *values);
 
 /* impacts.c: the impacts that are needed, and from them the values of the points. */

@@ -27,7 +27,7 @@ int rst_fit_outside(const char *name, double value, double low, double high, res
     if (value >= low && value <= high) return RESTITUTE_OK;
     if (isnan(value))
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s is missing: must be in [%g, %g]", name, low, high);
-    if (low > 0 && low <= 1e-30 && !(value > 0)) /* the rest of the range is for overflow alone */
+    if (low > 0 && low <= 1e-30 && !(value > 0)) /* the rest of the range only prevents overflow */
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be > 0", name, value);
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
 }
@@ -178,8 +178,8 @@ static int copy(size_t n, const restitute_fit_point *points, const restitute_fit
     return status;
 }
 
-/* A usual impact takes 0.1 to 0.3 ms. Those of solids far from the data may take without end: they get no more than
- * 10 ms, and count as they then are. */
+/* A usual impact takes one to three thousand updates. Those of solids far from the data may take
+ * very many: they get at most a hundred thousand, and their result is used as it is. */
 static void set_solver(struct rst_fit_data *d)
 {
     restitute_options_init(&d->solver);

@@ -1,14 +1,16 @@
-/* Intervals that are too wide for the linearised problem: the ends where the sum of squares, with the other constants fitted
- * again, has risen as much as the quantile asks for (profile likelihood).
+/* Intervals that are too wide for the linearised problem, by the profile likelihood. At their ends
+ * the sum of squares, with the other constants fitted again, has increased by the amount that
+ * belongs to the quantile.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
 #include "fit/search.h"
 
-/* Half an interval, in the logarithm, up to which the linearised problem is trusted; and beyond which there is no bound: a
- * factor of 1000. Both are chosen, not derived. An end is where the rise is NEAR the one that is asked for, or above; TRIALS
- * are enough to get from LINEAR to UNBOUNDED by factors of two. */
+/* LINEAR: half an interval, in the logarithm, up to which the linearised problem is used.
+ * UNBOUNDED: beyond it, a factor of 1000, there is no bound. Both are chosen, not derived. NEAR:
+ * relative accuracy of the increase at an end. TRIALS: enough to get from LINEAR to UNBOUNDED by
+ * factors of two. */
 static const double LINEAR = 0.2, UNBOUNDED = 6.9, NEAR = 0.9;
 enum { TRIALS = 8 };
 
@@ -25,7 +27,7 @@ static int sum_with(struct rst_fit_search *s, const struct rst_fit_intervals *c,
     rst_fit_model_make(s->data, m->kind, known, &model);
     int status = rst_fit_search_create(s->data, &model, s->weight, 1, &with);
     if (status < 0) return status;
-    for (size_t i = 0, next = 0; i < p; i++) /* where the linearised problem has them */
+    for (size_t i = 0, next = 0; i < p; i++) /* at the end of the linearised problem */
         if (i != k) with.logs[next++] = s->logs[i] + away * c->variance[i * p + k] / c->variance[k * p + k];
     status = rst_fit_again(&with);
     *sum = with.sum;

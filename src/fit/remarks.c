@@ -10,10 +10,11 @@
 
 #include "base/report.h"
 
-/* Chances below which a difference is called one: to prefer a model with fewer constants, to call a model wrong. */
+/* Probabilities below which a difference is significant: to prefer a model with fewer constants; to
+ * reject a model. */
 static const double SIMPLER_FROM = 0.05, WRONG_BELOW = 0.01;
 
-/* Adds a line as far as there is room, and raises the flag. */
+/* Add a line if there is room, and set the flag. */
 static void remark(restitute_fit_result *result, int flag, const char *format, ...)
 {
     const size_t used = strlen(result->remarks), room = sizeof result->remarks - used;
@@ -28,8 +29,8 @@ static void remark(restitute_fit_result *result, int flag, const char *format, .
         memcpy(result->remarks + used + length, "\n", 2);
 }
 
-/* Rows of `open` by Gauss and Jordan: each gets a constant of its own, with power 1, that no other row has. What is not
- * determined by itself comes out alone then. */
+/* Rows of `open` by Gauss and Jordan: each row gets one constant with power 1 that no other row
+ * has. A constant that is undetermined by itself then has a row of its own. */
 static void separate(size_t rows, size_t p, double *open)
 {
     for (size_t k = 0; k < rows; k++) {
@@ -50,7 +51,8 @@ static void separate(size_t rows, size_t p, double *open)
     }
 }
 
-/* "modulus1_pa x f, viscosity_pa_s x f^0.6" for the direction v. Returns how many constants it has. */
+/* "modulus1_pa x f, viscosity_pa_s x f^0.6" for the direction v. Returns how many constants it
+ * has. */
 static size_t direction_text(const struct rst_fit_search *s, const double *v, char *text, size_t size)
 {
     char name[RESTITUTE_FIT_NAME];
@@ -139,7 +141,7 @@ static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_in
     if (m.large)
         remark(result, RESTITUTE_FIT_FLAG_MISFIT,
                "the data do not follow the model: residuals of %.2g in e and %.2g in relative contact times (0: none "
-               "measured) are more than noise should be; or try more starts",
+               "measured) are larger than usual noise; or try more starts",
                m.noise_e, m.noise_time);
     if (m.surpassed)
         remark(result, RESTITUTE_FIT_FLAG_MISFIT,
@@ -202,7 +204,7 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_i
     const double worse = simpler ? rival->sum : s->sum, better = simpler ? s->sum : rival->sum;
     const double left = simpler ? (double)c->dof : rows - (double)rival->model.free;
     if (left < 1) return;
-    /* F of the drop against the noise, which is not below what a measurement has */
+    /* F of the decrease over the noise, which is not taken below that of a measurement */
     const double floor = s->data->options.noise_known
                              ? 1
                              : fmax(better / left, isnan(c->noise) || c->judged > c->noise ? c->judged * c->judged : 0);

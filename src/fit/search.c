@@ -10,20 +10,24 @@
 
 #include "fit/least.h"
 
-/* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 find the valley of three constants. Shifts are scanned
- * DECADES up and down: beyond, solids are elastic or relaxed. STEPS of a local fit and ROUNDS of the last one; most need
- * eight and two. USUAL starts are fitted, to see what else fits as well: with two terms and e alone every other draw has two
- * solids, of which 4 starts miss one in 3 % and 6 in 1.5 %, but twenty points are to take less than a second. More only where
- * residuals are far too large. */
+/* SCAN sets a constant are solved for the starts, up to MOST_SCAN: 48 suffice to find the minimum
+ * of three constants. Shifts are scanned by DECADES up and down: beyond, solids are elastic or
+ * relaxed. STEPS of a local fit and ROUNDS of the last one; most need eight and two. USUAL: starts
+ * that are fitted, to find other constants that fit as well. With two terms and e alone every
+ * second draw has two solids. 4 starts miss one of them in 3 %, 6 in 1.5 %, but twenty points must
+ * take less than a second. More starts are fitted only if residuals are far too large. */
 enum { SCAN = 16, MOST_SCAN = 64, DECADES = 4, STEPS = 20, ROUNDS = 8, USUAL = 5 };
 
-/* Two fits are apart if a constant differs by more than exp(APART). The sum of the other one may be LIKELY variances of the
- * noise larger: three standard deviations. With two, at 3 % noise, 5 of 46 constants of two terms that were called
- * determined were those of the wrong valley. And FAIR times as large before both are fitted precisely. */
+/* Two fits are separate if a constant differs by more than a factor of exp(APART). The sum of
+ * squares of the other one may be larger by LIKELY variances of the noise, which is three standard
+ * deviations. (With two, at 3 % noise, 5 of 46 constants of two terms that counted as determined
+ * belonged to the wrong minimum.) It may be FAIR times as large before both are fitted
+ * precisely. */
 static const double APART = 0.5, LIKELY = 9, FAIR = 3;
 
-/* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends when its sum changes by
- * less than the last part: 1e-5 of 20 squares is 0.015 standard deviations of a constant. */
+/* Tolerance of the impacts: of scan and starts, and of the end: below every measurement. A fit ends
+ * when its sum changes by less than the last part: 1e-5 of 20 squares is 0.015 standard deviations
+ * of a constant. */
 static const double COARSE[] = {1e-4, 1e-3}, PRECISE[] = {1e-6, 1e-5};
 
 int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model *model, const double *weight,
@@ -65,7 +69,8 @@ static int residuals(void *own, const double *x, double *r)
     return status;
 }
 
-/* Differences: their truncation grows with the step, the impacts' own error falls; both are the step's size here. */
+/* Finite differences: with this step the truncation error is as large as that from the error of the
+ * impacts. */
 static int jacobian(void *own, const double *x, const double *r, double *j)
 {
     struct rst_fit_search *s = own;
@@ -104,8 +109,9 @@ static size_t before_shifts(const struct rst_fit_model *m)
     return k;
 }
 
-/* The best shifts for a solid. Rows of a temperature depend on its own shift alone: all shifts take a value of the grid at
- * once, and each temperature keeps its best; or the one in x, if it is `known`. */
+/* The best shifts for a solid. Rows of a temperature depend on its own shift alone: all shifts take
+ * a value of the grid at once, and each temperature keeps its best value, or the one in x if it is
+ * `known`. */
 static int scan_shifts(struct rst_fit_search *s, int known, double *x, double *sum)
 {
     const struct rst_fit_data *d = s->data;
@@ -175,7 +181,7 @@ int rst_fit_scan(struct rst_fit_search *s)
     return rst_fit_choose(s, sets, logs);
 }
 
-/* More starts are worth while if residuals are far too large. */
+/* More starts are useful if residuals are far too large. */
 static int judge(struct rst_fit_search *s)
 {
     struct rst_fit_misfit m;
@@ -193,7 +199,8 @@ static int is_apart(const struct rst_fit_search *s, const double *x)
     return most > APART;
 }
 
-/* Of two fits that are apart, the one that is not the best is `other`, if it may be as good and is better than that. */
+/* Of two separate fits the worse one becomes `other`, if it may be equally good and is better than
+ * the present `other`. */
 static void keep_other(struct rst_fit_search *s, double sum, const double *x)
 {
     const double larger = fmax(sum, s->sum), smaller = fmin(sum, s->sum);
@@ -224,7 +231,7 @@ int rst_fit_judge_other(struct rst_fit_search *s)
     return status;
 }
 
-/* A fit from x; kept if it is better than what is there. */
+/* A fit from x; kept if it is better than the present one. */
 static int fit_from(struct rst_fit_search *s, double *x, int rounds, const double level[2])
 {
     const struct rst_least least = {.rows = s->data->rows,
@@ -258,7 +265,7 @@ int rst_fit_local(struct rst_fit_search *s, size_t start)
         const int status = judge(s);
         if (status < 0 || s->enough) return status;
     }
-    const int shifts = before_shifts(&s->model) < s->model.free; /* updates of the Jacobian lose their way among them */
+    const int shifts = before_shifts(&s->model) < s->model.free; /* updates of the Jacobian are inaccurate among them */
     return fit_from(s, s->start + start * s->model.free, shifts ? 0 : 1, COARSE);
 }
 
@@ -267,7 +274,7 @@ int rst_fit_again(struct rst_fit_search *s)
     double x[RESTITUTE_FIT_CONSTANTS];
     s->data->solver.tolerance = PRECISE[0];
     memcpy(x, s->logs, sizeof x);
-    const int status = scan_shifts(s, 1, x, &s->sum); /* a shift may have wandered where nothing depends on it */
+    const int status = scan_shifts(s, 1, x, &s->sum); /* a shift may have moved to where nothing depends on it */
     if (status < 0) return status;
     s->sum = INFINITY, s->converged = 1;
     return s->model.free ? fit_from(s, x, ROUNDS, PRECISE) : solve_sum(s, x, &s->sum);

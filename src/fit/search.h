@@ -1,4 +1,4 @@
-/* Searching the constants of one model, what the residuals say about them, and that in plain words.
+/* The search for the constants of one model, their certainty, and remarks about both.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_FIT_SEARCH_H
 #define RST_FIT_SEARCH_H
@@ -27,29 +27,30 @@ int rst_fit_search_create(struct rst_fit_data *data, const struct rst_fit_model 
                           size_t starts, struct rst_fit_search *search);
 void rst_fit_search_release(struct rst_fit_search *search);
 
-/* Solve sets of logarithms with the best shifts for each, and keep the best sets as starts; the quasi-random ones; then a
- * local fit from a start. */
+/* Solve sets of logarithms with the best shifts for each, and keep the best sets as starts; the
+ * quasi-random ones; then a local fit from a start. */
 int rst_fit_choose(struct rst_fit_search *search, size_t sets, double *logs);
 int rst_fit_scan(struct rst_fit_search *search);
 int rst_fit_local(struct rst_fit_search *search, size_t start);
 
-/* At the end: the other fit precisely, with all points and weights. It becomes the best if it is better, and is forgotten unless
- * the noise explains what its sum is larger. */
+/* At the end: the other fit precisely, with all points and weights. It becomes the best if it is
+ * better. It is dropped if the noise does not explain its larger sum. */
 int rst_fit_judge_other(struct rst_fit_search *search);
 
 /* Again from the best, precisely: at the end, and after the weights changed. */
 int rst_fit_again(struct rst_fit_search *search);
 
-/* Without a scale: to the contact times of an elastic solid of 1 MPa, which changes no e. */
+/* Without a scale: take contact times of an elastic solid of 1 MPa, which changes no e. */
 int rst_fit_rescale(struct rst_fit_search *search);
 
-/* Residuals at the best; and their derivatives by the logarithms, rows x free, unless j is NULL. No weights. */
+/* Residuals at the best; and their derivatives by the logarithms, rows x free, unless j is NULL. No
+ * weights. */
 int rst_fit_linearise(struct rst_fit_search *search, double *j);
 
 /* What the linearised problem says. Directions are those of the logarithms of the fitted constants. */
 struct rst_fit_intervals {
     double noise;  /* standard deviation of a weighted residual; NaN: no degree of freedom is left */
-    double judged; /* the same, not below what any measurement has: decides what is determined */
+    double judged; /* the same, but not below the noise of a measurement: decides what is determined */
     size_t rank, dof;
     double values[RESTITUTE_FIT_CONSTANTS];                             /* singular values */
     double vector[RESTITUTE_FIT_CONSTANTS * RESTITUTE_FIT_CONSTANTS];   /* directions, as of rst_fit_singular */
@@ -65,11 +66,11 @@ int rst_fit_intervals(struct rst_fit_search *search, struct rst_fit_intervals *i
 /* profile.c: ends of the intervals, `quantile` standard deviations away, or infinitely far. */
 int rst_fit_profile(struct rst_fit_search *search, double quantile, struct rst_fit_intervals *intervals);
 
-/* misfit.c: what the residuals in search->r say against the model. */
+/* misfit.c: what the residuals in search->r say against the model: */
 struct rst_fit_misfit {
-    double chance;                   /* of neighbours along speed, angle, temperature that are so alike */
+    double chance;                   /* probability of so similar neighbours along speed, angle, temperature */
     double noise_e, noise_time;      /* of e and of relative contact times */
-    int patterned, large, surpassed; /* neighbours alike; too much noise; more than the given standard deviations */
+    int patterned, large, surpassed; /* similar neighbours; too much noise; more than the given standard deviations */
 };
 
 int rst_fit_misfit(const struct rst_fit_search *search, size_t dof, struct rst_fit_misfit *misfit);

@@ -1,4 +1,4 @@
-/* Temperatures of measurements, and by how much they shift times.
+/* Temperatures of measurements, and their time shifts.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -13,14 +13,15 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* NaN: at T_r - c2 or below, where the law has its pole, or a shift beyond 1e30, where no relaxation time is left. */
+/* NaN: at T_r - c2 or below, where the law has its pole, or a shift beyond 1e30, where no
+ * relaxation time is left. */
 double rst_temperatures_wlf(const struct rst_temperatures *t, size_t k)
 {
     const double difference = t->value[k] - t->reference_value, shift = -t->c1 * difference / (t->c2 + difference);
     return t->c2 + difference > 0 && fabs(shift) <= 30 ? shift : NAN;
 }
 
-/* Into the distinct ones; what cannot be one is refused. */
+/* Sort into distinct ones; invalid values are refused. */
 static int add(double value, const char *place, struct rst_temperatures *t, restitute_error *error)
 {
     size_t k = 0;

@@ -22,7 +22,7 @@ hid_t rst_image_create(hsize_t block)
 
 void *rst_image_close(hid_t file, size_t *size)
 {
-    static const char signature[] = "\211HDF\r\n\032\n"; /* of what begins where it should */
+    static const char signature[] = "\211HDF\r\n\032\n"; /* the first bytes of an HDF5 file */
     char *bytes = NULL;
     ssize_t length = H5Fflush(file, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file, NULL, 0);
     if (length > (ssize_t)sizeof signature) bytes = malloc((size_t)length);

@@ -1,16 +1,16 @@
-/* HDF5 files made in memory: HDF5 never sees a disk, whose end it does not survive (a file that it
- * cannot close makes it crash when the program ends).
+/* HDF5 files made in memory: HDF5 does not write to a disk. If the disk is full and HDF5 cannot
+ * close a file, it crashes at the end of the program.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_HDF5_IMAGE_H
 #define RST_HDF5_IMAGE_H
 
 #include <hdf5.h>
 
-/* HDF5 wants a name even for what is in memory, and that there is no such file. */
+/* HDF5 needs a name even for a file in memory, and no file may have it. */
 extern const char rst_no_file[];
 
-/* A new file in memory, whose content begins at byte `block` of the file that it will be. Negative:
- * HDF5 fails. */
+/* A new file in memory. Its content will begin at byte `block` of the final file. Negative: HDF5
+ * fails. */
 hid_t rst_image_create(hsize_t block);
 
 /* Close it. The bytes from `block` on, on the heap; NULL: no memory, or HDF5 fails. */

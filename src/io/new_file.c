@@ -22,8 +22,8 @@ int rst_lock(int descriptor, const char *name)
     return same ? 0 : ESTALE;
 }
 
-/* Owner and mode of an existing file. Who may not give the group away gives it no more than others
- * have. */
+/* Copy owner and mode of an existing file. If the group cannot be set, the group gets no more
+ * rights than others. */
 static void make_alike(int descriptor, const struct stat *model)
 {
     mode_t mode = model->st_mode & 0777;
@@ -39,7 +39,7 @@ int rst_create(const char *name, const struct rst_place *place)
     return file;
 }
 
-/* Left by a process that was killed: whoever writes a temporary file has it locked. */
+/* Whether a killed process left this temporary file: a running process keeps it locked. */
 static void remove_stale(const char *name)
 {
     const int file = open(name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -48,8 +48,8 @@ static void remove_stale(const char *name)
     close(file);
 }
 
-/* Under the first free number. Between making and locking it another process may take it for left
- * behind. */
+/* Create it with the first free number. Before it is locked, another process may take it for an
+ * abandoned file. */
 static int open_temporary(struct rst_new_file *file)
 {
     enum { numbers = 1000 };
@@ -108,8 +108,8 @@ int rst_new_file_write(const char *path, const void *bytes, size_t size, struct 
     return problem;
 }
 
-/* The new name itself must reach the disk too; a file system that cannot do this is no reason to
- * fail. */
+/* Flush the folder, too, so that the new name is on the disk. A file system that cannot do this is
+ * not an error. */
 int rst_rename(const char *name, const char *target)
 {
     if (rename(name, target) != 0) return errno;

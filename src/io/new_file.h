@@ -1,7 +1,6 @@
 /* How an output is written: beside its place as OUT.restitute-N.tmp, locked, flushed to the disk,
- * then renamed. It has the mode of the file that it replaces, and its owner where we may give it. A
- * process that was killed leaves a temporary file that nobody locks; the next output to the same
- * place removes it.
+ * then renamed. It has the mode of the replaced file, and its owner if that is allowed. A killed
+ * process leaves an unlocked temporary file. The next output to the same place removes it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_NEW_FILE_H
 #define RST_NEW_FILE_H
@@ -16,8 +15,8 @@ struct rst_new_file {
     char *temporary; /* NULL: written through */
 };
 
-/* Write all but the name. What is written through is at its place then. Returns 0 or an errno, and
- * then nothing is left of it. */
+/* Write the content, not yet under the final name. (A file that is written through is then
+ * complete.) Returns 0 or an errno, and then nothing is left of it. */
 int rst_new_file_write(const char *path, const void *bytes, size_t size, struct rst_new_file *file);
 
 /* Give it its name. Returns 0 or an errno, and then nothing is left of it. */
@@ -36,8 +35,8 @@ int rst_write_all(int descriptor, const char *bytes, size_t size);
  * `place`. Returns the descriptor, or -1 with errno. */
 int rst_create(const char *name, const struct rst_place *place);
 
-/* Lock an open file as long as it is open: 0; EWOULDBLOCK: somebody else has; ESTALE: it has no
- * longer this name; another errno: there are no locks here. */
+/* Lock an open file as long as it is open. Returns 0; EWOULDBLOCK: another process has locked it;
+ * ESTALE: it no longer has this name; another errno: the file system has no locks. */
 int rst_lock(int descriptor, const char *name);
 
 /* Give a flushed file its final name, and flush that. Returns 0 or an errno. */

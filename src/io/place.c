@@ -17,7 +17,7 @@ char *rst_folder_of(const char *path)
     return slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("./");
 }
 
-/* Replace the name of a link by what it leads to. Returns 0 or an errno. */
+/* Replace the name of a link by its target. Returns 0 or an errno. */
 static int follow(char **name)
 {
     char content[4096];
@@ -36,8 +36,8 @@ static int follow(char **name)
     return next ? 0 : ENOMEM;
 }
 
-/* A link in /proc names no place but an open file: what is written there must not replace the name
- * that the file happens to have. */
+/* A link in /proc is an open file and not a place. Output to it must not replace the file of that
+ * name. */
 static int is_open_file(const char *link, int *descriptor)
 {
     char own[40];

@@ -1,4 +1,4 @@
-/* Where an output goes. The one rule of library and command:
+/* Where an output goes. The rule for library and command:
  *   - symbolic links are followed: the file they lead to is written, and the links stay;
  *   - a regular file, or none yet, is replaced as a whole (new_file.h);
  *   - a device, a pipe, or an open file that /dev/stdout or /proc/self/fd/N names is written
@@ -12,7 +12,7 @@
 
 struct rst_place {
     char *target;   /* the name behind all symbolic links, on the heap */
-    int exists;     /* and `status` tells what it is */
+    int exists;     /* and `status` is its type */
     int through;    /* to be written through */
     int descriptor; /* the open file of this process that the path names; -1: none */
     struct stat status;

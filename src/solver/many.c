@@ -1,6 +1,6 @@
-/* Many impacts by several threads. Each case is solved by itself, and a solver brings nothing from one case into the
- * next but what that would find itself, bit by bit, so that neither the number of threads nor the order in which they
- * take the cases is seen in the results.
+/* Many impacts by several threads. Each case is solved alone. A solver keeps only data that the
+ * next case would compute itself with the same bits. So the results do not depend on the number of
+ * threads or on the order of the cases.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <fenv.h>
 #include <stdlib.h>
@@ -22,11 +22,11 @@ struct batch {
     int *statuses;
 };
 
-/* What a thread has to itself: a solver, and the case that it would name to the caller. */
+/* The data of one thread: a solver, and the case that it would report to the caller. */
 struct worker {
     restitute_solver *solver;
     size_t index;
-    restitute_error error; /* of that case; its status is 0 as long as all are done without a remark */
+    restitute_error error; /* of that case; its status is 0 as long as there was no remark */
 };
 
 /* Failures come before remarks, then the lower index. */
@@ -52,8 +52,9 @@ static void solve_case(const struct batch *batch, size_t i, struct worker *worke
 }
 
 #ifdef _OPENMP
-/* Threads of a pool keep the rounding and the treatment of tiny numbers that were set when they were made; they take
- * the caller's for the time of the call, or his case would depend on who solves it. */
+/* Threads of a pool keep the rounding mode and the treatment of subnormal numbers that were set
+ * when they started. During the call they take those of the caller. Otherwise a result would depend
+ * on the thread that computes it. */
 static void solve_in_parallel(const struct batch *batch, struct worker *workers, int threads)
 {
     fenv_t callers;
@@ -102,12 +103,12 @@ static int create_workers(const restitute_options *options, int threads, struct 
     for (int i = 0; i < threads; i++) {
         const int status = restitute_solver_create(options, &workers[i].solver, error);
         if (status) return status;
-        rst_solver_keep_motion(workers[i].solver); /* for impacts on end that are on one solid */
+        rst_solver_keep_motion(workers[i].solver); /* for consecutive impacts on one solid */
     }
     return RESTITUTE_OK;
 }
 
-/* The case that the caller hears of. */
+/* The case that is reported to the caller. */
 static int report_first(const struct batch *batch, const struct worker *workers, int threads, restitute_error *error)
 {
     struct worker first = workers[0];

@@ -11,7 +11,7 @@ RST_DEFAULTS(result, .method = "")
 RST_DEFAULTS(ledger, 0)
 RST_DEFAULTS(history, 0)
 
-/* Dimensionless: U' is psi at first touch, and 1 without slip or friction, where psi is only a scale. */
+/* Dimensionless: U' is psi at first touch, and 1 without slip or friction. */
 static struct rst_units own_units(const struct rst_problem *problem)
 {
     return (struct rst_units){.time = 1,
@@ -19,7 +19,7 @@ static struct rst_units own_units(const struct rst_problem *problem)
                               .length_x = 1,
                               .force = 1,
                               .velocity = 1,
-                              .shear_velocity = problem->psi,
+                              .shear_velocity = problem->shear_speed,
                               .shear_force = 1};
 }
 
@@ -30,7 +30,7 @@ struct rst_units rst_units_of(const struct rst_problem *problem, const restitute
     double nu = restitute_material_poisson_ratio(scene->material);
     double sliding = fabs(rst_sliding_speed(scene));
     /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is no exception */
-    double shear_force = 2 * numbers->mass * (1 - nu) / (2 - nu) * sliding / problem->psi / numbers->time;
+    double shear_force = 2 * numbers->mass * (1 - nu) / (2 - nu) * sliding / problem->shear_speed / numbers->time;
     return (struct rst_units){.time = numbers->time,
                               .length_z = numbers->length_z,
                               .length_x = numbers->length_x,
@@ -51,13 +51,13 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
 {
     const struct rst_units *units = &problem->units;
     result->ez = clamp(-outcome->velocity, 0, 1) + 0.0; /* + 0.0: no negative zero */
-    result->ex = clamp(-outcome->shear_velocity / problem->psi, -1, 1) + 0.0;
+    result->ex = clamp(-outcome->shear_velocity / problem->shear_speed, -1, 1) + 0.0;
     result->error_ez = outcome->error_ez + merging_bound;
-    result->error_ex = outcome->error_ex + (problem->mode == RST_FRICTIONLESS ? 0 : merging_bound);
+    result->error_ex = outcome->error_ex + problem->slip_bound + (problem->mode == RST_FRICTIONLESS ? 0 : merging_bound);
     result->contact_time = outcome->contact_time * units->time;
     result->max_indentation = outcome->max_indentation * units->length_z;
     result->max_contact_radius = outcome->max_contact_radius * units->length_x;
-    result->max_normal_force = outcome->max_normal_force * units->force;
+    result->max_normal_force = rst_mass_factor() * outcome->max_normal_force * units->force;
     result->merging_bound = merging_bound;
     result->terms_merged = terms_merged;
     result->elements = outcome->elements;
@@ -71,7 +71,7 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
 void rst_write_ledger(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_ledger *ledger)
 {
     const struct rst_ledger *l = &outcome->ledger;
-    double energy_x = problem->psi * problem->psi;
+    double energy_x = problem->shear_speed * problem->shear_speed;
     ledger->rebound_z = outcome->velocity * outcome->velocity;
     ledger->viscous_z = l->viscous_z;
     ledger->left_z = l->left_z;
@@ -92,8 +92,8 @@ void rst_write_history(const struct rst_history *samples, const struct rst_units
         if (history->indentation) history->indentation[i] = s->indentation * units->length_z;
         if (history->contact_radius) history->contact_radius[i] = s->contact_radius * units->length_x;
         if (history->stick_radius) history->stick_radius[i] = s->stick_radius * units->length_x;
-        if (history->normal_force) history->normal_force[i] = s->normal_force * units->force;
-        if (history->tangential_force) history->tangential_force[i] = s->shear_force * units->shear_force;
+        if (history->normal_force) history->normal_force[i] = rst_mass_factor() * s->normal_force * units->force;
+        if (history->tangential_force) history->tangential_force[i] = rst_mass_factor() * s->shear_force * units->shear_force;
         if (history->normal_velocity) history->normal_velocity[i] = s->velocity * units->velocity;
         if (history->tangential_velocity) history->tangential_velocity[i] = s->shear_velocity * units->shear_velocity;
     }

@@ -22,15 +22,15 @@ struct restitute_solver {
     size_t samples_size;
 };
 
-/* Merged terms may change the pair by this part of the tolerance. */
+/* Share of the tolerance by which merged terms may change the pair. */
 static const double merging_share = 0.1;
+
+/* Slip is left out where it changes e_x by less than this part of the tolerance. The method gets the rest. Twice as much
+ * would ask it for a third more accuracy. */
+static const double share_of_slip = 0.25;
 
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
 static const double depth_margin = 1.2;
-
-/* Time to the largest indentation over that indentation, elastic (half of the contact time 2.943 T). Others are checked by
- * the contact time that comes out. */
-static const double elastic_compression = 1.47;
 
 /* How many compression times a contact may last before slow terms are looked at again. */
 static const double contact_in_compressions = 6;
@@ -133,7 +133,8 @@ struct merged {
     double slow_rate, fast_bound; /* bound: slow_rate * contact time + fast_bound */
 };
 
-/* Merge the terms that the contact cannot feel. `window` is how long it may last, in T. */
+/* Merge terms whose relaxation does not matter in this contact. `window`: its longest duration, in
+ * T. */
 static struct merged merge(struct rst_problem *problem, double window_factor)
 {
     struct rst_solid *s = &problem->solid;
@@ -141,12 +142,50 @@ static struct merged merge(struct rst_problem *problem, double window_factor)
     int64_t before = s->n_terms;
     if (before == 0) return merged;
     double depth = depth_margin * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau);
-    double time = elastic_compression * depth;
-    double chi = problem->mode == RST_FRICTIONLESS ? 0 : problem->chi;
-    rst_merge_terms(chi, window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta,
+    double time = rst_elastic_contact_time() / 2 * depth; /* others are checked by what comes out */
+    double share = problem->mode == RST_FRICTIONLESS ? 1 : fmax(1, problem->chi);
+    rst_merge_terms(share, window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta,
                     &s->n_terms, s->g, s->tau, &merged.slow_rate, &merged.fast_bound);
     merged.terms = before - s->n_terms;
     return merged;
+}
+
+/* Slip at the edge, unless the caller prescribes the resolution. */
+static int may_leave_out_slip(const struct rst_problem *problem)
+{
+    return problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 && !(problem->time_step > 0);
+}
+
+/* As if all stuck. The motion is then linear in U, which gets the unit of no slip. */
+static void leave_out_slip(struct rst_problem *problem)
+{
+    problem->mode = RST_NO_SLIP;
+    problem->slip_bound = rst_change_by_slip * problem->psi;
+    problem->shear_scale = problem->psi;
+    problem->shear_speed = 1;
+    problem->units.shear_force *= problem->psi;
+}
+
+/* By the method. Where it follows slip with an error larger than what slip changes, slip is left out after all. */
+static int solve_problem(restitute_solver *solver, int keep_ledger, struct rst_problem *problem,
+                         struct rst_outcome *outcome, restitute_error *error)
+{
+    const restitute_method *method = solver->options.method;
+    const int status = method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
+    if (!method->cheap_without_slip || status != RESTITUTE_TOLERANCE_NOT_REACHED || !may_leave_out_slip(problem) ||
+        outcome->error_ex < rst_change_by_slip * problem->psi)
+        return status;
+    const struct rst_problem before = *problem;
+    const int64_t updates = outcome->updates;
+    leave_out_slip(problem);
+    problem->max_updates -= updates;
+    problem->clock = NULL; /* the time may be over */
+    const int again = method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
+    outcome->updates += updates;
+    problem->max_updates = before.max_updates;
+    problem->clock = before.clock;
+    if (again != RESTITUTE_ERROR_TOO_MUCH_WORK) return again;
+    return rst_report(error, again, "%s: too little for this impact", rst_spent(&before, 0).text);
 }
 
 /* Who prescribes the resolution has chosen what it takes. */
@@ -156,7 +195,7 @@ static double time_limit(const restitute_options *o)
     return o->elements > 0 || o->time_step > 0 ? INFINITY : o->method->time_limit;
 }
 
-/* Either kind of input, and what it needs to be turned into a problem. */
+/* One of the two kinds of input, and the workspace to make a problem from it. */
 struct input {
     const restitute_impact *impact;
     const restitute_scene *scene;
@@ -173,6 +212,7 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", solid ? solid->n_terms : 1);
     *problem = (struct rst_problem){.method = o->method,
                                     .tolerance = o->tolerance,
+                                    .asked = o->tolerance,
                                     .elements = o->elements,
                                     .max_work = o->max_work,
                                     .max_updates = (int64_t)fmin(1e18, o->max_work * o->method->updates_per_second),
@@ -186,6 +226,10 @@ static int make_problem(restitute_solver *solver, struct input *input, struct rs
     if (status) return status;
     problem->units = rst_units_of(problem, input->scene, &input->numbers);
     problem->time_step = o->time_step / problem->time_unit;
+    if (!may_leave_out_slip(problem) || rst_change_by_slip * problem->psi >= share_of_slip * o->tolerance)
+        return RESTITUTE_OK;
+    leave_out_slip(problem);
+    problem->tolerance -= problem->slip_bound;
     return RESTITUTE_OK;
 }
 
@@ -201,7 +245,8 @@ void rst_solver_keep_motion(restitute_solver *solver)
     solver->workspace.keeps_motion = 1;
 }
 
-/* Solve with merged terms; a contact that outlasts the window for slow terms is solved again with them. */
+/* Solve with merged terms. If the contact lasts longer than the window for slow terms, solve it
+ * again with these terms. */
 static int solve_merged(restitute_solver *solver, struct input *input, int keep_ledger, struct rst_problem *problem,
                         struct rst_outcome *outcome, struct merged *merged, restitute_error *error)
 {
@@ -210,10 +255,10 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
         int status = make_problem(solver, input, problem, error);
         if (status) return status;
         *merged = solver->options.method->takes_all_terms ? (struct merged){0} : merge(problem, window);
-        status = solver->options.method->solve(problem, &solver->workspace, keep_ledger, outcome, error);
+        status = solve_problem(solver, keep_ledger, problem, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
         if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;
-        if (rst_time_left(problem) <= 0) return status; /* its estimate has the bound of what was merged */
+        if (rst_time_left(problem) <= 0) return status; /* its estimate includes the bound of the merged terms */
         window *= 8;
     }
 }
@@ -248,15 +293,16 @@ static int check_outputs(const restitute_solver *solver, const restitute_result 
     return status;
 }
 
-/* Methods aim at a part of the tolerance, merged terms add their bound: what counts is the estimate that is reported. */
+/* A method aims at a share of the tolerance, and merged terms add their bound. The status follows
+ * from the reported estimate. */
 static int judge_tolerance(const struct rst_problem *problem, const restitute_result *r, int status,
                            restitute_error *error)
 {
-    const int met = r->error_ez <= problem->tolerance && r->error_ex <= problem->tolerance;
+    const int met = r->error_ez <= problem->asked && r->error_ex <= problem->asked;
     if (met) return status == RESTITUTE_TOLERANCE_NOT_REACHED ? rst_done(error) : status;
     if (status != RESTITUTE_OK) return status;
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED, "tolerance = %g: estimated errors %.2g (ez), %.2g (ex)",
-                      problem->tolerance, r->error_ez, r->error_ex);
+                      problem->asked, r->error_ez, r->error_ex);
 }
 
 static int solve(restitute_solver *solver, struct input *input, restitute_result *result, restitute_ledger *ledger,

@@ -1,4 +1,4 @@
-/* How far a scene strains the assumptions of the model (3), (4), docs/theory.md, section 11.
+/* Numbers that measure the assumptions of the model (3), (4), docs/theory.md, section 11.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solver/validity.h"
 
@@ -24,7 +24,7 @@ static double sphere_density(double mass, double radius)
     return mass / (4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius);
 }
 
-/* The slower waves are those of the denser body; a wall or a body held fast has no density that is known. */
+/* The denser body has the slower waves. The density of a wall or of a fixed body is unknown. */
 static double denser_sphere(const restitute_scene *scene)
 {
     double first = isinf(scene->mass1) ? 0 : sphere_density(scene->mass1, scene->radius1);
@@ -32,8 +32,9 @@ static double denser_sphere(const restitute_scene *scene)
                                                         : fmax(first, sphere_density(scene->mass2, scene->radius2));
 }
 
-/* Normal speed over the speed of shear waves in what deforms; the modulus is that at the time scale of the impact. A
- * mere dashpot has none by then, and its waves do not travel: the ratio is infinite. */
+/* Normal speed over the speed of shear waves in the deformable body, with the modulus at the time
+ * scale of the impact. For a mere dashpot this modulus is 0 and waves do not travel: the ratio is
+ * infinite. */
 static double speed_ratio(const restitute_scene *scene, double time)
 {
     const double none = 1e-100; /* Pa; what fades has no end before it underflows */
@@ -74,5 +75,5 @@ void rst_name_limits(const restitute_options *options, const restitute_result *r
         {"|Dundurs' beta|", fabs(result->dundurs_beta), options->dundurs_limit, RESTITUTE_FLAG_COUPLED}};
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
         if (result->flags & limits[i].flag)
-            rst_remark(error, "%s = %.3g passes the limit %g", limits[i].name, limits[i].value, limits[i].limit);
+            rst_remark(error, "%s = %.3g exceeds the limit %g", limits[i].name, limits[i].value, limits[i].limit);
 }

@@ -77,7 +77,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     double *held = motion->arms, *asked = motion->arms + 2 * motion->most_arms;
     const int64_t n = spread_arms(s, asked, asked + motion->most_arms);
     const size_t bytes = (size_t)n * sizeof(double);
-    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->psi / (2 * problem->chi));
+    const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->shear_speed / (2 * problem->chi));
     const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
     const int same = keep && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
@@ -87,7 +87,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     memcpy(held + motion->most_arms, asked + motion->most_arms, bytes);
     motion->n_arms = n;
     motion->eta = s->eta;
-    motion->radius = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
+    motion->scale = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));
     for (int i = 0; i <= rst_most_halvings; i++)
         motion->run[i].found = RST_NOT_SOLVED;
     return 0;
@@ -95,7 +95,7 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
 
 double rst_roughness(int halvings)
 {
-    return fmax(3 * rst_rounding, rst_first_roughness * pow(rst_roughness_falls, halvings - 1));
+    return fmax(rst_least_panel_roughness, rst_first_roughness * pow(rst_roughness_falls, halvings - 1));
 }
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
@@ -104,10 +104,9 @@ double rst_piece_roughness(const struct rst_problem *problem, int halvings)
     return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
 }
 
-/* Room for four times the panels that there are if none is halved. */
 static int64_t first_capacity(int halvings)
 {
-    return INT64_C(8) << halvings;
+    return (int64_t)rst_first_panels << halvings;
 }
 
 /* Panels, M_k, P_k, how arms respond on the panels, and what the restitution needs besides. */
@@ -119,8 +118,8 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     run->capacity = capacity;
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
-                                       .radius = motion->radius,
-                                       .closeness = fmax(10 * rst_rounding, rst_closeness * roughness),
+                                       .scale = motion->scale,
+                                       .closeness = fmax(rst_least_closeness, rst_closeness * roughness),
                                        .g = motion->arms,
                                        .rate = motion->arms + motion->most_arms,
                                        .panel = (struct sync_panel *)run->room,
@@ -182,28 +181,21 @@ const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, in
     return run;
 }
 
-/* Pieces of a motion of few panels: events take some each. */
-enum { first_pieces = 16 };
-
 static int lay_out_store(struct rst_motion *motion, int64_t capacity)
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t records = c * sizeof(struct sync_record) / sizeof(double);
     const size_t pieces = c * sizeof(struct sync_piece) / sizeof(double);
-    const size_t now = rst_points * n;
     struct sync_store *s = &motion->store;
     if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + rst_values * points + rst_stages * now + 3 * now + 1))
+                  records + pieces + rst_values * points + (rst_stages + 3) * rst_points * n + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;
     s->record = (struct sync_record *)next;
     s->piece = (struct sync_piece *)(next += records);
-    s->held = next += pieces;
-    s->room = next += rst_values * points;
-    s->now_z = next += rst_stages * now;
-    s->now_x = next += now;
-    s->now_l = next + now;
+    s->corrective = next += pieces;
+    s->room = next + rst_values * points;
     return 0;
 }
 
@@ -213,7 +205,7 @@ int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms
     motion->n_arms = arms;
     for (int i = from; i <= to && !fails; i++)
         fails = lay_out(motion, &motion->run[i], first_capacity(i), 1);
-    if (!fails) fails = lay_out_store(motion, first_capacity(to) + first_pieces);
+    if (!fails) fails = lay_out_store(motion, first_capacity(to) + rst_first_pieces);
     motion->n_arms = -1; /* of no solid */
     return fails;
 }
@@ -230,17 +222,17 @@ static double usual_stress(const struct sync_normal *normal)
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
-    const double scale = fmin(1, problem->psi), roughness = rst_piece_roughness(problem, halvings);
-    const double closeness = fmax(10 * rst_rounding, rst_piece_closeness * roughness);
+    const double scale = fmin(1, problem->shear_speed), roughness = rst_piece_roughness(problem, halvings);
+    const double closeness = fmax(rst_least_closeness, rst_piece_closeness * roughness);
     const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
-                                         .psi = problem->psi,
+                                         .psi = problem->shear_speed,
                                          .roughness = fmax(rst_least_roughness, roughness * scale / swings),
                                          .noise = rst_noise * rst_roughness(halvings),
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
-                                         .no_slip = problem->mode == RST_NO_SLIP};
-    for (int64_t capacity = 2 * run->normal.n_panels + first_pieces;; capacity *= 2) {
+                                         .mode = problem->mode};
+    for (int64_t capacity = 2 * run->normal.n_panels + rst_first_pieces;; capacity *= 2) {
         if (lay_out_store(motion, capacity)) return 1;
         if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);

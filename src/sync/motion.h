@@ -8,7 +8,7 @@
 
 #include "base/problem.h"
 #include "base/workspace.h"
-#include "sync/sync_kernels.h"
+#include "sync/kernels.h"
 
 /* Resolutions: each has panels half as wide as the one before. */
 enum { rst_most_halvings = 8 };
@@ -26,7 +26,7 @@ struct rst_run {
 struct rst_motion {
     struct rst_own_memory own; /* released with the workspace */
     double *arms;              /* g and rate of the solid held, and of the one asked for */
-    double eta, radius, stop_speed;
+    double eta, scale, stop_speed;
     int64_t n_arms, most_arms;
     struct rst_run run[rst_most_halvings + 1];
     struct sync_store store;
@@ -53,22 +53,13 @@ static inline const struct sync_panel *rst_last_panel(const struct rst_run *run)
     return &run->normal.panel[run->normal.n_panels - 1];
 }
 
-/* The same with friction without limit, U' over psi. */
-static inline struct rst_problem rst_without_slip(const struct rst_problem *problem)
-{
-    struct rst_problem without = *problem;
-    without.mode = RST_NO_SLIP;
-    without.psi = 1;
-    return without;
-}
-
 /* What the polynomials of a run may miss: not below rounding, which narrower panels do not lessen. */
 double rst_roughness(int halvings);
 
 /* What pieces of U' over psi may miss: not more than a part of the tolerance. */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
-/* The tangential motion on a run: U' at the end, over psi as the problem has it; RST_LACKS_PIECES: it wants more than
+/* The tangential motion on a run: U' at the end; RST_LACKS_PIECES: it wants more than
  * `most` of them. Nonzero: out of memory. */
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found);

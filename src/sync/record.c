@@ -4,9 +4,10 @@
 
 #include <math.h>
 
+#include "base/gross_slip.h"
 #include "base/status.h"
+#include "sync/tuning.h"
 #include "sync/walk.h"
-#include "sync/walk_kernels.h"
 
 /* The tangential side: pieces, or where elements were stepped their levels, or gross slip alone. */
 struct trace {
@@ -22,7 +23,7 @@ static double place_of(const struct sync_panel *panel, double time)
     double low = 0, high = 1, weight[rst_points];
     if (time <= panel->time[0]) return 0;
     if (time >= panel->time[rst_stages]) return 1;
-    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+    for (int i = 0; high - low > rst_place_found && i < rst_most_bisections; i++) {
         const double x = 0.5 * (low + high);
         rst_sync_weights_at(x, weight);
         if (rst_value_of(weight, panel->time) < time)
@@ -36,10 +37,9 @@ static double place_of(const struct sync_panel *panel, double time)
 /* Slip before it sticks, or to the end. */
 static void slide(const struct rst_problem *problem, struct rst_sample *sample)
 {
-    const int slides = problem->mode == RST_GROSS_SLIP;
     sample->stick_radius = 0;
-    sample->shear_force = slides ? sample->normal_force : 0;
-    sample->shear_velocity = problem->psi - (slides ? 2 * problem->chi * (1 - sample->velocity) : 0);
+    sample->shear_force = problem->mode == RST_FRICTIONLESS ? 0 : sample->normal_force;
+    sample->shear_velocity = rst_slipping_velocity(problem, sample->velocity);
 }
 
 static void follow_pieces(const struct trace *trace, int64_t panel, double x, int64_t *at, struct rst_sample *sample)
@@ -56,9 +56,9 @@ static void follow_pieces(const struct trace *trace, int64_t panel, double x, in
     double weight[rst_points], y = (x - piece->from) / (piece->to - piece->from);
     if (piece->rooted) y = 1 - sqrt(fmax(0, 1 - y));
     rst_sync_weights_at(fmin(1, fmax(0, y)), weight);
-    sample->shear_velocity = rst_value_of(weight, piece->velocity);
-    sample->shear_force = 15.0 / 8.0 * rst_value_of(weight, piece->force);
-    sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick)));
+    sample->shear_velocity = rst_value_of(weight, piece->shear_velocity);
+    sample->shear_force = rst_value_of(weight, piece->shear_force);
+    sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick_radius)));
 }
 
 /* Between levels U' is a line. The walk does not say where the front is: the stick radius is 0 where all slips. */
@@ -71,7 +71,7 @@ static void follow_walk(const struct trace *trace, int64_t *at, struct rst_sampl
     const double share = h > 0 ? fmin(1, fmax(0, (sample->time - walk->time[*at]) / h)) : 0;
     const struct walk_shear *s = &walk->shear[*at];
     sample->shear_velocity = s[0].velocity + share * (s[1].velocity - s[0].velocity);
-    sample->shear_force = 15.0 / 8.0 * (s[0].force + share * (s[1].force - s[0].force));
+    sample->shear_force = (s[0].force + share * (s[1].force - s[0].force));
     sample->stick_radius = 0;
 }
 
@@ -87,7 +87,7 @@ static void sample_at(const struct trace *trace, double time, int64_t *p, int64_
     *sample = (struct rst_sample){.time = time,
                                   .indentation = rst_value_of(weight, panel->depth),
                                   .contact_radius = fmax(0, rst_value_of(weight, panel->radius)),
-                                  .normal_force = 15.0 / 8.0 * fmax(0, rst_value_of(weight, panel->force)),
+                                  .normal_force = fmax(0, rst_value_of(weight, panel->force)),
                                   .velocity = rst_value_of(weight, panel->velocity)};
     if (trace->store)
         follow_pieces(trace, *p, x, at, sample);
@@ -116,10 +116,9 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     }
     const struct rst_run *run = &motion->run[outcome->halvings];
     struct trace trace = {.problem = problem, .normal = &run->normal};
-    const int slides = problem->mode == RST_FRICTIONLESS ||
-                       (problem->mode != RST_NO_SLIP && problem->psi >= rst_critical_psi(problem->chi, -outcome->velocity));
+    const int slides = rst_never_sticks(problem, -outcome->velocity);
     if (!slides && outcome->walked > 0) {
-        if (rst_walk(motion, run, problem, RST_STICKS_SOMETIME, outcome->walked, &walk))
+        if (rst_walk(motion, run, problem, 1, outcome->walked, &walk))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {
@@ -131,7 +130,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     for (size_t k = 0; k < history->capacity; k++) {
         const double share = (double)k / (double)(history->capacity - 1);
         sample_at(&trace, share * end, &p, &at, &history->samples[k]);
-        history->samples[k].shear_velocity /= problem->psi;
+        history->samples[k].shear_velocity /= problem->shear_speed;
     }
     history->count = history->capacity;
     return RESTITUTE_OK;

@@ -1,47 +1,28 @@
-/* Elements where slip sticks again (docs/sync.md, section 9): walks with more and more of them.
+/* Elements where slip sticks again (docs/sync.md, section 8): walks with more and more of them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sync/verdict.h"
 #include "sync/walk.h"
 
-static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *ground,
+static int walk_once(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_run *run,
                      int64_t parts, struct rst_outcome *outcome, struct rst_walk *walk, restitute_error *error)
 {
-    const double n = (double)(parts * (ground->normal.n_compression + 1));
+    const double n = (double)(parts * (run->normal.n_compression + 1));
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
     if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
     outcome->updates += (int64_t)work;
-    if (rst_walk(motion, ground, problem, RST_STICKS_SOMETIME, parts, walk))
+    if (rst_walk(motion, run, problem, 1, parts, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     return RESTITUTE_OK;
 }
 
-static double rebound_of(const struct rst_run *run)
-{
-    return rst_last_panel(run)->velocity[rst_stages];
-}
-
-/* The same rebound as of the finest run, and one run finer than the one whose polynomials miss what pieces of U' may. */
-static int is_as_good(const struct rst_problem *problem, const struct rst_run *run, int halvings,
-                      const struct rst_run *finest)
-{
-    const double change = fabs(rebound_of(run) - rebound_of(finest));
-    const double swings = sqrt(fmax(1, problem->chi)); /* as in rst_motion_contact */
-    return run->found == RST_REBOUNDS && change <= rst_least_estimate * problem->tolerance &&
-           rst_roughness(halvings - 1) * swings <= rst_piece_part * problem->tolerance;
-}
-
-/* A walk has the ends of all panels among its levels. So it is over the coarsest run that is as good as the finest one, or else
- * over the finest that is not too fine for four walks. Returned are its halvings. */
-static int ground_of_walk(const struct rst_motion *motion, const struct rst_problem *problem, int finest)
+/* A walk has the ends of all panels among its levels: it is over the finest run that is not too fine for four walks. Returned
+ * are its halvings. */
+static int run_to_walk(const struct rst_motion *motion, int finest)
 {
     int halvings = finest;
-    for (; halvings > 0; halvings--) {
-        const struct rst_run *coarser = &motion->run[halvings - 1];
-        const int too_fine = 8 * motion->run[halvings].normal.n_compression > rst_most_elements;
-        const int may = too_fine || problem->elements <= 0;
-        if (!may || coarser->found != motion->run[finest].found) break;
-        if (!too_fine && !is_as_good(problem, coarser, halvings - 1, &motion->run[finest])) break;
-    }
+    while (halvings > 0 && 8 * motion->run[halvings].normal.n_compression > rst_most_elements &&
+           motion->run[halvings - 1].found == motion->run[finest].found)
+        halvings--;
     return halvings;
 }
 
@@ -60,7 +41,7 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 static int can_double(const struct rst_problem *problem, int64_t n, double left, struct rst_outcome *outcome)
 {
     if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
-    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->psi) return 0;
+    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->shear_speed) return 0;
     outcome->late = rst_lacks_time(problem, 4, left);
     return !outcome->late;
 }
@@ -71,22 +52,22 @@ static int can_double(const struct rst_problem *problem, int64_t n, double left,
 int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
                       struct rst_outcome *outcome, restitute_error *error)
 {
-    outcome->halvings = ground_of_walk(motion, problem, halvings);
-    const struct rst_run *ground = &motion->run[outcome->halvings];
-    const int64_t panels = ground->normal.n_compression;
+    outcome->halvings = run_to_walk(motion, halvings);
+    const struct rst_run *run = &motion->run[outcome->halvings];
+    const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
     const double rest = outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
-                        (outcome->sunk ? 4 * problem->chi * ground->normal.left / problem->psi : 0); /* see compare */
+                        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
     int64_t parts = 1 + (int64_t)first / panels;
     if (problem->elements > 0) parts = 1 + problem->elements / (2 * panels);
-    int status = walk_once(motion, problem, ground, parts, outcome, &coarse, error);
+    int status = walk_once(motion, problem, run, parts, outcome, &coarse, error);
     while (!status) {
         const double left = rst_time_left(problem);
         parts *= 2;
-        status = walk_once(motion, problem, ground, parts, outcome, &now, error);
+        status = walk_once(motion, problem, run, parts, outcome, &now, error);
         if (status) break;
         const double plain = now.velocity - coarse.velocity, last = extrapolated;
         double change = fabs(plain);
@@ -97,7 +78,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex =
-            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->psi + rest;
+            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
         if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;

@@ -4,6 +4,7 @@
 #include <fenv.h>
 #include <math.h>
 
+#include "base/gross_slip.h"
 #include "sync/motion.h"
 #include "sync/record.h"
 #include "sync/sync.h"
@@ -22,24 +23,13 @@ struct attempt {
     double velocity, shear_velocity;
 };
 
-static int slips_to_the_end(const struct rst_problem *problem, double rebound)
-{
-    return problem->mode != RST_NO_SLIP && problem->psi >= rst_critical_psi(problem->chi, rebound);
-}
-
-/* (27) */
-static double full_slip(const struct rst_problem *problem, double velocity)
-{
-    return problem->psi - 2 * problem->chi * (1 - velocity);
-}
-
-static int too_hard(const struct rst_problem *problem, restitute_error *error)
+static int did_not_converge(const struct rst_problem *problem, restitute_error *error)
 {
     if (problem->elements > 0)
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                           "elements = %lld: sync did not converge for this solid; use the method euler or another number",
                           (long long)problem->elements);
-    return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
                       "sync did not converge for this solid; use the method euler");
 }
 
@@ -70,16 +60,14 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
     a->fails = a->run->found == RST_DOES_NOT_CONVERGE;
     if (a->fails) return RESTITUTE_OK;
     a->velocity = a->run->found == RST_STOPS ? 0 : rst_last_panel(a->run)->velocity[rst_stages];
-    if (problem->mode != RST_FRICTIONLESS && !slips_to_the_end(problem, -a->velocity))
-        return attempt_contact(motion, problem, a, outcome, error);
-    a->shear_velocity = problem->mode == RST_FRICTIONLESS ? problem->psi : full_slip(problem, a->velocity);
+    if (!rst_never_sticks(problem, -a->velocity)) return attempt_contact(motion, problem, a, outcome, error);
+    a->shear_velocity = rst_slipping_velocity(problem, a->velocity);
     return RESTITUTE_OK;
 }
 
 /* The largest value that the polynomials of the force have, sampled. */
 static double largest_force(const struct sync_normal *normal)
 {
-    enum { samples = 64 };
     double largest = 0, weight[rst_points];
     int64_t first = 0, last = 0;
     for (int64_t p = 0; p < normal->n_panels; p++)
@@ -90,8 +78,8 @@ static double largest_force(const struct sync_normal *normal)
                 last = i < rst_stages ? p : p + 1; /* at the end of a panel: maybe beyond it */
             }
     for (int64_t p = first; p <= last && p < normal->n_panels; p++)
-        for (int i = 0; i <= samples; i++) {
-            rst_sync_weights_at((double)i / samples, weight);
+        for (int i = 0; i <= rst_force_samples; i++) {
+            rst_sync_weights_at((double)i / rst_force_samples, weight);
             largest = fmax(largest, rst_value_of(weight, normal->panel[p].force));
         }
     return largest;
@@ -105,7 +93,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     const struct sync_panel *end = rst_last_panel(fine->run), *turn = &n->panel[n->n_compression - 1];
     const double points = (double)(rst_stages * n->n_compression);
     const int stops = fine->run->found == RST_STOPS;
-    const double left = stops ? 2 * n->left : 0; /* its velocity changes by no more */
+    const double left = stops ? 2 * n->residual_speed : 0; /* its velocity changes by no more */
     const double least = rst_rounding + (problem->elements > 0 ? 0 : rst_least_estimate * problem->tolerance);
     outcome->velocity = fine->velocity;
     outcome->shear_velocity = fine->shear_velocity;
@@ -113,11 +101,11 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS
             ? 0
-            : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->psi +
+            : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->shear_speed +
                   rst_piece_part * rst_piece_roughness(problem, fine->halvings) + least +
-                  2 * problem->chi * left / problem->psi; /* |S| <= F bounds the change of U' */
+                  2 * problem->chi * left / problem->shear_speed; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
-        outcome->error_ex += fabs(fine->shear_velocity) / problem->psi;
+        outcome->error_ex += fabs(fine->shear_velocity) / problem->shear_speed;
         outcome->shear_velocity = 0;
     }
     outcome->contact_time = stops ? INFINITY : end->time[rst_stages];
@@ -151,10 +139,10 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
     if (rst_meets(problem, outcome)) return rst_done(error);
     if (spent)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent", problem->tolerance,
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent", problem->asked,
                           outcome->error_ez, outcome->error_ex, rst_spent(problem, outcome->late).text);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->tolerance,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->asked,
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
@@ -197,9 +185,9 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
         if (!walks && (problem->elements > 0 || rst_meets(problem, outcome))) return RESTITUTE_OK;
         if (!walks && rst_larger_error(outcome) < rst_larger_error(&best)) best = *outcome;
     }
-    if (known < 2) return too_hard(problem, error);
+    if (known < 2) return did_not_converge(problem, error);
     if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-        rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip at all */
+        rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip: left out */
         outcome->error_ex = INFINITY;
         return RESTITUTE_TOLERANCE_NOT_REACHED;
     }
@@ -207,18 +195,19 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     return return_best(motion, problem, &best, fine, outcome, error);
 }
 
-/* Where fine runs are lost in rounding coarser ones may not be, and their estimate says what they are worth. */
+/* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says what they are worth. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {
     const int first = first_halvings(problem);
     const int status = refine_from(motion, problem, first, fine, outcome, error);
-    if (status != RESTITUTE_ERROR_TOO_MUCH_WORK || first == 1) return status;
+    const int fails = status == RESTITUTE_ERROR_CONVERGENCE || status == RESTITUTE_ERROR_TOO_MUCH_WORK;
+    if (!fails || first == 1) return status;
     return refine_from(motion, problem, 1, fine, outcome, error);
 }
 
-static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                          struct rst_outcome *outcome, restitute_error *error)
+static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
+                 struct rst_outcome *outcome, restitute_error *error)
 {
     struct rst_motion *motion = rst_motion_of(workspace);
     struct attempt fine = {0};
@@ -228,45 +217,9 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     int status = refine(motion, problem, &fine, outcome, error);
     const int spent = status == RESTITUTE_TOLERANCE_NOT_REACHED;
     if (status < 0) return status;
-    outcome->max_normal_force = 15.0 / 8.0 * largest_force(&fine.run->normal);
+    outcome->max_normal_force = largest_force(&fine.run->normal);
     status = keep_ledger ? rst_motion_ledger(motion, problem, fine.run, outcome, error) : RESTITUTE_OK;
     return status ? status : conclude(problem, spent, outcome, error);
-}
-
-/* As if there were no slip; the energies in x are those parts of the whole, psi^2. */
-static int leave_out_slip(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                          struct rst_outcome *outcome, restitute_error *error)
-{
-    const double psi = problem->psi;
-    const struct rst_problem without = rst_without_slip(problem);
-    const int status = solve_refining(&without, workspace, keep_ledger, outcome, error);
-    outcome->without_slip = 1;
-    outcome->shear_velocity *= psi;
-    outcome->error_ex += rst_change_by_slip * psi;
-    outcome->ledger.friction_x *= psi * psi;
-    outcome->ledger.viscous_x *= psi * psi;
-    outcome->ledger.left_x *= psi * psi;
-    return status;
-}
-
-/* Friction may be so strong that slip at the edge, which changes e_x by about 0.4 psi, counts less than the tolerance,
- * or than the error of following it. */
-static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
-                 struct rst_outcome *outcome, restitute_error *error)
-{
-    const double change = rst_change_by_slip * problem->psi;
-    const int may = problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0;
-    if (may && change < rst_negligible_part * problem->tolerance)
-        return leave_out_slip(problem, workspace, keep_ledger, outcome, error);
-    const int status = solve_refining(problem, workspace, keep_ledger, outcome, error);
-    if (!may || status != RESTITUTE_TOLERANCE_NOT_REACHED || outcome->error_ex < change) return status;
-    const int64_t updates = outcome->updates;
-    struct rst_problem rest = *problem;
-    rest.max_updates -= updates;
-    rest.clock = NULL; /* it takes next to nothing, and the time may be over */
-    const int again = leave_out_slip(&rest, workspace, keep_ledger, outcome, error);
-    outcome->updates += updates;
-    return again;
 }
 
 /* Room for three runs on a standard solid. */
@@ -294,10 +247,7 @@ static int sync_record(const struct rst_problem *problem, struct rst_workspace *
 {
     fenv_t callers;
     feholdexcept(&callers);
-    const struct rst_problem without = rst_without_slip(problem);
-    const int status = rst_motion_record(outcome->without_slip ? &without : problem, workspace, outcome, history, error);
-    for (size_t i = 0; i < history->count && outcome->without_slip; i++)
-        history->samples[i].shear_force *= problem->psi;
+    const int status = rst_motion_record(problem, workspace, outcome, history, error);
     fesetenv(&callers);
     return status;
 }
@@ -309,5 +259,6 @@ const struct restitute_method rst_method_sync = {.struct_size = sizeof rst_metho
                                                  .updates_per_second = 1e9, /* see updates_of_point */
                                                  .reserve = reserve,
                                                  .records_between_steps = 1,
+                                                 .cheap_without_slip = 1,
                                                  .solve = sync_solve,
                                                  .record = sync_record};

@@ -1,4 +1,4 @@
-/* What is said of an outcome, or that it took too much (docs/sync.md, section 9).
+/* What is said of an outcome, or that it took too much (docs/sync.md, section 7).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_VERDICT_H
 #define RST_SYNC_VERDICT_H

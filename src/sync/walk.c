@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sync/walk_kernels.h"
+#include "base/gross_slip.h"
+#include "sync/tuning.h"
 
 /* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
 struct ladder {
@@ -51,20 +52,19 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
 }
 
 /* The angle at which gross slip ends splits the panel that it is in, unless it is at an end of it. */
-static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, enum rst_walk_kind sliding,
+static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, int sticks,
                       struct ladder *ladder)
 {
-    static const double apart = 1e-6; /* of a panel */
-    const int split = sliding == RST_STICKS_SOMETIME && problem->mode == RST_GROSS_SLIP;
+    const int split = sticks && problem->mode == RST_GROSS_SLIP;
     double angle = -1;
     int64_t returning = 0, at = 0;
     ladder->n_marks = 0;
     ladder->mark[0] = 0;
     if (split)
-        rst_sync_find_velocity(normal, (2 * problem->chi - problem->psi) / (2 * problem->chi - 1), &angle, &returning);
+        rst_sync_find_velocity(normal, rst_end_of_gross_slip(problem), &angle, &returning);
     for (int64_t p = 0; p < normal->n_compression; p++) {
         const struct sync_panel *panel = &normal->panel[p];
-        const double margin = apart * (panel->to - panel->from);
+        const double margin = rst_same_angle * (panel->to - panel->from);
         if (angle > panel->from + margin && angle < panel->to - margin) {
             ladder->mark[++ladder->n_marks] = angle;
             at = ladder->n_marks;
@@ -95,7 +95,7 @@ static const double *fading_on(const struct sync_normal *normal, int64_t p, size
 static double first_layer(const struct sync_normal *normal, int64_t p, size_t k, double left, const double *weight,
                           double time)
 {
-    const double tau = 1 / normal->rate[k], slow = 100 * normal->panel[0].time[rst_stages];
+    const double tau = 1 / normal->rate[k], slow = rst_slow_arm * normal->panel[0].time[rst_stages];
     const double *fade = fading_on(normal, p, k);
     double collocated = weight[0];
     if (tau > slow) return 0;
@@ -145,7 +145,7 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
 }
 
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk)
+             int sticks, int64_t parts, struct rst_walk *walk)
 {
     const struct rst_solid *s = &problem->solid;
     const struct sync_normal *normal = &run->normal;
@@ -153,17 +153,17 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
     struct room r;
     if (lay_out(motion, normal->n_compression, (normal->n_compression + 1) * parts, terms, &r)) return 1;
     struct ladder ladder = {.parts = parts, .mark = r.mark};
-    set_marks(normal, problem, sliding, &ladder);
+    set_marks(normal, problem, sticks, &ladder);
     const int64_t n = ladder.n_marks * parts, end = normal->n_panels > normal->n_compression ? 2 * n : n;
     set_levels(normal, &ladder, end, terms, &r);
     const struct walk w = {.n = n,
                            .n_terms = s->n_terms,
                            .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
-                           .start = sliding == RST_STICKS_SOMETIME ? ladder.start : 2 * n,
+                           .start = sticks ? ladder.start : 2 * n,
                            .end = end,
-                           .no_slip = problem->mode == RST_NO_SLIP,
-                           .chi = sliding == RST_WITHOUT_FRICTION ? 0 : problem->chi,
-                           .psi = problem->psi,
+                           .mode = problem->mode,
+                           .chi = problem->chi,
+                           .psi = problem->shear_speed,
                            .g_inf = s->g_inf,
                            .eta = s->eta};
     rst_follow_elements(&w, s->g, s->tau, r.level, r.memory, r.shear, r.term, r.body, r.stress, &walk->ledger);

@@ -5,7 +5,7 @@
 
 #include "sync/motion.h"
 
-/* What a walk found: U' at the end, over psi as the problem has it, and the ledger. Its levels stay in the motion: `n` of
+/* What a walk found: U' at the end, and the ledger. Its levels stay in the motion: `n` of
  * each phase, with their times, and U' and S at each of the 2 n + 1; of a sphere that stops in the solid at the first n + 1. */
 struct rst_walk {
     int64_t n;
@@ -15,12 +15,9 @@ struct rst_walk {
     struct rst_ledger ledger;
 };
 
-/* Whether the contact slips to the end, sticks at some time, or has no friction. */
-enum rst_walk_kind { RST_WITHOUT_FRICTION, RST_SLIDES, RST_STICKS_SOMETIME };
-
-/* Walk with `parts` elements in each panel of the compression. Nonzero: out of memory. */
+/* Walk with `parts` elements in each panel of the compression; sticks: at some time elements do. Nonzero: out of memory. */
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-             enum rst_walk_kind sliding, int64_t parts, struct rst_walk *walk);
+             int sticks, int64_t parts, struct rst_walk *walk);
 
 /* U' by more and more elements, on the panels of the run with `halvings` or of a coarser one. The status may be
  * TOLERANCE_NOT_REACHED if max_work is spent and there is a result. */

@@ -93,7 +93,7 @@ static int add_seam(struct rst_builder *b, int64_t i, restitute_error *error)
         int status = rst_column_begin(&b->solver[0], rst_axis_speed(at), error);
         if (!status) status = rst_column_normal(&b->solver[0], &middle, error);
         b->impacts++;
-        if (status < 0 && status != RESTITUTE_ERROR_TOO_MUCH_WORK) return status;
+        if (status < 0 && !rst_column_is_too_hard(status)) return status;
         *(status >= 0 && middle.sunk ? &low : &high) = at;
     }
     const double at = 0.5 * (low + high);
@@ -155,7 +155,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %.17g of the scene: a table takes [%g, %g]", chi,
                             rst_chi_range[0], rst_chi_range[1]);
     if (status) return status;
-    if (b->contact.sliding != RST_SLIDES) b->first[0] = b->first[1] = 1;
+    if (!rst_has_psi(&b->contact)) b->first[0] = b->first[1] = 1;
     if (rst_share(chi) <= 0) b->first[1] = 1;
     memcpy(b->cells, b->first, sizeof b->cells);
     b->threads = rst_table_threads(threads, rst_most_speeds);

@@ -11,7 +11,7 @@
 
 #include "table/column.h"
 
-/* ---- constants of the build, measured with the target table-campaign (docs/records/table.md) */
+/* Constants of the build, measured with the target table-campaign (docs/records/table.md). */
 
 /* Nodes and checks are solved to this share of the tolerance, so that their errors are not taken
  * for a shape of the function. True errors are a quarter of the estimates. */

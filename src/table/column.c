@@ -39,10 +39,7 @@ int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, r
     if (!status) status = unit_numbers(&plain, &contact->scene, &contact->numbers, error);
     if (status) return status;
     contact->friction = plain.friction;
-    contact->sliding = plain.friction <= 0      ? RST_NO_FRICTION
-                       : isinf(plain.friction) ? RST_NEVER_SLIPS
-                                               : RST_SLIDES;
-    if (contact->sliding != RST_SLIDES) contact->scene.friction = plain.friction;
+    if (!rst_has_psi(contact)) contact->scene.friction = plain.friction;
     contact->timeless = without_time(plain.material);
     return RESTITUTE_OK;
 }
@@ -65,7 +62,7 @@ void rst_column_solver_init(const struct rst_contact *contact, double tolerance,
 /* A status < 0, with the speed of the column in the message. */
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
-    if (why->status == RESTITUTE_ERROR_TOO_MUCH_WORK)
+    if (rst_column_is_too_hard(why->status))
         return rst_report(error, why->status,
                           "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding: the damping "
                           "is too strong for a table; lower the upper end of speed",
@@ -92,7 +89,7 @@ static int solve(struct rst_column_solver *s, double psi, restitute_result *resu
     const struct rst_contact *c = s->contact;
     restitute_error why;
     restitute_result_init(result);
-    const double sliding = c->sliding == RST_SLIDES ? psi * s->speed / c->numbers.psi : 0;
+    const double sliding = rst_has_psi(c) ? psi * s->speed / c->numbers.psi : 0;
     const int status = restitute_plan_solve(s->plan, sliding, result, NULL, NULL, &why);
     if (status < 0) return name_place(s->speed, psi, &why, error);
     return status;

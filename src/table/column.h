@@ -6,20 +6,22 @@
 
 #include "table/form.h"
 
-/* Friction: none, finite, or infinite (no slip). */
-enum rst_sliding { RST_NO_FRICTION, RST_SLIDES, RST_NEVER_SLIPS };
-
-/* The contact of the table: the scene at 1 m/s, and its friction. */
+/* What is built for: the scene at 1 m/s, with a friction of its own if it slides. */
 struct rst_contact {
     restitute_scene scene;
     restitute_numbers numbers; /* of the scene, sliding at 1 m/s with friction 1 */
-    double friction;
-    enum rst_sliding sliding;
+    double friction; /* 0: none; infinity: no slip, at any speed */
     int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
 };
 
 /* Check a scene and copy the needed values. The caller keeps the material. */
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error);
+
+/* Whether e_x changes with psi: neither without friction nor without slip. */
+static inline int rst_has_psi(const struct rst_contact *contact)
+{
+    return contact->friction > 0 && isfinite(contact->friction);
+}
 
 /* psi v_n/|v_t| (22). */
 double rst_psi_factor(const struct rst_contact *contact);
@@ -41,6 +43,12 @@ struct rst_column_normal {
     double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */
     int sunk;
 };
+
+/* The solver may fail where a sphere hardly rebounds. */
+static inline int rst_column_is_too_hard(int status)
+{
+    return status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
+}
 
 /* These return a status < 0 with its message, else OK. */
 

@@ -6,8 +6,7 @@
 
 #include <float.h>
 
-/* Inline, since a call would pass the results through memory. Refusals are calls: they need not be
- * fast, and would take registers. */
+/* Inline, since a call would pass the results through memory. */
 #if defined(__GNUC__)
 #define ALWAYS_INLINE static inline __attribute__((__always_inline__))
 #define COLD static __attribute__((__noinline__, __cold__))
@@ -178,8 +177,6 @@ static void evaluate_block(const restitute_table *t, int n, const double *speed,
         ex[i] = find_ex(t, ex[i], ez[i], &psi);
     }
 }
-
-/* ---- calls */
 
 /* psi v_n; infinite without friction. Written as a sum: of two branches a compiler may compute
  * both, and so infinity times 0. */

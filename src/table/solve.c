@@ -34,8 +34,8 @@ static int solve_column(const struct rst_builder *b, struct rst_column_solver *s
     int status = rst_column_begin(s, c->speed, &t->why);
     if (!status) status = rst_column_normal(s, &c->normal, &t->why);
     c->impacts = 1;
-    if (status < 0 || c->normal.sunk || b->contact.sliding == RST_NO_FRICTION) return status;
-    if (b->contact.sliding == RST_NEVER_SLIPS) {
+    if (status < 0 || c->normal.sunk || b->contact.friction <= 0) return status;
+    if (isinf(b->contact.friction)) {
         status = rst_panel_solve(&p, 0, c->g[0]);
         c->g[0][1] = c->g[1][0] = c->g[0][0];
         return status;
@@ -73,7 +73,7 @@ static void turn(void *of, int thread, int64_t i)
 
 int64_t rst_cost(const struct rst_builder *b, int64_t n)
 {
-    return n * (b->contact.sliding == RST_SLIDES ? b->first[0] + b->first[1] + 1 : 2);
+    return n * (rst_has_psi(&b->contact) ? b->first[0] + b->first[1] + 1 : 2);
 }
 
 int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
@@ -83,7 +83,7 @@ int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, res
     int status = RESTITUTE_OK;
     for (int64_t i = n - 1; i >= 0; i--) {
         b->impacts += task[i].column.impacts;
-        if (task[i].status < 0 && !(task[i].status == RESTITUTE_ERROR_TOO_MUCH_WORK && task[i].may_fail))
+        if (task[i].status < 0 && !(task[i].may_fail && rst_column_is_too_hard(task[i].status)))
             status = rst_report(error, task[i].status, "%s", task[i].why.message);
     }
     for (int64_t i = 0; status && i < n; i++)

@@ -113,12 +113,12 @@ static void bound(const struct rst_builder *b, struct check *c)
 static int compare(const struct work *w, struct check *c, struct rst_column_solver *s)
 {
     const struct rst_builder *b = w->b;
-    const int64_t n = b->contact.sliding == RST_SLIDES ? w->places : b->contact.sliding == RST_NEVER_SLIPS;
+    const int64_t n = rst_has_psi(&b->contact) ? w->places : isinf(b->contact.friction);
     struct rst_column_normal normal;
     double ez, ex;
     int status = rst_column_begin(s, c->speed, &c->why);
     if (!status) status = rst_column_normal(s, &normal, &c->why);
-    if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && b->column[c->cell].normal.ez <= 0) {
+    if (rst_column_is_too_hard(status) && b->column[c->cell].normal.ez <= 0) {
         bound(b, c); /* just above the lowest speed with a rebound */
         return RESTITUTE_OK;
     }
@@ -127,7 +127,7 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     c->ez = fabs(ez - normal.ez) + normal.error;
     for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
         const struct rst_place place = place_of(c, i, c->cell + 7 * w->round);
-        const double psi = b->contact.sliding == RST_SLIDES ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
+        const double psi = rst_has_psi(&b->contact) ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
         double solved, error_ex;
         status = rst_column_solve(s, psi, &solved, &error_ex, &c->why);
         if (status < 0) break;
@@ -180,8 +180,8 @@ static int look(struct rst_builder *b, const restitute_table *table, int round, 
         if (w.check[i].ex > c->checked[1]) c->checked[1] = w.check[i].ex, c->worst = w.check[i].worst;
     }
     free(w.check);
-    b->impacts += n * (1 + (b->contact.sliding == RST_SLIDES ? w.places : 0));
-    b->checks += n * (b->contact.sliding == RST_SLIDES ? w.places : 1);
+    b->impacts += n * (1 + (rst_has_psi(&b->contact) ? w.places : 0));
+    b->checks += n * (rst_has_psi(&b->contact) ? w.places : 1);
     return status;
 }
 

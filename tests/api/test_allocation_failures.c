@@ -1,5 +1,5 @@
-/* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and the same objects give
- * the right result afterwards, bit by bit, and leave nothing behind.
+/* Every allocation of every call of the core fails in turn: ERROR_MEMORY, outputs untouched, and
+ * the same objects give the right result afterwards, bit by bit, and leak nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -13,7 +13,7 @@ static restitute_solver *solver;
 static restitute_options options;
 static restitute_error error;
 
-/* ------------------------------------------------------------------------------------------------------- materials */
+/* ---- materials */
 
 static char place;
 #define UNTOUCHED ((void *)&place)
@@ -60,7 +60,7 @@ static void materials(void **state)
         fail_each_allocation(&all[i]);
 }
 
-/* --------------------------------------------------------------------------------------------------------- solvers */
+/* ---- solvers */
 
 static void create_solver(void)
 {
@@ -136,7 +136,8 @@ static int give_outputs(int status, const struct outputs *o, const struct output
     return status;
 }
 
-/* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless impact. */
+/* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless
+ * impact. */
 static restitute_scene scene;
 static int all_outputs;
 
@@ -267,7 +268,7 @@ static void method_sync(void **state)
     with_method(restitute_method_sync(), 1e-6);
 }
 
-/* ------------------------------------------------------------------------------------------- one call, many impacts */
+/* ---- one call, many impacts */
 
 static int give_pair(int status, const double pair[2], struct given *given)
 {
@@ -361,7 +362,7 @@ static void single_calls_and_batches(void **state)
     }
 }
 
-/* ------------------------------------------------------------------------------------------------- the checker itself */
+/* ---- the checker itself */
 
 /* It loses a block whenever it fails, and says that all is well. */
 static int leaky(struct given *given)

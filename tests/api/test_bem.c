@@ -58,9 +58,9 @@ static void refusals(void **state)
     options = options_of(0, 1e-3);
     options.max_work = 1e-8;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
-    assert_non_null(strstr(error.message, "spent before there was a result"));
+    assert_non_null(strstr(error.message, "reached before there was a result"));
     options = options_of(0, 1e-3);
-    error = refused(options, impact_of(1, 0.5, 1, 1e-40), RESTITUTE_ERROR_TOO_MUCH_WORK);
+    error = refused(options, impact_of(1, 0.5, 1e3, 1e-40), RESTITUTE_ERROR_CONVERGENCE);
     assert_non_null(strstr(error.message, "no box"));
 }
 
@@ -111,7 +111,8 @@ static void repeats_its_bits(void **state)
     assert_memory_equal(&first, &results[2], sizeof first);
 }
 
-/* A ledger, which looks at what is left in the solid, changes no bit of the result, nor what it cost. */
+/* A ledger, which looks at what is left in the solid, changes no bit of the result, nor what it
+ * cost. */
 static void a_ledger_changes_nothing(void **state)
 {
     const restitute_options options = options_of(29, 0.1);
@@ -211,8 +212,8 @@ static void history_and_snapshots(void **state)
     assert_null(restitute_bem_recorder_method(NULL));
 }
 
-/* At the contact time an elastic sphere is where it touched first and flies as the result says: the three columns of the last row
- * are of one instant, though the last step ends later. */
+/* At the contact time an elastic sphere is where it touched first and flies as the result says: the
+ * three columns of the last row are of one instant, though the last step ends later. */
 static void history_ends_with_the_contact(void **state)
 {
     enum { rows = 21 };

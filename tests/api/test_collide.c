@@ -164,7 +164,8 @@ static void rotate(const double q[4], double x[3])
     memcpy(x, y, sizeof y);
 }
 
-/* Turned and boosted before, or after: the same. psi changes by rounding, and e_x with it: amplified by the steps. */
+/* Turned and boosted before, or after: the same. psi changes by rounding, and e_x with it:
+ * amplified by the steps. */
 static void rotations_and_boosts_change_nothing(void **state)
 {
     (void)state;

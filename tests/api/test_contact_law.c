@@ -86,7 +86,7 @@ static void refused(restitute_material *material, int terms, double shortest, do
     CHECK(strstr(error.message, words) != NULL, "\"%s\" does not say \"%s\"", error.message, words);
 }
 
-/* Also where nothing of G(t) is left at the shortest time already. */
+/* Also if G(t) is 0 at the shortest time already. */
 static void windows_beyond_the_relaxation_are_refused(void **unused)
 {
     (void)unused;
@@ -107,7 +107,7 @@ static void windows_beyond_the_relaxation_are_refused(void **unused)
     restitute_material_destroy(dashpot);
 }
 
-/* OK, a remark from 20 % on, nothing beyond 50 %, each with what is off and why. */
+/* OK, a remark from 20 % on, a refusal beyond 50 %, each with error and reason. */
 static void poor_reductions_are_named(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* What restitute/cvode.h promises beside the physics: refusals, untouched outputs, work, history.
+/* What restitute/cvode.h promises apart from the physics: refusals, untouched outputs, work,
+ * history.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 #include <string.h>
@@ -53,8 +54,8 @@ static void failures_touch_nothing(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* Elements are doubled while the estimate is above nine tenths of the tolerance, but what is told is whether it is above
- * the tolerance. */
+/* Elements are doubled while the estimate is above nine tenths of the tolerance. The status says
+ * whether it is above the tolerance. */
 static void status_follows_the_reported_estimate(void **state)
 {
     int reached = 0, missed = 0;
@@ -173,7 +174,8 @@ static void events_may_be_counted_first(void **state)
     end_recording(&failing);
 }
 
-/* Work follows the scene: nothing tangential without friction or in slip to the end, fewer steps for a larger tolerance. */
+/* Work depends on the scene: no tangential work without friction or in slip to the end, fewer steps
+ * for a larger tolerance. */
 static void scenes_leave_out_what_they_do_not_need(void **state)
 {
     const double psi[] = {0.5, 9};
@@ -193,7 +195,8 @@ static void scenes_leave_out_what_they_do_not_need(void **state)
     CHECK(work[0].events > 20 && work[0].rates > 2 * work[1].rates, "%lld", (long long)work[0].rates);
 }
 
-/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are more samples than steps. */
+/* Evenly spaced from first touch to the end, as restitute.h says; the end is the pair's. There are
+ * more samples than steps. */
 static void history_ends_with_the_pair(void **state)
 {
     enum { samples = 500 };
@@ -242,7 +245,7 @@ static void sinking_spheres_are_told(void **state)
     const struct solution s = solve_impact(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
     CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
     CHECK(s.result.ez == 0 && s.result.ex == 0 && isinf(s.result.contact_time), "%g %g", s.result.ez, s.result.ex);
-    /* a rebound slower than a hundredth of the tolerance is not told from none */
+    /* a rebound slower than a hundredth of the tolerance counts as none */
     CHECK_NEAR(s.result.error_ez, 1e-6, 1e-15, "the threshold");
     CHECK(s.result.error_ex >= 1e-6 && s.result.error_ex < 1e-4, "%g", s.result.error_ex);
     restitute_solver *solver = make(cvode_to(1e-4));
@@ -252,7 +255,7 @@ static void sinking_spheres_are_told(void **state)
     restitute_material_destroy(maxwell);
 }
 
-/* One solver, one answer, in whatever order impacts come. */
+/* A solver gives the same results for any order of the impacts. */
 static void a_solver_keeps_nothing_of_the_last_impact(void **state)
 {
     restitute_solver *solver = make(cvode_to(1e-4));

@@ -1,6 +1,6 @@
-/* Every allocation of the method cvode fails in turn, those of CVODE too: ERROR_MEMORY, outputs untouched, and the same
- * solver gives the right result afterwards, bit by bit, and leaves nothing behind. Only those of SUNContext_Create are
- * spared: SUNDIALS 6.4 crashes there (cvode.h).
+/* Every allocation of the method cvode fails in turn, those of CVODE too: ERROR_MEMORY, outputs
+ * untouched, and the same solver gives the right result afterwards, bit by bit, and leaks nothing.
+ * Only those of SUNContext_Create do not fail: SUNDIALS 6.4 crashes there (cvode.h).
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

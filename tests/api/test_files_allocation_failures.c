@@ -1,6 +1,7 @@
-/* Every allocation of every call of the component files fails in turn, those of libcsv too: ERROR_MEMORY, outputs
- * untouched, and the same call gives the right result afterwards and leaves nothing behind. Those of Jansson do not: it
- * writes behind a text that could not grow (2.14), which is its own matter.
+/* Every allocation of every call of the component files fails in turn, those of libcsv too:
+ * ERROR_MEMORY, outputs untouched, and the same call gives the right result afterwards and leaks
+ * nothing. Those of Jansson do not fail here: Jansson 2.14 writes beyond a text that could not
+ * grow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

@@ -85,8 +85,8 @@ static void pair_of(const restitute_material *material, double *ez, double *ex)
     CHECK(restitute_scene_pair(&scene, ez, ex, &error) >= 0, "%s", error.message);
 }
 
-/* The two solids are one: G(t), and the pair, which feels also what G(t) does not show, a dashpot in parallel. Both were
- * made by one library of the same doubles, so nothing may differ and there is no tolerance. Both are released. */
+/* The two solids are equal: G(t), and the pair, which also depends on a parallel dashpot. One
+ * library made both from the same doubles, so there is no tolerance. Both are released. */
 static void check_same(restitute_material *read, restitute_material *made)
 {
     CHECK(restitute_material_terms(read) == restitute_material_terms(made), "%zu terms, not %zu",
@@ -106,7 +106,7 @@ static void check_same(restitute_material *read, restitute_material *made)
     restitute_material_destroy(made);
 }
 
-/* ---------------------------------------------------------------------------------------------------- the models */
+/* ---- the models */
 
 static void elastic(void **state)
 {
@@ -169,7 +169,8 @@ static void prony_terms(void **state)
                made_prony(0, 0, 0.25));
 }
 
-/* The name of the CSV is relative to the JSON file, not to the current directory, where one of that name misleads. */
+/* The name of the CSV is relative to the JSON file, not to the current directory, where one of that
+ * name misleads. */
 static void prony_csv(void **state)
 {
     (void)state;
@@ -247,7 +248,8 @@ static void check_many_terms(const char *path, size_t count)
 {
     restitute_material *material = read_material(path, NULL);
     assert_int_equal(restitute_material_terms(material), count);
-    /* exp(-t/tau) = 1 in double for t = 1e-30 s, and whole numbers add up without rounding: no tolerance */
+    /* exp(-t/tau) = 1 in double for t = 1e-30 s, and whole numbers add up without rounding: no
+     * tolerance */
     CHECK_NEAR(restitute_material_modulus(material, 1e-30), (double)count, 0, "%s", path);
     restitute_material_destroy(material);
 }
@@ -278,7 +280,7 @@ static void many_terms_json(void **state)
     check_many_terms(JSON, count);
 }
 
-/* ----------------------------------------------------------------------------------------------- shipped materials */
+/* ---- shipped materials */
 
 static void shipped_elastic(void **state)
 {
@@ -330,7 +332,7 @@ static void shipped_polyisobutylene(void **state)
     CHECK(fingerprints[0] != fingerprints[1], "two contents, one fingerprint");
 }
 
-/* ----------------------------------------------------------------------------------------------- what else it says */
+/* ---- what else it says */
 
 static void info_init(void **state)
 {
@@ -376,7 +378,8 @@ static void info_used_again(void **state)
     assert_true(isnan(info.density));
 }
 
-/* Texts of the greatest length fit; one byte more is refused and the number of bytes allowed is named. */
+/* Texts of the greatest length fit; one byte more is refused and the number of bytes allowed is
+ * named. */
 static void longest_texts(void **state)
 {
     (void)state;
@@ -408,7 +411,8 @@ static void longest_texts(void **state)
     }
 }
 
-/* Published FNV-1a arithmetic, written again: offset basis, then xor and multiply a byte at a time. */
+/* Published FNV-1a arithmetic, written again: offset basis, then xor and multiply a byte at a
+ * time. */
 static uint64_t fnv1a(const char *text)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -441,13 +445,13 @@ static void fingerprints(void **state)
     CHECK(first != second && second != third && first != third, "another content, the same fingerprint");
 }
 
-/* --------------------------------------------------------------------------------------------------- the refusals */
+/* ---- the refusals */
 
 static char untouched_place;
 #define UNTOUCHED ((restitute_material *)&untouched_place)
 
-/* Reading fails with the status; neither output changes a byte, with and without info and error; the message has all
- * the words. */
+/* Reading fails with the status; neither output changes a byte, with and without info and error;
+ * the message has all the words. */
 static void check_refused(const char *path, int expected, const char *const *words, const char *what)
 {
     restitute_material *material = UNTOUCHED;
@@ -692,8 +696,9 @@ static void values_out_of_range(void **state)
     CHECK_REFUSALS(JSON, models);
 }
 
-/* A value that a double cannot hold, or values whose quotient it cannot hold: still a message that names the file. Which
- * of the two statuses is open: JSON's grammar allows 1e400, its reader does not. */
+/* A value that a double cannot hold, or values whose quotient it cannot hold: still a message that
+ * names the file. Which of the two statuses is open: JSON's grammar allows 1e400, its reader does
+ * not. */
 static void values_beyond_double(void **state)
 {
     (void)state;
@@ -802,7 +807,8 @@ static void unreadable_files(void **state)
     check_refused("%s%n.json", RESTITUTE_ERROR_FILE, (const char *[]){"%s%n.json", NULL}, "path like a format");
 }
 
-/* What a JSON file names is read like the JSON file itself: neither may hang the reader or fill its memory. */
+/* A file named in a JSON file is read like the JSON file itself: neither may block the reader or
+ * fill its memory. */
 static void endless_files(void **state)
 {
     (void)state;
@@ -864,7 +870,7 @@ static void an_info_of_another_size_is_refused_and_not_touched(void **state)
     assert_ptr_equal(material, UNTOUCHED);
 }
 
-/* -------------------------------------------------------------------------------------------------- any bytes at all */
+/* ---- any bytes at all */
 
 static const char rich_json[] = "{\n  \"name\": \"n\", \"source\": \"s\\\"\\u00e4\",\n  \"poisson_ratio\": 0.25,\n"
                                 "  \"density_kg_m3\": 9e2, \"model\": \"prony\",\n  \"terms\": [\n    " TERM(
@@ -943,7 +949,7 @@ static void deep_nesting(void **state)
     check_refused(JSON, FORMAT, (const char *[]){JSON, NULL}, "200000 brackets");
 }
 
-/* -------------------------------------------------------------------------------------------------------- locale */
+/* ---- locale */
 
 static void comma_locale(void **state)
 {

@@ -1,5 +1,6 @@
-/* Allocations of the component fit fail in turn: ERROR_MEMORY, outputs untouched, nothing left behind, and the same call
- * gives the same bits afterwards. First those of our own; then GSL's as well, of which it loses blocks.
+/* Allocations of the component fit fail in turn: ERROR_MEMORY, outputs untouched, no leak, and the
+ * same call gives the same bits afterwards. First only our own; then those of GSL as well, which
+ * leaks blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

@@ -1,4 +1,5 @@
-/* What fit.h promises of measured impacts: round trips, intervals, what the data leave open, refusals.
+/* What fit.h promises of measured impacts: round trips, intervals, what the data leave open,
+ * refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/comma_locale.h"
 #include "../support/fit.h"
@@ -6,7 +7,8 @@
 
 enum { N = 20 };
 
-/* Impacts are solved to 1e-6 and the condition is about 10: 1e-4 is ten times what should remain. */
+/* Impacts are solved to 1e-6 and the condition is about 10: 1e-4 is ten times what should
+ * remain. */
 static void round_trip_without_noise(void **state)
 {
     static const double truth[] = {1e6, 3e6, 300};
@@ -33,8 +35,9 @@ static void round_trip_without_noise(void **state)
     restitute_material_destroy(solid);
 }
 
-/* 95 % of the intervals hold the truth: of 24 draws that is 23, and less than 20 has a chance of 0.6 %. They are no wider
- * than that noise makes them: 5 % noise of 40 values leaves about 10 % of a factor. The campaign fit-coverage has 200. */
+/* 95 % of the intervals hold the truth: of 24 draws that is 23, and less than 20 has a chance of
+ * 0.6 %. They are no wider than that noise makes them: 5 % noise of 40 values leaves about 10 % of
+ * a factor. The campaign fit-coverage has 200. */
 static void intervals_hold_the_truth(void **state)
 {
     int held[2] = {0, 0};
@@ -181,7 +184,7 @@ static void a_wrong_model_is_called_wrong(void **state)
     assert_non_null(strstr(r.remarks, "a standard solid fits better"));
     CHECK(r.flags & RESTITUTE_FIT_FLAG_LIMITS, "a/R up to 0.8: %s", r.remarks);
     restitute_material_destroy(r.material);
-    for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, where nothing is left to fit */
+    for (int wrong = 0; wrong < 2; wrong++) { /* known constants are judged, too, if no constant is fitted */
         const double known[] = {1e6, 3e6, wrong ? 350 : 300};
         restitute_fit_options all = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
         all.known = known;
@@ -215,9 +218,9 @@ static void robust_losses_bear_outliers(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Of many points most lie between impacts. With all constants known nothing is fitted, so rms is the difference from their
- * own impacts: of three spheres on a rigid or a soft wall, over five decades of speed. Maxwell's e falls to 0 there, which
- * bends most. */
+/* With many points most are interpolated. With all constants known nothing is fitted, so rms is the
+ * error of the interpolation: for three spheres on a rigid or a soft wall, over five decades of
+ * speed. Maxwell's e falls to 0 there and has the largest curvature. */
 static void many_points_are_interpolated(void **state)
 {
     enum { MANY = 120 };
@@ -258,7 +261,8 @@ static void many_points_are_interpolated(void **state)
     }
 }
 
-/* Two solids may give the same e(v): what fits as well elsewhere is said, unless noise is less or a contact time was measured. */
+/* Two solids may give the same e(v): what fits as well elsewhere is said, unless noise is less or a
+ * contact time was measured. */
 static void another_valley_is_named(void **state)
 {
     enum { DROPS = 20 };
@@ -287,7 +291,8 @@ static void another_valley_is_named(void **state)
     restitute_material_destroy(solid);
 }
 
-/* With e_x every point has its own impact; the starts are found from a hundred of these. Four angles at each speed. */
+/* With e_x every point has its own impact; the starts are found from a hundred of these. Four
+ * angles at each speed. */
 static void many_angles(void **state)
 {
     enum { MANY = 200 };
@@ -297,7 +302,7 @@ static void many_angles(void **state)
     restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_STANDARD_SOLID);
     (void)state;
     for (size_t k = 0; k < 4; k++)
-        drops(MANY / 4, 0.01, 1, points + k * MANY / 4);
+        drops(MANY / 4, 0.01, 1, scenes + k * MANY / 4, points + k * MANY / 4);
     for (size_t i = 0; i < MANY; i++) {
         scenes[i].friction = NAN;
         scenes[i].tangential_speed = (0.3 + 0.5 * (double)(4 * i / MANY)) * scenes[i].normal_speed;
@@ -311,7 +316,8 @@ static void many_angles(void **state)
     restitute_material_destroy(solid);
 }
 
-/* A contact has no end where e falls to 0, so that no polynomial follows its time there: e begins below 0.01. */
+/* A contact has no end where e falls to 0, so that no polynomial follows its time there: e begins
+ * below 0.01. */
 static void times_of_slow_rebounds_are_not_interpolated(void **state)
 {
     enum { MANY = 60 };
@@ -367,7 +373,7 @@ static void temperatures(void **state)
     restitute_fit_point points[2 * N];
     (void)state;
     drops(N, 0.01, 1, scenes, points);
-    drops(N, 0.01, 1, points + N);
+    drops(N, 0.01, 1, scenes + N, points + N);
     measure(warm, N, points, 0, 1, 0, 1);
     measure(cold, N, points + N, 0, 1, 0, 1);
     for (size_t i = 0; i < 2 * N; i++)
@@ -386,8 +392,9 @@ static void temperatures(void **state)
     restitute_material_destroy(cold);
 }
 
-/* Four temperatures with noise: from every seed the same valley, within three standard deviations of the noise. A shift that
- * starts wrong traps a search in others, with residuals of 0.1 and more. */
+/* Four temperatures with noise: from every seed the same valley, within three standard deviations
+ * of the noise. A shift that starts wrong traps a search in others, with residuals of 0.1 and
+ * more. */
 static void temperatures_from_every_seed(void **state)
 {
     enum { SPEEDS = 5, SOLIDS = 4 };
@@ -397,7 +404,7 @@ static void temperatures_from_every_seed(void **state)
     (void)state;
     for (size_t k = 0; k < SOLIDS; k++) {
         restitute_material *solid = standard_solid(1e6, 3e6, 300 * shift[k]);
-        drops(SPEEDS, 0.03, 3, points + k * SPEEDS);
+        drops(SPEEDS, 0.03, 3, scenes + k * SPEEDS, points + k * SPEEDS);
         for (size_t i = k * SPEEDS; i < (k + 1) * SPEEDS; i++)
             points[i].temperature = at[k], scenes[i].radius1 = 0.01, scenes[i].mass1 = 0.005;
         measure(solid, SPEEDS, points + k * SPEEDS, 0.01, 1, 0, 100 + k);
@@ -584,8 +591,8 @@ static void the_handle(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Eight residuals that fall from +0.023 to -0.028, of a solid that is not the data's, and a Kelvin-Voigt solid with noise: the
- * chance of 1 % is kept, so that 3 of 20 have one of 0.1 %. */
+/* Eight residuals that fall from +0.023 to -0.028, of a solid that is not the data's, and a
+ * Kelvin-Voigt solid with noise: the chance of 1 % is kept, so that 3 of 20 have one of 0.1 %. */
 static void residuals_in_order_are_a_misfit(void **state)
 {
     enum { FEW = 8, DRAWS = 20 };
@@ -613,7 +620,7 @@ static void residuals_in_order_are_a_misfit(void **state)
     restitute_material_destroy(solid);
 }
 
-/* e of an elastic solid is 1 whatever its modulus: nothing is determined, and that is not 0/0. */
+/* e of an elastic solid is 1 for any modulus: no constant is determined, and no result is 0/0. */
 static void data_that_determine_nothing_have_no_condition(void **state)
 {
     restitute_scene scenes[5];
@@ -629,9 +636,10 @@ static void data_that_determine_nothing_have_no_condition(void **state)
     restitute_material_destroy(r.material);
 }
 
-/* A second spring six times as stiff, 3 % noise of e. At the upper end, with the viscosity fitted again, the sum of squares has
- * risen by the square of Student's t (2.101 for 18 degrees of freedom) in units of the noise; the linearised end is 10 MPa. In
- * another draw there is none: the second spring may as well be rigid. */
+/* A second spring six times as stiff, 3 % noise of e. At the upper end, with the viscosity fitted
+ * again, the sum of squares has risen by the square of Student's t (2.101 for 18 degrees of
+ * freedom) in units of the noise; the linearised end is 10 MPa. In another draw there is none: the
+ * second spring may as well be rigid. */
 static void wide_intervals_reach_as_far_as_the_likelihood(void **state)
 {
     restitute_material *solid = standard_solid(1e6, 6e6, 600);
@@ -660,8 +668,8 @@ static void wide_intervals_reach_as_far_as_the_likelihood(void **state)
     restitute_material_destroy(solid);
 }
 
-/* The best fit is six times too stiff; the sum of squares of the true solid is more than two and less than three standard
- * deviations larger. */
+/* The best fit is six times too stiff; the sum of squares of the true solid is more than two and
+ * less than three standard deviations larger. */
 static void a_valley_that_noise_made_the_second_is_named(void **state)
 {
     static const double tau[] = {3e-5, 3e-3}, g[] = {4.3e5, 3.25e5}, known[] = {3.15e5, NAN, NAN};
@@ -703,7 +711,8 @@ static restitute_fit_options with_callback(size_t n, restitute_scene *scenes, re
     return options;
 }
 
-/* At most 200 impacts lie between two calls: values have as many as points. Once interrupted, they can be asked for again. */
+/* At most 200 impacts lie between two calls: values have as many as points. Once interrupted, they
+ * can be asked for again. */
 static void a_callback_is_asked_every_200_impacts(void **state)
 {
     enum { MANY = 401 };

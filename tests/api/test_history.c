@@ -1,4 +1,4 @@
-/* The time history: what it contains, and that it obeys mechanics by itself.
+/* The time history: its content, and whether it obeys the equations of motion.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -48,20 +48,23 @@ static void first_sample_is_first_touch_and_last_the_end(void **state)
         CHECK(t[last] == r.contact_time && contact[last] == 0 && fz[last] == 0 && fx[last] == 0, "psi %g: last",
               psi[i]);
         CHECK(-vz[last] == r.ez && fabs(vx[last] + r.ex * vx[0]) < 1e-15 * vx[0] + 1e-16, "psi %g: pair", psi[i]);
-        /* the solid is viscoelastic: it is still dented where it lets go, by less than its largest indentation */
+        /* the solid is viscoelastic: at the end of contact an indentation remains, smaller than the
+         * largest */
         CHECK(depth[last] > 0 && depth[last] < r.max_indentation, "psi %g: ends at %g", psi[i], depth[last]);
         for (size_t k = 1; k <= last; k++) {
             CHECK(t[k] > t[k - 1], "time runs back at %zu", k);
             CHECK(stick[k] >= 0 && stick[k] <= contact[k] && fz[k] >= 0, "sample %zu", k);
             CHECK(contact[k] <= r.max_contact_radius && depth[k] <= r.max_indentation, "sample %zu", k);
-            /* fx and fz are each corrected at the edge by one cell: 1e-9 is rounding of what is exactly fz in gross slip */
+            /* fx and fz are each corrected at the edge by one cell: 1e-9 is rounding of what is
+             * exactly fz in gross slip */
             if (psi[i] > 0) CHECK(fabs(fx[k]) <= fz[k] * (1 + 1e-9), "friction limit at %zu: %g %g", k, fx[k], fz[k]);
         }
     }
 }
 
-/* In SI: int F dt is the change of momentum, of the sphere in z and of the contact point's effective mass in x. Each sample
- * interval is four to five steps; the trapezoid rule on smooth forces and the method's first order leave some 1e-3. */
+/* In SI: int F dt is the change of momentum, of the sphere in z and of the contact point's
+ * effective mass in x. Each sample interval is four to five steps; the trapezoid rule on smooth
+ * forces and the method's first order leave some 1e-3. */
 static void forces_are_what_changes_the_velocities(void **state)
 {
     (void)state;
@@ -94,8 +97,9 @@ static void forces_are_what_changes_the_velocities(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* F = (15/8) ((2/3) D^(3/2) + theta sqrt(D) D') while a Kelvin-Voigt contact grows. Whole cells would make it ripple by
- * up to dx/2 of the edge force, three per cent here; integrated to the true edge it is as good as the step. */
+/* F = (15/8) ((2/3) D^(3/2) + theta sqrt(D) D') while a Kelvin-Voigt contact grows. Whole cells
+ * would make it ripple by up to dx/2 of the edge force, three per cent here; integrated to the true
+ * edge it is as good as the step. */
 static void reported_force_does_not_ripple_with_the_elements(void **state)
 {
     (void)state;
@@ -105,7 +109,8 @@ static void reported_force_does_not_ripple_with_the_elements(void **state)
     double theta = 2 * THETA_OF_DELTA1;
     for (size_t k = 1; k < h.count && vz[k] > 0.1; k++) {
         double force = 15.0 / 8.0 * (2.0 / 3.0 * pow(depth[k], 1.5) + theta * sqrt(depth[k]) * vz[k]);
-        /* the velocity in the dashpot lags by one step, (dV/dt) h, with dV/dt at most the largest force */
+        /* the velocity in the dashpot lags by one step, (dV/dt) h, with dV/dt at most the largest
+         * force */
         double tolerance = 15.0 / 8.0 * theta * sqrt(depth[k]) * r.max_normal_force * r.time_step;
         CHECK_NEAR(fz[k], force, tolerance + 2e-3 * force, "at %g T", t[k]);
     }
@@ -117,7 +122,8 @@ static void elastic_contact_ends_where_it_began(void **state)
     restitute_impact impact = impact_of(7.0 / 6, 1, 0, 1);
     restitute_history h = all_of_it(50);
     restitute_result r = record(NULL, &impact, &h);
-    /* the end is where the innermost element's force passes zero, interpolated within a step: its square is left */
+    /* the end is where the innermost element's force passes zero, interpolated within a step: its
+     * square is left */
     CHECK_NEAR(depth[h.count - 1], 0, 0.5 * r.time_step * r.time_step + r.element_spacing * r.element_spacing, "depth");
 }
 

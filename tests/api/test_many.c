@@ -1,5 +1,6 @@
-/* What the header promises of batches: the bits of single calls for any number of threads, failures that stop nobody,
- * refusals that touch nothing. SPDX-License-Identifier: BSD-3-Clause */
+/* What the header promises of batches: the bits of single calls for any number of threads, failures
+ * that stop nobody, refusals that touch nothing.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <fenv.h>
@@ -28,7 +29,8 @@ static void prepare(size_t n, restitute_result *results, int *statuses)
     }
 }
 
-/* Wide and cheap: rough tolerance, and every ninth case is refused. Solids of 0 to 40 terms make a solver's arrays grow. */
+/* Wide and cheap: rough tolerance, and every ninth case is refused. Solids of 0 to 40 terms make a
+ * solver's arrays grow. */
 static restitute_impact random_impact(const restitute_material *const solids[3], uint64_t *random, int i)
 {
     const double gamma = random_log(random, 1e-3, 1e3), delta1 = random_log(random, 1e-3, 100);
@@ -43,7 +45,7 @@ static void one_by_one(const restitute_options *options, size_t n, const restitu
                        restitute_result *results, int *statuses)
 {
     for (size_t i = 0; i < n; i++) {
-        restitute_solver *solver; /* a new one each time, so that nothing can be carried over */
+        restitute_solver *solver; /* a new one each time, so that no state is kept */
         CHECK(restitute_solver_create(options, &solver, NULL) == RESTITUTE_OK, "solver");
         statuses[i] = restitute_solve(solver, &impacts[i], &results[i], NULL, NULL, NULL);
         restitute_solver_destroy(solver);
@@ -184,7 +186,7 @@ static void failures_stop_nobody_and_the_first_is_named(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* A remark is told if there is no failure; a failure behind it goes before it. */
+/* A remark is reported if there is no failure; a later failure replaces it. */
 static void remarks_are_told_after_failures(void **state)
 {
     (void)state;
@@ -266,7 +268,8 @@ static int one_thread_gives_the_same(void *of)
            memcmp(results, known->results, sizeof results) == 0;
 }
 
-/* OpenMP's threads do not live on in a child of the process, which waits for them for ever; one thread needs none. */
+/* OpenMP's threads do not exist in a child of the process, which would wait for them for ever; with
+ * one thread there is no wait. */
 static void a_child_goes_on_with_one_thread(void **state)
 {
     (void)state;
@@ -294,7 +297,8 @@ static void no_cases_are_done_at_once(void **state)
 }
 
 #ifdef FE_UPWARD
-/* Threads of a pool were made while rounding was to nearest; the caller's rounding now is another. */
+/* Threads of a pool were made while rounding was to nearest; the caller's rounding now is
+ * another. */
 static void threads_round_as_the_caller_does(void **state)
 {
     (void)state;

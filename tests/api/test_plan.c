@@ -1,5 +1,6 @@
-/* What the header promises of plans: the bits of single calls in any order, for every kind of solid; what a single call
- * refuses is refused. SPDX-License-Identifier: BSD-3-Clause */
+/* What the header promises of plans: the bits of single calls in any order, for every kind of
+ * solid; what a single call refuses is refused.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
 #include "../support/random.h"
@@ -61,8 +62,8 @@ static restitute_plan *plan_for(const restitute_options *options, const restitut
     return plan;
 }
 
-/* Limits, and places on either side of each: no slip, slip so small that it is left out, gross slip at first, its end at the
- * turning point (2 chi), gross slip to the end. */
+/* Limits, and places on either side of each: no slip, slip so small that it is left out, gross slip
+ * at first, its end at the turning point (2 chi), gross slip to the end. */
 static double random_psi(uint64_t *random, double chi)
 {
     switch (random_below(random, 8)) {
@@ -83,7 +84,7 @@ static double random_psi(uint64_t *random, double chi)
     }
 }
 
-/* A new solver each time, so that nothing can be carried over. */
+/* A new solver each time, so that no state is kept. */
 static void compare(const restitute_options *options, restitute_impact impact, restitute_plan *plan, double psi,
                     int all, const char *name)
 {
@@ -128,7 +129,7 @@ static void every_solid_gives_the_bits_of_single_calls(void **state)
     free_solids(all);
 }
 
-/* Bodies that creep for ever, of which some stop: how slow a sphere may become depends on psi. */
+/* Bodies that creep for ever; some count as stopped: the limit of speed depends on psi. */
 static void spheres_that_sink_give_the_bits_of_single_calls(void **state)
 {
     (void)state;
@@ -146,7 +147,8 @@ static void spheres_that_sink_give_the_bits_of_single_calls(void **state)
     CHECK(sunk > 2 && rebounds > 2, "%d sink, %d rebound: not the mixture meant", sunk, rebounds);
 }
 
-/* Twenty decades of relaxation times, slow ones of which the contact feels the more the longer it lasts. */
+/* Twenty decades of relaxation times, slow ones of which the contact feels the more the longer it
+ * lasts. */
 static void many_terms_give_the_bits_of_single_calls(void **state)
 {
     (void)state;

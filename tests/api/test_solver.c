@@ -1,4 +1,5 @@
-/* What the header promises of a solver: statuses, overrides, extreme scenes, reuse, threads, scaling.
+/* What the header promises of a solver: statuses, overrides, extreme scenes, reuse, threads,
+ * scaling.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <pthread.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ static restitute_scene ball(const restitute_material *material, double radius, d
     return scene;
 }
 
-/* "the largest step that is: X": X works, a thousandth more is refused. */
+/* "the largest stable step: X": X works, a thousandth more is refused. */
 static void unstable_step_is_refused_with_the_largest_stable_one(void **state)
 {
     (void)state;
@@ -36,9 +37,9 @@ static void unstable_step_is_refused_with_the_largest_stable_one(void **state)
         int status = restitute_solve(solver, &impact, &result, NULL, NULL, &error);
         restitute_solver_destroy(solver);
         CHECK(status == RESTITUTE_ERROR_UNSTABLE_STEP, "case %d: status %d", i, status);
-        const char *largest = strstr(error.message, "the largest step that is: ");
+        const char *largest = strstr(error.message, "the largest stable step: ");
         CHECK(largest != NULL, "%s", error.message);
-        double step = strtod(largest + strlen("the largest step that is: "), NULL);
+        double step = strtod(largest + strlen("the largest stable step: "), NULL);
 
         options.time_step = 0.999 * step; /* six digits are printed */
         struct solution s = solve_impact(options, impact);
@@ -63,7 +64,7 @@ static void printed_largest_step_is_accepted(void **state)
         CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
         CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_UNSTABLE_STEP, "refused");
         restitute_solver_destroy(solver);
-        options.time_step = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        options.time_step = strtod(strstr(error.message, "stable step: ") + strlen("stable step: "), NULL);
         CHECK(solve_impact(options, impact).status >= 0, "%s", error.message);
     }
 }
@@ -76,7 +77,7 @@ static void hopelessly_damped_impact_is_refused(void **state)
     restitute_solver *solver;
     restitute_error error;
     CHECK(restitute_solver_create(NULL, &solver, NULL) == RESTITUTE_OK, "solver");
-    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_TOO_MUCH_WORK, "status");
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_ERROR_CONVERGENCE, "status");
     CHECK(strstr(error.message, "rebound too slow"), "%s", error.message);
     restitute_solver_destroy(solver);
     impact.delta1 = 1e6; /* strong, but seen */
@@ -100,7 +101,7 @@ static void rough_overrides_are_not_trusted(void **state)
         CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
         restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
         restitute_solver_destroy(solver);
-        double limit = strtod(strstr(error.message, "that is: ") + strlen("that is: "), NULL);
+        double limit = strtod(strstr(error.message, "stable step: ") + strlen("stable step: "), NULL);
         struct restitute_result r = solve_impact(as_told(0, limit * random_in(&random, 0.3, 1)), impact).result;
         above += fabs(r.ez - fine.ez) > r.error_ez + 1e-3 || fabs(r.ex - fine.ex) > r.error_ex + 1e-3;
     }
@@ -208,8 +209,8 @@ static void coarse_override_tells_that_the_tolerance_is_missed(void **state)
     CHECK(s.result.error_ez > 1e-3 || s.result.error_ex > 1e-3, "%g %g", s.result.error_ez, s.result.error_ex);
 }
 
-/* Whatever the method aims at inside, the estimate decides. An elastic solid with given elements has
- * the same estimate at any tolerance. */
+/* Whatever the method aims at inside, the estimate decides. An elastic solid with given elements
+ * has the same estimate at any tolerance. */
 static void status_follows_the_reported_estimate(void **state)
 {
     const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};
@@ -309,8 +310,8 @@ static void a_thousand_terms_work(void **state)
     restitute_material_destroy(solid);
 }
 
-/* The same impact in other units is the same pair; factors of two are exact, but powers of them are not: rounding of
- * a_el, amplified over some 1e3 steps. */
+/* The same impact in other units is the same pair; factors of two are exact, but powers of them are
+ * not: rounding of a_el, amplified over some 1e3 steps. */
 static void units_do_not_matter(void **state)
 {
     (void)state;
@@ -333,7 +334,8 @@ static void units_do_not_matter(void **state)
     restitute_material_destroy(b);
 }
 
-/* Swapping the spheres, or giving the motion to spins instead of translation, is the same impact. */
+/* Swapping the spheres, or giving the motion to spins instead of translation, is the same
+ * impact. */
 static void partners_and_kinds_of_motion_can_be_swapped(void **state)
 {
     (void)state;

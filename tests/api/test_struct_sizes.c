@@ -1,5 +1,6 @@
-/* A struct of an older version is smaller: every function looks at struct_size before it reads any other member.
- * Each struct here is 8 bytes at the end of a page, and the page behind it cannot be read.
+/* A struct of an older version is smaller: every function looks at struct_size before it reads any
+ * other member. Each struct here is 8 bytes at the end of a page, and the page behind it cannot be
+ * read.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 

@@ -43,8 +43,8 @@ static restitute_impact random_impact(uint64_t *random, const restitute_material
     return impact;
 }
 
-/* Also when a finer run, or one with more terms, left its numbers in the workspace, or a run for the same solid, whose normal
- * motion is not solved again, with or without a ledger in between. */
+/* Also when a finer run, or one with more terms, left its numbers in the workspace, or a run for
+ * the same solid, whose normal motion is not solved again, with or without a ledger in between. */
 static void same_bits_whatever_was_solved_before(void **state)
 {
     const double tau[] = {0.05, 0.5, 5, 50}, g[] = {1, 2, 1, 0.5};
@@ -79,9 +79,9 @@ static void same_bits_whatever_was_solved_before(void **state)
     restitute_material_destroy(solid);
 }
 
-/* A remark with the best result, or an error with none; the message names the limit. From no work at all on, twice as much is
- * allowed from call to call until it is enough. A sphere that is easily turned needs more panels than the method
- * expects, so that there are runs to be left out. */
+/* A remark with the best result, or an error with none; the message names the limit. From no work
+ * at all on, twice as much is allowed from call to call until it is enough. A sphere that is easily
+ * turned needs more panels than the method expects, so that there are runs to be left out. */
 static void work_that_is_not_allowed_is_not_done(void **state)
 {
     int remarks = 0, refusals = 0, status = -1;
@@ -114,8 +114,8 @@ static void work_that_is_not_allowed_is_not_done(void **state)
     CHECK(refusals >= 1 && remarks >= 1, "%d refusals, %d remarks", refusals, remarks);
 }
 
-/* Elements given, whatever the tolerance: 24 times the largest power of two that keeps to them, and more only where panels are
- * halved, 24 at least. The remark says that the tolerance is missed. */
+/* Prescribed elements, for any tolerance: 24 times the largest power of two within this number, at
+ * least 24, and more only where panels are halved. The remark says that the tolerance is missed. */
 static void elements_may_be_given(void **state)
 {
     (void)state;
@@ -150,9 +150,11 @@ static int solve_with_history(double tolerance, const restitute_material *solid,
     return status;
 }
 
-/* Moduli times s and times times s^(-2/5) are the same impact in other units: the same to rounding, but where the coarsest
- * iterations are lost, which rounding lets end one way or the other (1 solid in 500), to a hundredth of the tolerance. An
- * elastic solid a fifth as stiff as the unit once had points at no finite time, others with weak damping too. */
+/* Moduli times s and relaxation times times s^(-2/5) are the same impact in other units. The
+ * results are equal to rounding. Where the coarsest iterations do not converge, their end depends
+ * on rounding (1 solid in 500), and the results are equal to a hundredth of the tolerance. An
+ * elastic solid with a fifth of the unit modulus once had points at infinite time, and so had
+ * others with weak damping. */
 static void scale_of_moduli_does_not_matter(void **state)
 {
     enum { solids = 300, samples = 8 };

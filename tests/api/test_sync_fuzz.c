@@ -1,5 +1,6 @@
-/* Histories and ledgers of the method `sync` over the whole domain that it accepts: what has a pair has them too, all
- * numbers of them make sense, and the sanitizers see no other fault. More than the suite runs:  test_sync_fuzz COUNT SEED
+/* Histories and ledgers of the method `sync` over the whole domain that it accepts: what has a pair
+ * has them too, all numbers of them make sense, and the sanitizers see no other fault. More than
+ * the suite runs:  test_sync_fuzz COUNT SEED
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* A solver keeps the room, and what is in it, of the impact that it solved last. Results do not show it:
- * they have the bits of new solvers in whatever order the impacts come, and so have refusals.
+/* A solver keeps memory of the last impact. Results do not depend on it: for any order of the
+ * impacts they have the bits of new solvers. So have refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -13,8 +13,8 @@ struct answer {
     int status;
 };
 
-/* Solids of all kinds, one that hardly rebounds among them. Grouped by solid, and within the group by chi for half of
- * them, as in a table. psi: stick, slip first, slip to the end and none. */
+/* Solids of all kinds, one that hardly rebounds among them. Grouped by solid, and within the group
+ * by chi for half of them, as in a table. psi: stick, slip first, slip to the end and none. */
 static void make_impacts(const restitute_material *prony, restitute_impact impacts[ALL])
 {
     static const double delta1[KINDS] = {0, 0.01, 0.3, 1, 10, 20, 0.1, 0.5, 5, 0};
@@ -36,7 +36,8 @@ static void answer(restitute_solver *solver, const restitute_impact *impact, str
     answer->status = restitute_solve(solver, impact, &answer->result, NULL, NULL, NULL);
 }
 
-/* The i-th of all: as they are, backwards, every seventh (7 has no factor in common with their number), each twice. */
+/* The i-th of all: as they are, backwards, every seventh (7 has no factor in common with their
+ * number), each twice. */
 static int place(int order, int i)
 {
     switch (order) {
@@ -95,7 +96,8 @@ static void no_order_is_seen_in_the_results(void **state)
     restitute_material_destroy(prony);
 }
 
-/* With so little work some are refused, and some end short of the tolerance: with elements given too. */
+/* With so few updates some are refused, and some end short of the tolerance: with elements given
+ * too. */
 static void neither_is_it_in_refusals(void **state)
 {
     (void)state;

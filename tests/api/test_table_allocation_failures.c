@@ -1,6 +1,6 @@
 /* Every allocation of every call of the component table fails in turn: ERROR_MEMORY, outputs
- * untouched, and the same objects give the right result afterwards, bit by bit, and leave nothing
- * behind. Lookups take no memory at all.
+ * untouched, and the same objects give the right result afterwards, bit by bit, and leak nothing.
+ * Lookups allocate no memory.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 

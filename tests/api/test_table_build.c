@@ -255,8 +255,8 @@ static void limits_travel(void **state)
         scene.normal_speed = random_log(&random, 1e-2, 100);
         scene.tangential_speed = scene.normal_speed * random_log(&random, 0.1, 30);
         CHECK(restitute_solve_scene(solver, &scene, &r, NULL, NULL, &error) >= 0, "%s", error.message);
-        /* ratios between nodes are powers of the speed: nearer than two hundredths to a limit
-         * nothing is asked */
+        /* ratios between nodes are powers of the speed: within two hundredths of a limit nothing is
+         * checked */
         const double ratio[3] = {r.speed_ratio / 0.1, r.radius_ratio / 0.1, r.displacement_ratio / 0.3};
         if (fabs(ratio[0] - 1) < 0.02 || fabs(ratio[1] - 1) < 0.02 || fabs(ratio[2] - 1) < 0.02) continue;
         int flags;

@@ -206,8 +206,7 @@ static void put_with_checksum(unsigned char *content, size_t length)
     put(content, length);
 }
 
-/* The file's own words of where a set begins and how many bytes it has; `member`: of the set
- * `numbers`. */
+/* The place and the bytes of a set, as the file states them; `member`: of the set `numbers`. */
 static size_t place_of(const char *set, const char *member, size_t *length)
 {
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen2(file, set, H5P_DEFAULT);
@@ -222,8 +221,8 @@ static size_t place_of(const char *set, const char *member, size_t *length)
     return place;
 }
 
-/* HDF5 reads beyond its buffers in damaged files, so it is given none: whatever stands beside the
- * values, the table is read. */
+/* HDF5 reads beyond its buffers in damaged files, so it does not read them: the table is read for
+ * any bytes beside the values. */
 static void hdf5_reads_nothing_of_a_file(void **state)
 {
     static const char *const sets[] = {"numbers", "speed", "ez", "strain", "ex", "relaxation_time", "modulus"};

@@ -1,5 +1,5 @@
 /* Where tables are written: links are followed, modes kept, devices and pipes written through,
- * folders refused; without room nothing is left and what was there stays.
+ * folders refused. On a full disk nothing is left and the old file is unchanged.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
@@ -170,7 +170,7 @@ static void modes_are_kept(void **state)
     }
 }
 
-/* A device of our own: what goes wrong here must not destroy the machine's. */
+/* A device of our own, so that a failure does not damage one of the machine. */
 static void devices_are_written_through(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void pipes_are_written_through(void **state)
     assert_int_equal(entries(), 1);
 }
 
-/* What /dev/stdout is: a link in /proc to an open file, which goes on where it stands. */
+/* /dev/stdout is a link in /proc to an open file; output continues at its position. */
 static void open_files_are_written_through(void **state)
 {
     char name[64];

@@ -1,4 +1,5 @@
-/* What the header of tables promises of a lookup: limits, seams, bounds, other sizes, refusals.
+/* What the header of tables promises of a lookup: limits, seams, bounds, derivatives, other sizes,
+ * refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
 #include <fenv.h>

@@ -73,7 +73,8 @@ static void ratios_are_what_they_say(void **state)
     restitute_material_destroy(steel);
 }
 
-/* Of two spheres the denser one has the slower waves, whichever is the first; of a partner held fast nothing is known. */
+/* Of two spheres the denser one has the slower waves, in any order; the density of a fixed partner
+ * is unknown. */
 static void wave_speed_is_that_of_the_denser_sphere(void **state)
 {
     (void)state;
@@ -91,7 +92,8 @@ static void wave_speed_is_that_of_the_denser_sphere(void **state)
     restitute_material_destroy(steel);
 }
 
-/* Waves do not travel in a mere dashpot, nor in a solid that has forgotten all by the time of the impact. */
+/* Waves do not travel in a mere dashpot, nor in a solid that has forgotten all by the time of the
+ * impact. */
 static void no_modulus_no_waves(void **state)
 {
     (void)state;
@@ -113,7 +115,7 @@ static void flags_have_texts(void **state)
     CHECK(strcmp(restitute_flag_text(3), "unknown flag") == 0, "two flags are no flag");
 }
 
-/* What is passed stands in the message of a call that is done, and nothing else. */
+/* The message of a successful call names exactly the exceeded limits. */
 static void limits_that_are_passed_are_named(void **state)
 {
     (void)state;
@@ -142,7 +144,7 @@ static void limits_that_are_passed_are_named(void **state)
     }
     const restitute_scene large = steel_ball_on(soft, 0.196, 0.01); /* a third of the sphere */
     CHECK(restitute_scene_pair(&large, &ez, &ex, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(strcmp(error.message, "contact radius/R = 0.333 passes the limit 0.1") == 0, "\"%s\"", error.message);
+    CHECK(strcmp(error.message, "contact radius/R = 0.333 exceeds the limit 0.1") == 0, "\"%s\"", error.message);
     restitute_material_destroy(soft);
     restitute_material_destroy(hard);
     restitute_material_destroy(pair);

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The elastic normal problem by restitute and by tamaas 2.9.0, side by side:  bem_beside_tamaas.py BEM_HERTZ [M]
+"""The elastic normal problem by restitute and by tamaas 2.9.0, side by side:
+bem_beside_tamaas.py BEM_HERTZ [M]
 
-BEM_HERTZ is the program of bem_hertz.c. Needs tamaas==2.9.0 (pip). tamaas gets the force that restitute found, on the same cells, without
-images (its operator dcfft). Prints the largest difference of pressures over the largest pressure, and both times.
+BEM_HERTZ is the program of bem_hertz.c. Needs tamaas==2.9.0 (pip). tamaas gets the force that
+restitute found, on the same cells, without images (its operator dcfft). Prints the largest
+difference of pressures over the largest pressure, and both times.
 """
 import subprocess
 import sys

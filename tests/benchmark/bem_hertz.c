@@ -1,6 +1,7 @@
-/* The elastic normal problem alone, for comparison with other boundary element programs:  bem_hertz M FILE
- * A paraboloid r^2/2 pressed by 1 into a half-space with E* = 4, 2M x 2M cells, contact radius 1 over 0.9 M cells. Writes the pressure of a
- * quarter to FILE (M lines of M values) and prints spacing, force, iterations and the best of ten times, in s.
+/* The elastic normal problem alone, for comparison with other boundary element programs:  bem_hertz
+ * M FILE A paraboloid r^2/2 pressed by 1 into a half-space with E* = 4, 2M x 2M cells, contact
+ * radius 1 over 0.9 M cells. Writes the pressure of a quarter to FILE (M lines of M values) and
+ * prints spacing, force, iterations and the best of ten times, in s.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 

@@ -17,8 +17,8 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* What a DEM code does in a step of Hertz and Mindlin: dashpots of constant restitution, one tangential spring with
- * history, turned into the tangential plane, limited by friction. */
+/* What a DEM code does in a step of Hertz and Mindlin: dashpots of constant restitution, one
+ * tangential spring with history, turned into the tangential plane, limited by friction. */
 static void hertz_mindlin(double modulus, double damping, double step, const restitute_contact_motion *m,
                           double *shear, restitute_contact_force *force)
 {

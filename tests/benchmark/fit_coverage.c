@@ -1,6 +1,8 @@
-/* Do 95 % intervals of fitted constants hold the true ones in 95 % of the cases? Synthetic drop tests of random solids, 20 speeds over
- * three decades, Gaussian noise on ez (absolute) and on the contact time (relative):  fit_coverage DRAWS [SEED]
- * For docs/fit.md; a line a model, noise, kind of data and constant. SPDX-License-Identifier: BSD-3-Clause */
+/* Do 95 % intervals of fitted constants hold the true ones in 95 % of the cases? Synthetic drop
+ * tests of random solids, 20 speeds over three decades, Gaussian noise on ez (absolute) and on the
+ * contact time (relative):  fit_coverage DRAWS [SEED] For docs/records/fit.md; a line a model,
+ * noise, kind of data and constant.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +20,8 @@ static double gauss(uint64_t *state)
     return sqrt(-2 * log(u)) * cos(2 * pi * v);
 }
 
-/* A solid near 1 MPa whose times are near the contact's, some milliseconds; its constants in the order of the fit. */
+/* A solid near 1 MPa whose times are near the contact's, some milliseconds; its constants in the
+ * order of the fit. */
 static restitute_material *draw(int model, uint64_t *state, double *c)
 {
     restitute_material *material = NULL;
@@ -39,7 +42,8 @@ static restitute_material *draw(int model, uint64_t *state, double *c)
     return material;
 }
 
-/* Solids whose e comes within three standard deviations of 0 or 1 are refused: the noise would be cut off there. */
+/* Solids whose e comes within three standard deviations of 0 or 1 are refused: the noise would be
+ * cut off there. */
 static int measure(const restitute_material *material, double noise, int with_time, restitute_solver *solver,
                    uint64_t *state, restitute_scene *scenes, restitute_fit_point *points)
 {

@@ -1,9 +1,11 @@
-/* One scene of the report solved again and again by a warm solver, for instructions.sh to count what that takes.
+/* One scene of the report solved again and again by a warm solver, for instructions.sh to count
+ * what that takes.
  *
  *     instructions METHOD TOLERANCE SCENE SOLVES
  *     instructions methods                        the methods of the library, one a line
  *
- * Exit status 0 solved, 1 refused, 2 usage. SPDX-License-Identifier: BSD-3-Clause */
+ * Exit status 0 solved, 1 refused, 2 usage.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,16 +1,20 @@
-/* Campaign: random impacts of the whole domain and of its corners (support/campaign.h), compared with `sync` at 1e-8.
+/* Campaign: random impacts of the whole domain and of its corners (support/campaign.h), compared
+ * with `sync` at 1e-8.
  *
  *     sync_campaign COUNT SEED CORNER TOLERANCE,... [METHOD [MAX_WORK]]
  *
- * CORNER is a name, "corners" (all but the two domains) or "all". METHOD is sync (default) or euler. Of sync every
- * 64th impact is solved by `euler` and `cvode` as well, so that other methods check the reference.
+ * CORNER is a name, "corners" (all but the two domains) or "all". METHOD is sync (default) or
+ * euler. Of sync every 64th impact is solved by `euler` and `cvode` as well, so that other methods
+ * check the reference.
  *
- * The table goes to stdout, one row a corner and tolerance. Its errors are over the tolerance, of impacts that end with
- * OK or NO_REBOUND. The true error is what exceeds the estimate of the reference. "low" counts estimates below it. An
- * impact is not judged ("no ref") if its reference is not known to a tenth of the tolerance. Lines with # below the
- * rows hold the messages of the first 20 failures and the worst cases, with the commands that solve them again.
+ * The table goes to stdout, one row a corner and tolerance. Its errors are over the tolerance, of
+ * impacts that end with OK or NO_REBOUND. The true error is what exceeds the estimate of the
+ * reference. "low" counts estimates below it. An impact is not judged ("no ref") if its reference
+ * is not known to a tenth of the tolerance. Lines with # below the rows hold the messages of the
+ * first 20 failures and the worst cases, with the commands that solve them again.
  *
- * Exit status 0: the aims of sync are met, 1: they are not, 2: usage. SPDX-License-Identifier: BSD-3-Clause */
+ * Exit status 0: the aims of sync are met, 1: they are not, 2: usage.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdlib.h>
@@ -244,8 +248,8 @@ static void print_remarks(const struct row *r)
                    r->worst_command[k]);
 }
 
-/* No result with OK beyond three tolerances, none refused, none without a force. Estimates hold in 95 %, and within a
- * factor of ten in all. The tolerance is met in 99.5 %. */
+/* No result with OK beyond three tolerances, none refused, none without a force. Estimates hold in
+ * 95 %, and within a factor of ten in all. The tolerance is met in 99.5 %. */
 static int meets_aims(const struct row *r)
 {
     return !r->tested || (r->far == 0 && r->refused == 0 && r->bad_force == 0 && 20 * r->low <= r->compared &&

@@ -3,10 +3,11 @@
  *     table_campaign POLYISOBUTYLENE.csv [PLACES [TOLERANCE [SOLID]]]       default 10000 1e-5, all solids
  *     table_campaign random [PLACES [SOLIDS [FIRST]]]                       default 3000 40 0
  *
- * The first form takes sixteen solids over six decades of speed. The second one takes random standard solids with masses near
- * the centre, one to two decades of speed and random tolerances.
- * Prints a line a solid: seconds of one thread, bytes, impacts, nodes, stated errors, largest true ones, status. The exit status is 1 if a
- * true error is above the stated one by more than the estimated error of that impact.
+ * The first form takes sixteen solids over six decades of speed. The second one takes random
+ * standard solids with masses near the centre, one to two decades of speed and random tolerances.
+ * Prints a line a solid: seconds of one thread, bytes, impacts, nodes, stated errors, largest true
+ * ones, status. The exit status is 1 if a true error is above the stated one by more than the
+ * estimated error of that impact.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 

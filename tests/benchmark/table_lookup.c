@@ -3,9 +3,11 @@
  *     table_lookup
  *
  * One table at 1e-5 over six decades of speed (with the time of its build). Places are random over
- * all speeds and psi up to beyond psi_c; pow has random arguments as well. A thousand places in turn: a processor comes to foresee on
- * which side of psi = 1 and of psi_c the next one is. A hundred thousand: it does not. "chained": every call needs the result of the one
- * before it, which measures latency. SPDX-License-Identifier: BSD-3-Clause */
+ * all speeds and psi up to beyond psi_c; pow has random arguments as well. A thousand places in
+ * turn: a processor comes to foresee on which side of psi = 1 and of psi_c the next one is. A
+ * hundred thousand: it does not. "chained": every call needs the result of the one before it, which
+ * measures latency.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the scripts share; read with `. "$(dirname -- "$0")/common.sh"`. RESTITUTE is the command, SOURCE_DIR the project.
-# A script works in a directory of its own, which is removed at the end, and stops at the first thing that is wrong.
+# What the scripts share; read with `. "$(dirname -- "$0")/common.sh"`. RESTITUTE is the command,
+# SOURCE_DIR the project. A script works in a directory of its own, which is removed at the end, and
+# stops at the first thing that is wrong.
 set -u
 case $RESTITUTE in /*) ;; *) RESTITUTE=$PWD/$RESTITUTE ;; esac
 SOURCE_DIR=$(cd "$SOURCE_DIR" && pwd)
@@ -24,7 +25,8 @@ expect() {
     [ "$status" -eq "$wanted" ] || fail "exit status $status, not $wanted, of: restitute $*"
 }
 
-# refused TEXT ARGUMENT...: exit status 2, nothing on standard output, and a message that holds TEXT.
+# refused TEXT ARGUMENT...: exit status 2, nothing on standard output, and a message that holds
+# TEXT.
 refused() {
     text=$1
     shift
@@ -63,12 +65,14 @@ near() {
         fail "$1 is not within $3 of $2"
 }
 
-# have PROGRAM: it is here. Else the part of the script that needs it is left out, which tests/run repeats.
+# have PROGRAM: it is here. Else the part of the script that needs it is left out, which tests/run
+# repeats.
 have() {
     command -v "$1" >/dev/null || { echo "skipped: no $1 here"; return 1; }
 }
 
-# have_h5py: likewise; `python` has it. Debian's belongs to /usr/bin/python3, which another Python may hide.
+# have_h5py: likewise; `python` has it. Debian's belongs to /usr/bin/python3, which another Python
+# may hide.
 have_h5py() {
     for python in python3 /usr/bin/python3; do
         ! "$python" -c 'import h5py' 2>/dev/null || return 0

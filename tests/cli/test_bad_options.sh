@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Every bad value on the command line is refused with exit status 2, its name, its value and the allowed range.
+# Every bad value on the command line is refused with exit status 2, its name, its value and the
+# allowed range.
 . "$(dirname -- "$0")/common.sh"
 
 for bad in nan -nan NaN '' ' 1' '1 ' 1.0x 0x10 1,5 1e 1e999 --psi; do

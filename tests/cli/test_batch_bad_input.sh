@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Case files that are no case files: refused with exit status 2 and the line, and nothing is written.
+# Case files that are no case files: refused with exit status 2 and the line, and nothing is
+# written.
 . "$(dirname -- "$0")/common.sh"
 
 bad() {

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# A bad row does not stop the others: its numbers stay empty, the column status says why, the exit status is 1.
+# A bad row does not stop the others: its numbers stay empty, the column status says why, the exit
+# status is 1.
 . "$(dirname -- "$0")/common.sh"
 
 cat >cases.csv <<'END'

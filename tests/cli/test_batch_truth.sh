@@ -20,8 +20,8 @@ expect 0 pair --input cases.csv --output out.csv
 [ ! -s err ] || fail "messages in a run without a terminal and without failures"
 [ "$(head -1 out.csv)" = "chi,psi,delta1,gamma,ez,ex,contact_time,max_indentation,error_ez,error_ex,method,status" ] ||
     fail "the header is $(head -1 out.csv)"
-# ez and ex within the default tolerance 1e-3. The tolerance is one of the pair only: the contact time and the
-# indentation come from a first-order method at that step, for which 1 % is ample.
+# ez and ex within the default tolerance 1e-3. The tolerance is one of the pair only: the contact
+# time and the indentation come from a first-order method at that step, for which 1 % is ample.
 tail -n +2 out.csv | paste -d, truth - | awk -F, '
     function off(a, b) { return a > b ? a - b : b - a }
     off($5, $13) > 1e-3 || off($6, $14) > 1e-3 { print "pair of row " NR ": " $0; bad = 1 }
@@ -37,7 +37,8 @@ cp out.csv before && cp out.csv.meta.json before.json
 expect 0 pair --input cases.csv --output out.csv
 cmp out.csv before && cmp out.csv.meta.json before.json || fail "a rerun writes other bytes"
 
-# Standard input and output, another order of the columns, quotes, CRLF, options for what is no column.
+# Standard input and output, another order of the columns, quotes, CRLF, options for what is no
+# column.
 awk -F, '{ printf "\"%s\",%s,%s\r\n", $3, $2, $4 }' cases.csv | head -2 | "$RESTITUTE" pair --input - --output - \
     --chi 1.1666666666666667 >piped.csv || fail "standard input is not read"
 [ "$(value piped.csv ez)" = "$(value out.csv ez)" ] || fail "another order of columns gives another pair"

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# restitute bench: its tables have the columns and ranges that they promise, the paper's algorithm converges as it should, a map
-# can be interrupted, and bad arguments are refused. Times are not looked at.
+# restitute bench: its tables have the columns and ranges that they promise, the paper's algorithm
+# converges as it should, a map can be interrupted, and bad arguments are refused. Times are not
+# looked at.
 . "$(dirname -- "$0")/common.sh"
 
 # A budget that no run here exhausts, however slow the machine.
@@ -12,21 +13,24 @@ has report-runs.csv.meta.json '"version"' '"command"' '"tolerances"' '"paper-ver
 repeats,ez,ex,error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,restarts,events,status" ] || fail "columns of the runs"
 [ -s report-speed.csv ] && [ -s report-summary.csv ] || fail "a table is missing"
 
-# Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it promises at 1e-3. The paper's
-# algorithm may gain energy by its error in time: with 128 steps, the fewest here, paper-forward returns e_z = 1.045 for 1.
+# Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it
+# promises at 1e-3. The paper's algorithm may gain energy by its error in time: with 128 steps, the
+# fewest here, paper-forward returns e_z = 1.045 for 1.
 awk -F, 'NR > 1 { gain = $7 ~ /^paper/ ? 0.05 : 1e-6
         if (NF != 25 || !($11 > 0) || $13 < -1e-6 || $13 > 1 + gain || $15 < 0 || $16 < 0) { print; bad = 1 } }
     $7 == "euler" && $8 == 0.001 && ($15 > 0.001 || $16 > 0.001) { print; bad = 1 }
     END { exit bad || NR < 50 }' report-runs.csv >bad || fail "a run: $(cat bad)"
 for set in truth stiff prony all; do
     grep -q "^$set,euler,0.001," report-summary.csv || fail "no summary of euler over $set"
-    # Elements and steps are both free; of their pairs the front is left, on which more time is less error, as far as four digits tell.
+    # Elements and steps are both free; of their pairs the front is left, on which more time is less
+    # error, as far as four digits tell.
     awk -F, -v set="$set" '$1 == set && $2 == "paper-euler" {
         if ($3 != "" || !($5 >= 16 * $4) || n++ && !($10 >= time && $13 <= error)) bad = 1
         time = $10; error = $13 } END { exit bad || n < 3 }' report-summary.csv || fail "no front of paper-euler over $set"
 done
 
-# Asked for and got: nothing is told of what was not reached in half of the scenes, and ratios are those of the times told.
+# Asked for and got: nothing is told of what was not reached in half of the scenes, and ratios are
+# those of the times told.
 awk -F, 'NR == 1 { next }
     $1 == "paper-euler" { asked[$2] = $6; got[$2] = $8; if (($6 == "") != ($4 == "") || ($4 == "") != ($5 == "")) bad = 1 }
     { method[++n] = $1; error[n] = $2; a[n] = $6; g[n] = $8; ra[n] = $10; rg[n] = $11 }
@@ -41,10 +45,12 @@ awk -F, 'NR == 1 { next }
 error() {
     awk -F, -v m="$1" -v n="$2" -v s="$3" '$2 == "truth-10" && $7 == m && $9 == n && $10 == s { print $16 }' report-runs.csv
 }
-# First order in the limit where both are doubled; the grids are coarse, so for a factor of 4 one within a third.
+# First order in the limit where both are doubled; the grids are coarse, so for a factor of 4 one
+# within a third.
 awk -v a="$(error paper-euler 16 1024)" -v b="$(error paper-euler 64 4096)" 'BEGIN { exit !(a / b > 3 && a / b < 5.3) }' ||
     fail "paper-euler: errors $(error paper-euler 16 1024) with 16 elements, $(error paper-euler 64 4096) with 64"
-# Velocity Verlet goes through the same positions as Euler with positions first (docs/bench.md): the pairs differ by rounding.
+# Velocity Verlet goes through the same positions as Euler with positions first
+# (docs/records/bench.md): the pairs differ by rounding.
 awk -F, '$7 == "paper-euler" { ez[$2, $9, $10] = $13; ex[$2, $9, $10] = $14 }
     $7 == "paper-verlet" { n++; d = ez[$2, $9, $10] - $13; e = ex[$2, $9, $10] - $14; if (d * d > 1e-20 || e * e > 1e-20) exit 1 }
     END { if (n < 20) exit 1 }' report-runs.csv || fail "paper-verlet differs from paper-euler"
@@ -65,7 +71,8 @@ grep -q '^euler.*wrong' report-stability.csv && fail "euler returns wrong number
 grep -q '^paper-euler,10,.*unstable' report-stability.csv || fail "no cell is unstable with 10 steps"
 absent report-stability.csv.partial
 
-# A map that was stopped in the middle of a line goes on from there; of other settings it is refused.
+# A map that was stopped in the middle of a line goes on from there; of other settings it is
+# refused.
 {
     printf '# %s, budget 60 s, quick 1, methods euler paper-euler\n' "$("$RESTITUTE" --version | head -n 1)"
     grep -e '^euler' -e '^paper-euler' report-stability.csv | head -40

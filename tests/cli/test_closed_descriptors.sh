@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Standard descriptors closed by whoever starts the command: no output file gets their numbers, so nothing that is
-# printed lands in a file. A result that cannot be printed is an error, as with a full disk.
+# Standard descriptors closed by whoever starts the command: no output file gets their numbers, so
+# nothing that is printed lands in a file. A result that cannot be printed is an error, as with a
+# full disk.
 . "$(dirname -- "$0")/common.sh"
 
 printf 'chi,psi,delta1,gamma\n1.1667,2,1,1\n1.1667,-1,1,1\n' >cases.csv # the second row fails: a message
@@ -16,7 +17,8 @@ run() {
     status=$?
 }
 
-# same ARGUMENT...: whatever is closed, the files are those of a run in which nothing is; a PDF holds its date.
+# same ARGUMENT...: whatever is closed, the files are those of a run in which nothing is; a PDF
+# holds its date.
 same() {
     rm -rf open shut
     run open '' "$@"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The method cvode and the event log by the command; in a build without the component both are refused by its name.
+# The method cvode and the event log by the command; in a build without the component both are
+# refused by its name.
 . "$(dirname -- "$0")/common.sh"
 
 numbers="--chi 1.1667 --psi 2 --delta1 1 --gamma 1"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# restitute fit: constants from a drop test, the material file it writes, DMA curves, remarks and exit statuses, refusals.
+# restitute fit: constants from a drop test, the material file it writes, DMA curves, remarks and
+# exit statuses, refusals.
 . "$(dirname -- "$0")/common.sh"
 
 "$RESTITUTE" fit --help >out 2>err
@@ -43,7 +44,8 @@ expect 1 fit --input noisy.csv $ball --known modulus1=1e6
 grep -q '^ *modulus2_pa .* above [0-9.e+]*$' out || fail "no lower bound: $(cat out)"
 has err 'the data give no upper bound of modulus2_pa'
 
-# A signal is obeyed within a piece: here behind the starts, in the precise fit of all rows, half a minute and more.
+# A signal is obeyed within a piece: here behind the starts, in the precise fit of all rows, half a
+# minute and more.
 awk 'BEGIN { print "speed_m_s,angle_deg,ez,ex"; for (i = 0; i < 6000; i++)
     print 0.01 * 1000 ^ (i / 6000) "," 5 + i % 80 "," 0.9 - 0.4 * i / 6000 ",0.1" }' >oblique.csv
 "$RESTITUTE" fit --input oblique.csv $ball --friction 0.3 --starts 1 >out 2>err </dev/null &

@@ -127,7 +127,8 @@ expect 1 pair --input rare.csv --method sync --join rare1.csv,rare2.csv --output
 has rare.out ,inf,
 sed 1d rare2.csv | cat rare1.csv - | cmp - rare.out || fail "rare rows are changed"
 
-# Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi does not change.
+# Contours of what hardly varies or not at all: an elastic solid, a narrow range, an e_z that psi
+# does not change.
 contours() { # TEXT ARGUMENT...: the text stands in the figure
     text=$1
     shift

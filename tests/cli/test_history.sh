@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The history: columns with units, evenly spaced rows, and velocities that begin and end as the pair says.
+# The history: columns with units, evenly spaced rows, and velocities that begin and end as the pair
+# says.
 . "$(dirname -- "$0")/common.sh"
 
 expect 0 history $scene --velocity 1 --angle 30

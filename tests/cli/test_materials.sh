@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Material files: every shipped one works and names its source; every wrong one is refused by line, value and range.
+# Material files: every shipped one works and names its source; every wrong one is refused by line,
+# value and range.
 . "$(dirname -- "$0")/common.sh"
 
 for file in "$materials"/*.json; do

@@ -1,12 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Unlike materials by --partner FILE, and the model limits in words: text, JSON, and the names in the column status.
+# Unlike materials by --partner FILE, and the model limits in words: text, JSON, and the names in
+# the column status.
 . "$(dirname -- "$0")/common.sh"
 
 glass="--material $materials/aluminium_oxide.json --partner $materials/soda_lime_glass.json --radius 0.0025
     --density 4000 --friction 0.092"
 
-# Dundurs' constant of the pair, by hand from the moduli in the files: 154 GPa and 0.23, 29.2 GPa and 0.2.
+# Dundurs' constant of the pair, by hand from the moduli in the files: 154 GPa and 0.23, 29.2 GPa
+# and 0.2.
 expect 0 pair $glass --velocity 3.9 --angle 40
 has out "Dundurs' beta          -0.263" 'passed: the materials are elastically unlike'
 expect 0 pair $glass --velocity 3.9 --angle 40 --dundurs-limit 0.3
@@ -22,7 +24,7 @@ expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --dens
 # history has no place for them but standard error; nothing is said of a gentle impact.
 ball="--material $materials/polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --angle 30"
 expect 0 history $ball --velocity 10 --output history.csv
-has err 'restitute: remark: ' 'contact radius/R = 0.' 'passes the limit 0.1'
+has err 'restitute: remark: ' 'contact radius/R = 0.' 'exceeds the limit 0.1'
 expect 0 history $ball --velocity 1e-4 --output history.csv
 [ ! -s err ] || fail "a remark on a gentle impact"
 expect 0 pair $ball --velocity 10 --format csv

@@ -12,8 +12,9 @@ near "$(value out max_indentation)" 0.833106905 1e-3
 [ -z "$(value out status)" ] || fail "a remark on an impact without one"
 cp out full.csv
 
-# chi = 7/6 is the default; delta2 = delta1 sqrt(gamma) stands for gamma or for delta1. The product is rounded, so the
-# pair agrees only to rounding, amplified over the steps: 1e-9 is far above that and far below the tolerance.
+# chi = 7/6 is the default; delta2 = delta1 sqrt(gamma) stands for gamma or for delta1. The product
+# is rounded, so the pair agrees only to rounding, amplified over the steps: 1e-9 is far above that
+# and far below the tolerance.
 delta2=0.9856612802509994
 for rest in "--delta1 0.815259 --gamma 1.46172" "--delta1 0.815259 --delta2 $delta2" "--gamma 1.46172 --delta2 $delta2"; do
     expect 0 pair --psi 1.38779 $rest --format csv
@@ -31,8 +32,8 @@ has out 'ez =' 'ex =' '+-' 'contact time' 'largest indentation' 'Energy' 'fricti
 expect 0 pair $scene --velocity 1 --angle 30
 has out Polyisobutylene ' s ' ' m ' ' N '
 
-# Steel on polyisobutylene at 1 m/s along the normal, psi = 2: the angle follows from psi = (2-2nu)/(2-nu) tan(angle)/mu.
-# Reference good to 3e-6; speed = 1/cos(angle), angle = atan(0.9).
+# Steel on polyisobutylene at 1 m/s along the normal, psi = 2: the angle follows from psi =
+# (2-2nu)/(2-nu) tan(angle)/mu. Reference good to 3e-6; speed = 1/cos(angle), angle = atan(0.9).
 expect 0 pair $scene --velocity 1.3453624047073710 --angle 41.987212495816664 --format csv
 near "$(value out ez)" 0.280916784 1e-3
 near "$(value out ex)" 0.151295099 1e-3
@@ -41,7 +42,8 @@ expect 0 pair --material $materials/polyisobutylene.csv --radius1 0.005 --densit
     --speed 1.3453624047073710 --angle 41.987212495816664 --format csv
 [ "$(value out ez)" = "$(value first.csv ez)" ] || fail "the .csv material and the aliases give another pair"
 
-# Spin: backspin that cancels the sliding leaves nothing to turn back; sin(30 deg) * 1 m/s = 0.5 m/s = 0.005 m * 100/s.
+# Spin: backspin that cancels the sliding leaves nothing to turn back; sin(30 deg) * 1 m/s = 0.5 m/s
+# = 0.005 m * 100/s.
 expect 0 pair $scene --velocity 1 --angle 30 --spin -100 --format json
 near "$(sed -n 's/.*"psi": \([^,]*\),*/\1/p' out)" 0 1e-12 # rounding in sin(30 deg)
 expect 0 pair $scene --velocity 1 --angle 30 --rotation-blocked
@@ -53,7 +55,8 @@ expect 0 pair --material $materials/polyisobutylene.json --radius 0.005 --radius
 if have python3; then python3 -m json.tool out >/dev/null || fail "the output is not JSON"; fi
 has out '"version"' '"command"' '"tolerance"' '"ez"' '"residual_z"' '"chi"' '"units"' '"name"'
 
-# The other method, at a tolerance that the default one would need minutes for. Euler is within 1e-3 of it.
+# The other method, at a tolerance that the default one would need minutes for. Euler is within 1e-3
+# of it.
 expect 0 pair --chi 1.1666666666666667 --psi 1.38779 --delta1 0.815259 --gamma 1.46172 --method sync --tolerance 1e-7 \
     --format csv
 near "$(value out ez)" 0.834789766 1.01e-7 # the reference is printed with nine digits
@@ -63,7 +66,8 @@ near "$(value out ex)" 0.472769791 1.01e-7
 expect 0 pair --psi 2 --delta1 1 --gamma 1 --method sync
 has out 'ez =' 'ex =' 'sync, tolerance 0.001'
 
-# Number and time step can be set; a step too large to be stable is refused with the largest that is.
+# Number and time step can be set; a step too large to be stable is refused with the largest that
+# is.
 expect 0 pair --psi 2 --delta1 1 --gamma 1 --elements 50 --time-step 0.002 --format json
 has out '"elements": 50' '"time_step": 0.002'
 refused 'time_step' pair --psi 2 --delta1 100 --gamma 0 --time-step 1

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# An interrupted batch leaves OUT.partial; --resume goes on from it and ends with the bytes of an undisturbed run.
+# An interrupted batch leaves OUT.partial; --resume goes on from it and ends with the bytes of an
+# undisturbed run.
 . "$(dirname -- "$0")/common.sh"
 
 # Enough work for about a second, so that the signal meets a run under way.
@@ -67,7 +68,8 @@ head -50 cases.csv >few.csv
 expect 0 pair --input few.csv --tolerance 3e-4 --output out.csv --resume
 head -50 whole.csv | cmp - out.csv || fail "--resume from nothing gives other rows"
 
-# A material that a column names belongs to the inputs: changed in between, its rows must not be mixed.
+# A material that a column names belongs to the inputs: changed in between, its rows must not be
+# mixed.
 rm -f out.csv*
 sed 's/"poisson_ratio": 0.5/"poisson_ratio": 0.4/' "$materials/polyisobutylene.json" >rubber.json
 cp "$materials/polyisobutylene.csv" .

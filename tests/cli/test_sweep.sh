@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# `restitute sweep`: figures by name with their checks, the solids of numbers and shifted times that they are drawn with.
+# `restitute sweep`: figures by name with their checks, the solids of numbers and shifted times that
+# they are drawn with.
 . "$(dirname -- "$0")/common.sh"
 have gnuplot || exit 77
 have python3 && python=python3 || python=true
 
-# A figure: all its files, the scatter below the tolerance, no check failed; a rerun writes the same bytes.
+# A figure: all its files, the scatter below the tolerance, no check failed; a rerun writes the same
+# bytes.
 mkdir two
 for figure in fig4 fig5 fig6 fig11 maxwell tangent friction; do
     expect 0 sweep $figure --output one
@@ -24,7 +26,8 @@ for ending in .csv -curves.csv .svg; do cmp one/fig4$ending two/fig4$ending || f
 expect 0 sweep fig4 --output two --seed 1
 cmp -s one/fig4.csv two/fig4.csv && fail "another seed draws the same impacts"
 
-# The method and the tolerance are those of the options: Euler with 1e-2 scatters more than 1e-5 and less than 1e-2.
+# The method and the tolerance are those of the options: Euler with 1e-2 scatters more than 1e-5 and
+# less than 1e-2.
 expect 0 sweep fig4 --output two --method euler --tolerance 1e-2
 awk '/scatter of e_z/ { exit !($7 + 0 > 1e-5) }' out || fail "the method is not that of the option: $(cat out)"
 

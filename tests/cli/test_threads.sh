@@ -3,7 +3,8 @@
 # The bytes of a batch do not depend on the number of threads, failed rows and remarks included.
 . "$(dirname -- "$0")/common.sh"
 
-# The same run with 1, 2, 3 and 64 threads and by default, into a file and to standard output, CSV and JSON.
+# The same run with 1, 2, 3 and 64 threads and by default, into a file and to standard output, CSV
+# and JSON.
 same_for_any_number() {
     wanted=$1
     shift
@@ -24,7 +25,8 @@ same_for_any_number() {
     grep -q '"ez"' one.json || fail "no results in the JSON"
 }
 
-# Some hundred rows of unlike cost; every seventh is refused, by the command or by the library, one in 20 has a remark.
+# Some hundred rows of unlike cost; every seventh is refused, by the command or by the library, one
+# in 20 has a remark.
 {
     echo psi,delta1,gamma
     awk 'BEGIN { for (i = 1; i <= 400; i++)
@@ -45,7 +47,8 @@ has one.err 'cases.csv line 8 (row 7)' 'rows failed'
 same_for_any_number 0 pair --input cases.csv --radius 0.005 --density 7800 --friction 0.3
 same_for_any_number 0 pair $scene --grid speed=0.01:1:5:log,angle=0:80:9
 
-# An interrupted run goes on with another number of threads. Enough work for a second, so that the signal meets it.
+# An interrupted run goes on with another number of threads. Enough work for a second, so that the
+# signal meets it.
 {
     echo psi,delta1,gamma
     awk 'BEGIN { for (i = 1; i <= 4000; i++) printf "%.3f,%.4f,%.3f\n", i / 800, 0.01 + i / 4000, i % 7 / 3 }'

@@ -1,8 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the package, moves the tree, and builds and runs the programs of project/ against it:  run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT FORTRAN OPENMP
-# The working directory is used up.
+# Installs the package, moves the tree, and builds and runs the programs of project/ against it:
+#   run.sh shared|static
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_
+# FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND FORTRAN OPENMP. The working directory is used
+# up.
 set -eu
 
 kind=$1
@@ -35,7 +37,7 @@ else
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
         -DRESTITUTE_CONTACT="$WITH_CONTACT" -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
         -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" -DRESTITUTE_FIT="$WITH_FIT" \
-        -DRESTITUTE_COMMAND="$WITH_FILES" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
+        -DRESTITUTE_COMMAND="$WITH_COMMAND" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
@@ -76,7 +78,7 @@ user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
 [ "$WITH_CONTACT" = OFF ] || user/consumer_contact
 [ "$WITH_TABLE" = OFF ] || user/consumer_table
-if [ "$WITH_TABLE_FILES" != OFF ] && [ -x second/bin/restitute ]; then
+if [ "$WITH_TABLE_FILES" != OFF ] && [ "$WITH_COMMAND" != OFF ]; then
     second/bin/restitute table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
         --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
     user/consumer_table_files user/table.h5
@@ -183,7 +185,8 @@ if [ "$WITH_FILES" != OFF ]; then
     "$CC" -o user/files_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_files.c" \
         $(pkg-config --cflags --libs $static restitute-files)
     user/files_by_pkg_config "$SOURCE_DIR/examples/materials/polyisobutylene.json"
-
+fi
+if [ "$WITH_COMMAND" != OFF ]; then
     echo "== the installed command finds its libraries"
     unset LD_LIBRARY_PATH
     second/bin/restitute --version

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs a program under valgrind: no memory error, no leak.  valgrind.sh PROGRAM, SANITIZED from the environment
+# Runs a program under valgrind: no memory error, no leak.  valgrind.sh PROGRAM, SANITIZED from the
+# environment
 set -eu
 if [ "$SANITIZED" = ON ]; then
     echo "skipped: valgrind and the address sanitizer do not go together"

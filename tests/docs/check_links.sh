@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Every relative link and figure in a Markdown file of the project leads to a file, and every #section to a heading.
-# Links in code (fenced, indented by four or between backticks) and those to other hosts are not looked at.
+# Every relative link and figure in a Markdown file of the project leads to a file, and every
+# #section to a heading. Links in code (fenced, indented by four or between backticks) and those to
+# other hosts are not looked at.
 #   SOURCE_DIR=... check_links.sh
 set -eu
 
@@ -36,7 +37,8 @@ sections() {
         }' "$1"
 }
 
-# check DIRECTORY: prints what is wrong; status 1 if anything is. The count of links is left in the file `count`.
+# check DIRECTORY: prints what is wrong; status 1 if anything is. The count of links is left in the
+# file `count`.
 check() {
     find "$1" \( -name .git -o -name build -o -name '*-results' -o -type d -exec test -e '{}/CMakeCache.txt' \; \) -prune -o -name '*.md' -print | sort | links >all_links
     wc -l <all_links | tr -d ' ' >count
@@ -60,7 +62,8 @@ check() {
     return "$wrong"
 }
 
-# First on a tree of which is known what is wrong: what finds nothing there would find nothing anywhere.
+# First on a tree of which is known what is wrong: what finds nothing there would find nothing
+# anywhere.
 mkdir -p known
 cat >known/a.md <<'END'
 # A first section, with marks

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finds circles in the house: circles.py TREE
 
-Looks at four kinds of arrows: includes between files of TREE/src, a .c and its .h being one file; calls between its .c files;
-both between its folders; and `use` between files and folders of TREE/fortran. Prints the members of each circle, and includes
-that name no file of src. Exit status 1 if there are any.
+Looks at four kinds of arrows: includes between files of TREE/src, a .c and its .h being one
+file; calls between its .c files; both between its folders; and `use` between files and folders
+of TREE/fortran. Prints the members of each circle, and includes that name no file of src. Exit
+status 1 if there are any.
 """
 
 import re
@@ -24,7 +25,8 @@ def text_of(path):
 
 
 def includes_of(src):
-    """{file: files that it includes}, a file being its path in src without suffix, and a list of includes that name no file."""
+    """{file: files that it includes}, a file being its path in src without suffix, and a list of
+    includes that name no file."""
     paths = sorted(src.rglob("*.[ch]"))
     arrows, astray = {}, []
     for path in paths:

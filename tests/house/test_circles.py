@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""circles.py on small trees, one with each kind of circle, one with none: what it must find, and what not."""
+"""circles.py on small trees, one with each kind of circle, one with none: what it must find, and
+what not."""
 
 import subprocess
 import sys
@@ -22,7 +23,8 @@ SOUND = {
 
 
 def found_in(more):
-    """Exit status and lines of circles.py on the sound tree with more in it: {file: text behind what is there}."""
+    """Exit status and lines of circles.py on the sound tree with more in it: {file: text behind
+    what is there}."""
     with tempfile.TemporaryDirectory() as tree:
         for name in SOUND | more:
             path = Path(tree, name)

@@ -1,5 +1,5 @@
-/* A naive explicit Euler of the paper's foundation in SI units, (5), (9)-(17): every element, both directions, every step;
- * nothing of the library in it, nothing scaled, nothing left out.
+/* A plain explicit Euler of the paper's foundation in SI units, (5), (9)-(17): every element, both
+ * directions, every step. It uses no code of the library, scales nothing and omits nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_SI_EULER_H
 #define TEST_SI_EULER_H
@@ -9,7 +9,7 @@
 
 enum { si_terms = 4 };
 
-/* Sphere and half-space: what two bodies have been reduced to. */
+/* Sphere and half-space, to which two bodies have been reduced. */
 struct si_scene {
     double mass, radius;   /* kg, m: of the pair */
     double mobility;       /* 1/kg: sum of 1/m + R^2/J */
@@ -63,7 +63,8 @@ static double si_friction(const struct si_scene *s, double factor, double trial,
     return held;
 }
 
-/* Moves one element with the sphere; adds its forces. An element reached within the step moves by what is left of it. */
+/* Moves one element with the sphere; adds its forces. An element reached within the step moves by
+ * what is left of it. */
 static void si_step_element(const struct si_scene *s, double depth, double vz, double vx, int loading,
                             struct si_element *e, double *normal, double *tangential)
 {

@@ -1,4 +1,5 @@
-/* What energy allows and the default method promises, on random impacts over its whole domain and on its corners.
+/* What energy allows and the default method promises, on random impacts over its whole domain and
+ * on its corners.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/random.h"
 #include "../support/solve.h"
@@ -24,7 +25,8 @@ static void check_impact(restitute_impact impact, const char *what, int number)
     CHECK(r.contact_time > 0 && isfinite(r.contact_time) && r.max_indentation > 0 && r.max_normal_force > 0,
           "%s %d: contact time %g", what, number, r.contact_time);
 
-    /* First order: three quarters of the error go with four times the resolution, so the difference is 3/4 of it. */
+    /* First order: three quarters of the error go with four times the resolution, so the difference
+     * is 3/4 of it. */
     struct restitute_result f = solve_impact(finer(&r, 4), impact).result;
     CHECK_NEAR(r.ez, f.ez, 0.75e-3, "%s %d: chi %.17g psi %.17g delta1 %.17g gamma %.17g", what, number, impact.chi,
                impact.psi, impact.delta1, impact.gamma);

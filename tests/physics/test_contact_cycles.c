@@ -141,8 +141,8 @@ static void paths_do_not_depend_on_directions(void **unused)
         }
 }
 
-/* A normal that turns by a degree a step takes the force with it: in the turned frame nothing has
- * moved. */
+/* The force turns with a normal that turns by a degree a step: in the rotating frame nothing
+ * moves. */
 static void force_turns_with_the_normal(void **unused)
 {
     (void)unused;

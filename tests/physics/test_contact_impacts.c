@@ -100,8 +100,7 @@ static struct tally run(int sets, int elements, double per_contact, int wide)
     return all;
 }
 
-/* Of all impacts with solid spheres 99.5 % are within 0.01 and none is beyond 0.03: what a DEM user
- * is told. */
+/* Errors of 99.5 % of all impacts with solid spheres are within 0.01, and none is above 0.03. */
 static void pairs_agree_with_the_library(void **unused)
 {
     (void)unused;

@@ -1,5 +1,4 @@
-/* No contact gives more work than it took, whatever is done to it, and nothing but numbers comes
- * out.
+/* No contact returns more work than it has received, on any path, and all results are finite.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 #include "../support/random.h"
@@ -39,8 +38,8 @@ static void drive_at_random(struct drive *d, uint64_t *seed, double size)
         drive_by(d, -0.1 * size, 0.01 * size, 0);
 }
 
-/* What velocity Verlet takes for the work is the trapezoid; beyond its own error and rounding (a
- * thousand steps of 1e-16) none must be gained. */
+/* Velocity Verlet computes the work by the trapezoidal rule. No energy may be gained beyond the
+ * error of this rule and rounding (a thousand steps of 1e-16). */
 static void no_drive_gains_work(void **unused)
 {
     (void)unused;

@@ -28,7 +28,8 @@ static int solve_all(void **state)
         const struct truth *t = &rows[i];
         restitute_impact impact = impact_of(t->chi, t->psi, t->delta1, t->gamma);
         struct restitute_result first = solve_impact(default_options(), impact).result;
-        /* where the default is fine already, half of it is asymptotic too, at a quarter of the work */
+        /* where the default is fine already, half of it is asymptotic too, at a quarter of the
+         * work */
         for (int k = 0; k < levels; k++) {
             restitute_options options = finer(&first, first.elements > 64 ? 0.5 * (1 << k) : 1 << k);
             struct restitute_result r = solve_impact(options, impact).result;
@@ -44,12 +45,12 @@ static int is_kelvin_voigt(const struct truth *t)
     return t->gamma == 0;
 }
 
-/* At the coarsest resolution the step is about 1.5e-3, and the second-order part of an error some h^2 = 2e-6: it does not
- * hide the order of an error above this. */
+/* At the coarsest resolution the step is about 1.5e-3, and the second-order part of an error some
+ * h^2 = 2e-6: it does not hide the order of an error above this. */
 static const double asymptotic = 1e-5;
 
-/* Per row. The observed order over three halvings is 1; 0.1 is what a second-order part of a fifth of the coarsest error
- * would make of it: log2(1.2)/3. */
+/* Per row. The observed order over three halvings is 1; 0.1 is what a second-order part of a fifth
+ * of the coarsest error would make of it: log2(1.2)/3. */
 static void error_of_ez_is_of_first_order(void **state)
 {
     (void)state;
@@ -101,8 +102,9 @@ static int is_standard(const struct truth *t)
     return is_viscous(t) && !is_kelvin_voigt(t);
 }
 
-/* With stick and slip the edge adds a part of second order and of either sign, so that single rows pass through zero;
- * the root mean square over the rows does not. It contains that part: while it still counts, the order is above 1. */
+/* With stick and slip the edge adds a part of second order and of either sign, so that single rows
+ * pass through zero; the root mean square over the rows does not. It contains that part: while it
+ * still counts, the order is above 1. */
 static void error_of_ex_is_of_first_order_over_the_rows(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The methods `cvode` and `sync` where slip is hard to follow (corners.h): the former has no panels, no front and no
- * rings of slip but element by element.
+/* The methods `cvode` and `sync` where slip is hard to follow (corners.h): the former has no
+ * panels, no front and no rings of slip but element by element.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/corners.h"
 #include "../support/cvode.h"
@@ -7,7 +7,8 @@
 
 enum { impacts = 25 };
 
-/* Both to 1e-5, to which `sync` also comes from 1e-8. An estimate may be too low in one of twenty: three times. */
+/* Both to 1e-5, to which `sync` also comes from 1e-8. An estimate may be too low in one of twenty:
+ * three times. */
 static void compare(restitute_impact impact)
 {
     const struct solution c = solve_impact(cvode_to(1e-5), impact);
@@ -40,7 +41,8 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
     compare(impact_of(1.106, 2.6e-5, 0.124, 0.2997));
 }
 
-/* psi = 2 chi, and next to it: both are one event of the integrator, or two that it cannot tell apart. */
+/* psi = 2 chi, and next to it: both are one event of the integrator, or two that it cannot tell
+ * apart. */
 static void gross_slip_may_end_at_the_turning_point(void **state)
 {
     (void)state;
@@ -64,8 +66,8 @@ static double ex_of(restitute_options options, const restitute_impact *impact)
     return result.ex;
 }
 
-/* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1, or by rounding 1. If
- * that end is missed, e_x is off by up to 2: 1e-2 is enough. */
+/* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1,
+ * or by rounding 1. If that end is missed, e_x is off by up to 2: 1e-2 is enough. */
 static void gross_slip_may_end_at_first_touch(void **state)
 {
     const double chi[] = {0.51, 7.0 / 6, 14.5, 1000}, eps = 2.220446049250313e-16;

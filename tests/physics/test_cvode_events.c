@@ -7,12 +7,12 @@
 static const double chi = 7.0 / 6;
 static struct logged log_a, log_b;
 
-/* Errors of the states are below the tolerance (test_cvode_truth.c); so are those of the instants that they define, times the
- * slope with which time follows, at most 2 in what is compared here. */
+/* Errors of the states are below the tolerance (test_cvode_truth.c); so are those of the instants
+ * that they define, times the slope with which time follows, at most 2 in what is compared here. */
 static const double tolerance = 1e-6, instant = 2e-6;
 
-/* Elastic: D'^2 = 1 - D^(5/2), so with D^(5/2) = sin^2 p the time is (4/5) int_0^p sin^(-1/5); p = u^5 makes that smooth.
- * Simpson's rule with 2000 intervals. */
+/* Elastic: D'^2 = 1 - D^(5/2), so with D^(5/2) = sin^2 p the time is (4/5) int_0^p sin^(-1/5); p =
+ * u^5 makes that smooth. Simpson's rule with 2000 intervals. */
 static double elastic_time(double depth)
 {
     const int n = 2000;
@@ -68,11 +68,13 @@ static void events_come_in_order_and_change_nothing(void **state)
     CHECK(last->kind == RESTITUTE_CVODE_EVENT_CONTACT_END, "%s", restitute_cvode_event_text(last->kind));
     CHECK_NEAR(last->time, s.result.contact_time, 1e-5, "the end of contact");
     CHECK_NEAR(-last->normal_velocity, s.result.ez, 1e-5, "both are within the tolerance");
-    /* one of the runs that the pair was extrapolated from: its own error is larger than that of the pair */
+    /* one of the runs that the pair was extrapolated from: its own error is larger than that of the
+     * pair */
     CHECK_NEAR(-last->tangential_velocity / 0.8, s.result.ex, 1e-3, "the run with most elements");
 }
 
-/* theory.md, 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, whatever the solid; elastic: D from the energy. */
+/* docs/theory.md, section 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, for any solid;
+ * elastic: D from the energy. */
 static void gross_slip_ends_once_and_everywhere(void **state)
 {
     const double cases[][3] = {{1.5, 0, 1}, {2.5, 0, 1}, {2, 1, 1}, {1.5, 0.3, 0}, {2.6, 0.5, 0.1}};
@@ -92,7 +94,8 @@ static void gross_slip_ends_once_and_everywhere(void **state)
     }
 }
 
-/* psi_c is exact (docs/theory.md, section 4): just below it gross slip ends, just above it does not. */
+/* psi_c is exact (docs/theory.md, section 4): just below it gross slip ends, just above it does
+ * not. */
 static void gross_slip_lasts_from_the_critical_psi_on(void **state)
 {
     (void)state;
@@ -105,8 +108,8 @@ static void gross_slip_lasts_from_the_critical_psi_on(void **state)
     CHECK_NEAR(log_b.result.ex, 2 * chi * (1 + log_b.result.ez) / (critical * (1 + 1e-5)) - 1, 1e-14, "(27)");
 }
 
-/* Elastic: all elements that slip do so with U' - D' or U' + D', so they stick again together when that vanishes. Edge slip begins
- * when |U'| reaches D', for psi = 0.9 at D = 0.96 (two digits). */
+/* Elastic: all elements that slip do so with U' - D' or U' + D', so they stick again together when
+ * that vanishes. Edge slip begins when |U'| reaches D', for psi = 0.9 at D = 0.96 (two digits). */
 static void elastic_elements_stick_again_together(void **state)
 {
     (void)state;
@@ -151,7 +154,8 @@ static void events_of_a_scene_have_units(void **state)
     for (size_t i = 0; i < log_a.events.count; i++) {
         const restitute_cvode_event *a = &log_a.event[i], *b = &log_b.event[i];
         CHECK(a->kind == b->kind, "event %zu", i);
-        /* the numbers come by other roads, which rounding tells apart; CVODE's steps make more of it */
+        /* the numbers come by other roads, which rounding tells apart; CVODE's steps make more of
+         * it */
         CHECK_NEAR(a->time / numbers.time, b->time, 1e-6, "event %zu", i);
         CHECK_NEAR(a->position / numbers.length_x, b->position, 1e-6, "event %zu", i);
         CHECK_NEAR(a->indentation / numbers.length_z, b->indentation, 1e-6, "event %zu", i);

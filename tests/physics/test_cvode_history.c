@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/cvode.h"
 #include "../support/random.h"
+#include "../support/thin_slip.h"
 
 enum { samples = 201, columns = 8 };
 enum { TIME, DEPTH, CONTACT, STICK, FZ, FX, VZ, VX };
@@ -48,8 +49,9 @@ static void all_is_finite(const struct track *t, int number)
                   number, i->chi, i->psi, i->delta1, i->gamma, k, j);
 }
 
-/* |change of the velocity + rate times the integral of the force| from sample j - 1 to j, less what the trapezoidal rule may err:
- * half of what the force changes there, and beside it, for a largest force between the samples. */
+/* The balance |change of the velocity + rate times the integral of the force| from sample j - 1 to
+ * j, minus the possible error of the trapezoidal rule: half of the change of the force there and in
+ * the neighbouring intervals, for a largest force between the samples. */
 static double momentum_missing(const struct track *t, int force, int velocity, double rate, int j)
 {
     const double *f = t->column[force], *v = t->column[velocity], h = t->column[TIME][j] - t->column[TIME][j - 1];
@@ -59,8 +61,8 @@ static double momentum_missing(const struct track *t, int force, int velocity, d
     return fabs(v[j] - v[j - 1] + 0.5 * rate * h * (f[j] + f[j - 1])) - 0.5 * rate * h * change;
 }
 
-/* D'' = -F_z, U'' = -2 chi F_x. CVODE's interpolation leaves some hundredth of the tolerance, 2e-4 of psi at most in 1000 others
- * of these impacts; a force that is off by a hundredth shows. */
+/* D'' = -F_z, U'' = -2 chi F_x. CVODE's interpolation leaves some hundredth of the tolerance, 2e-4
+ * of psi at most in 1000 others of these impacts; a force that is off by a hundredth shows. */
 static void forces_change_the_velocities(const struct track *t, int number)
 {
     const restitute_impact *i = &t->impact;
@@ -74,7 +76,8 @@ static void forces_change_the_velocities(const struct track *t, int number)
     }
 }
 
-/* Terms that relax within a step of CVODE, as those of a small gamma do, are where looking back could overflow. */
+/* Terms that relax within a step of CVODE, as those of a small gamma do, are where looking back
+ * could overflow. */
 static void histories_and_ledgers_of_standard_solids(void **state)
 {
     uint64_t random = 19;
@@ -121,9 +124,19 @@ static void histories_and_ledgers_of_prony_solids(void **state)
     restitute_solver_destroy(solver);
 }
 
+static void slip_that_is_left_out_changes_less_than_the_estimate(void **state)
+{
+    struct logged log;
+    (void)state;
+    check_thin_slip(cvode_to(1e-4), 0.01);
+    solve_logged(cvode_to(1e-4), impact_of(7.0 / 6, 1e-5, 1, 1), &log);
+    CHECK_NEAR(log.event[0].tangential_velocity, 1e-5, 1e-20, "an event in the caller's unit");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(histories_and_ledgers_of_standard_solids),
-                                       cmocka_unit_test(histories_and_ledgers_of_prony_solids)};
+                                       cmocka_unit_test(histories_and_ledgers_of_prony_solids),
+                                       cmocka_unit_test(slip_that_is_left_out_changes_less_than_the_estimate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
-/* The method `cvode` where relaxation is fastest against the impact, gamma = 1e-6, beside the reduced normal equations, integrated here by
- * Runge and Kutta's formulas in small steps and with steps twice as large, which tells the error of that.
+/* The method `cvode` with very fast relaxation, gamma = 1e-6, compared with the reduced normal
+ * equations. These are integrated here by Runge and Kutta's formulas, with small steps and with
+ * steps twice as large for the error.
  *
- * Kelvin-Voigt (docs/sync.md, (3) and (9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta sqrt(D) D']
+ * Kelvin-Voigt (docs/sync.md, (3) and (9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta
+ * sqrt(D) D']
  *                             restitution:  D'' = -(5/4) (D + theta D')^(3/2), until D + theta D' = 0
  * Standard solid (the same), A = sqrt(B) the edge, B = D in compression:
  *     D'' = -(15/8) [A D - A^3/3 + P/gamma],  P' = A D' - P/tau + w A'
@@ -95,7 +97,8 @@ static double left(const struct reduced *r, const struct state *s)
     return r->gamma > 0 ? s->of[SQUARE] : s->of[DEPTH] + r->theta * s->of[VELOCITY];
 }
 
-/* Steps to the end of the phase, finer and finer ones towards it: the edge stops there like a square root. */
+/* Steps to the end of the phase, finer and finer ones towards it: the edge stops there like a
+ * square root. */
 static void follow(struct reduced *r, double h, double *t, struct state *s)
 {
     for (double now = h; now > 1e-9 * h;) {
@@ -131,9 +134,11 @@ static double reduced_ez(double theta, double gamma, double h)
     return -s.of[VELOCITY];
 }
 
-/* delta1 = 1e-6: tau = 1.5e-12 T, which no reference can resolve and none has to: the solid differs from Kelvin-Voigt's by tau over the
- * contact time. delta1 = 1e3: tau = 1.5e-3 T, a fourteenth of the contact time, with a spring a million times as stiff
- * as the other. The reference is good to 1e-7, the method to its tolerance; that is a tenth of what 1e-5 would allow. */
+/* delta1 = 1e-6: tau = 1.5e-12 T. No reference resolves this, and none needs to: the solid differs
+ * from a Kelvin-Voigt solid by tau over the contact time. delta1 = 1e3: tau = 1.5e-3 T, a
+ * fourteenth of the contact time, with a spring a million times as stiff as the other. The
+ * reference is good to 1e-7, the method to its tolerance; that is a tenth of what 1e-5 would
+ * allow. */
 static void stiff_corner_follows_the_reduced_equations(void **state)
 {
     const struct {
@@ -155,8 +160,9 @@ static void stiff_corner_follows_the_reduced_equations(void **state)
     }
 }
 
-/* The reference itself: rows of impact_truth.csv that relax, or damp, no faster than twenty of its steps. It is of an order above
- * one, so its error is less than the change from steps twice as large. 1e-9: where it hits the end. */
+/* The reference itself: rows of impact_truth.csv that relax, or damp, no faster than twenty of its
+ * steps. It is of an order above one, so its error is less than the change from steps twice as
+ * large. 1e-9: where it hits the end. */
 static void the_reduced_equations_give_known_values(void **state)
 {
     static struct truth truth[truth_rows];

@@ -1,4 +1,5 @@
-/* The method `cvode` against the reference impacts of tests/data, its estimate against the true error, and the stiff corner.
+/* The method `cvode` against the reference impacts of tests/data, its estimate against the true
+ * error, and the stiff corner.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
@@ -90,7 +91,8 @@ static void polyisobutylene_is_met(void **state)
     restitute_material_destroy(pib);
 }
 
-/* A solid with a dashpot in parallel to its terms has no row; the method sync is independent of this one. */
+/* A solid with a dashpot in parallel to its terms has no row; the method sync is independent of
+ * this one. */
 static void prony_with_dashpot_agrees_with_sync(void **state)
 {
     const double tau[] = {0.05, 0.4, 3}, g[] = {1, 0.7, 0.5}, psi[] = {0, 0.01, 0.6, 1.4};
@@ -105,9 +107,9 @@ static void prony_with_dashpot_agrees_with_sync(void **state)
     restitute_material_destroy(solid);
 }
 
-/* gamma = 1e-6: relaxation within 1e-12 or 1e-3 of the scale of time. The normal problem is that of sync, without elements, and for
- * the weak damping that of the limit 1 - 1.891706 theta (theta = 1.5e-6, the next term is of the order of its
- * square). */
+/* gamma = 1e-6: relaxation within 1e-12 or 1e-3 of the scale of time. The normal problem is that of
+ * sync, without elements, and for the weak damping that of the limit 1 - 1.891706 theta (theta =
+ * 1.5e-6, the next term is of the order of its square). */
 static void stiff_corner_agrees_with_sync(void **state)
 {
     const double delta1[] = {1e-6, 1e3};
@@ -138,7 +140,8 @@ static void families_agree(void **state)
     }
 }
 
-/* The accounts are kept by the trapezium rule over steps and over at least 256 elements: the residual is theirs, not the pair's. */
+/* The accounts are kept by the trapezoidal rule over steps and over at least 256 elements: the
+ * residual is theirs, not the pair's. */
 static void energy_is_accounted_for(void **state)
 {
     const double cases[][3] = {{0.5, 0, 1}, {2, 1, 1}, {0.7, 0.3, 0}, {5, 1, 1}, {0.7, 1, 0.01}, {1.3, 0.05, 2}};

@@ -1,11 +1,12 @@
-/* Published curves: ice that no linear solid follows, a golf ball that a drop test hardly determines, polyisobutylene back
- * from its own storage and loss modulus.
+/* Published curves: ice that no linear solid follows, a golf ball that a drop test hardly
+ * determines, polyisobutylene back from its own storage and loss modulus.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
 #include "../support/fit.h"
 
-/* e = 0.34 v^(-0.234), v in cm/s: Bridges, Hatzes and Lin, Nature 309, 1984; a sphere of 2.75 cm on ice. G = 3.5 GPa. */
+/* e = 0.34 v^(-0.234), v in cm/s: Bridges, Hatzes and Lin, Nature 309, 1984; a sphere of 2.75 cm on
+ * ice. G = 3.5 GPa. */
 static restitute_fit_result fit_ice(int model, double from)
 {
     enum { N = 20 };
@@ -23,8 +24,9 @@ static restitute_fit_result fit_ice(int model, double from)
     return fitted(N, points, &options);
 }
 
-/* Damping in proportion to the rate is the steepest that a linear solid has, and the law is steeper at low speeds: the
- * standard solid becomes Kelvin-Voigt's. From 0.8 cm/s on both are within the scatter of the measurement, about 0.02. */
+/* Damping in proportion to the rate is the steepest that a linear solid has, and the law is steeper
+ * at low speeds: the standard solid becomes Kelvin-Voigt's. From 0.8 cm/s on both are within the
+ * scatter of the measurement, about 0.02. */
 static void ice(void **state)
 {
     (void)state;
@@ -40,8 +42,9 @@ static void ice(void **state)
     restitute_material_destroy(upper.material);
 }
 
-/* Mean rebounds of a golf ball (41.5 g, 42 mm) from marble: Ali, Broggi, Cantarini, Misura del coefficiente di
- * restituzione, a students' report in the public repository giiulia/LabI-Dynamics-Thermodynamics. Means of ten drops. */
+/* Mean rebounds of a golf ball (41.5 g, 42 mm) from marble: Ali, Broggi, Cantarini, Misura del
+ * coefficiente di restituzione, a students' report in the public repository
+ * giiulia/LabI-Dynamics-Thermodynamics. Means of ten drops. */
 static void golf_ball(void **state)
 {
     static const double drop[] = {0.80, 0.90, 1.00, 1.10}, rebound[] = {0.6383, 0.7198, 0.7902, 0.8677},
@@ -82,7 +85,7 @@ struct curve {
     double tau[40], g[40], f[MOST], storage[MOST], loss[MOST], temperature[MOST];
 };
 
-/* tests/data/pib_prony.csv; its source stands in it. */
+/* tests/data/pib_prony.csv, which names its source. */
 static void read_series(struct curve *c)
 {
     char line[200];
@@ -133,7 +136,8 @@ static restitute_dma_result fit_curve(const struct curve *c, const double *tempe
     return r;
 }
 
-/* Within 2 % over eighteen decades, with fewer terms; the two of 0.1 Pa at 1e6 s and beyond cannot be seen. */
+/* Within 2 % over eighteen decades, with fewer terms; the two of 0.1 Pa at 1e6 s and beyond cannot
+ * be seen. */
 static void polyisobutylene(void **state)
 {
     struct curve c = {0};
@@ -156,7 +160,8 @@ static void polyisobutylene(void **state)
     restitute_material_destroy(r.material);
 }
 
-/* Nine temperatures, three decades of frequency each, 1 % noise: shifts come back, and the constants that made them. */
+/* Nine temperatures, three decades of frequency each, 1 % noise: shifts come back, and the
+ * constants that made them. */
 static void master_curve(void **state)
 {
     static const double temperatures[] = {-60, -50, -40, -25, -10, 5, 25, 45, 65};

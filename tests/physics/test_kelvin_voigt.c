@@ -1,8 +1,10 @@
 /* The normal impact of a Kelvin-Voigt solid against its closed ODE, and the ODE's two asymptotes.
  *
- * With f = u + theta u' (2) the foundation needs no elements. Compression, every |X| < sqrt(D) in contact:
+ * With f = u + theta u' (2) the foundation needs no elements. Compression, every |X| < sqrt(D) in
+ * contact:
  *     D'' = -(15/8) [(2/3) D^(3/2) + theta sqrt(D) D']
- * Restitution, contact where D + theta D' > X^2:  D'' = -(5/4) (D + theta D')^(3/2), until D + theta D' = 0.
+ * Restitution, contact where D + theta D' > X^2:  D'' = -(5/4) (D + theta D')^(3/2), until D +
+ * theta D' = 0.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/solve.h"
 
@@ -50,7 +52,8 @@ static double until(rate *f, struct motion m, double theta)
     return f == compression ? m.velocity : m.depth + theta * m.velocity;
 }
 
-/* Steps of `fineness` times the fastest time scale; the last one is shortened by bisection to end where the phase does. */
+/* Steps of `fineness` times the fastest time scale; the last one is shortened by bisection to end
+ * where the phase does. */
 static struct motion phase(rate *f, struct motion m, double theta, double fineness)
 {
     double t = 0;
@@ -81,8 +84,8 @@ static double ez_with(double theta, double fineness)
     return -phase(restitution, m, theta, fineness).velocity;
 }
 
-/* e_z by the ODE; halving the step must not change it by more than 1e-9 of its value. (The last step ends where the
- * force, a power 3/2, leaves zero: there the order is 2.5 instead of 4.) */
+/* e_z by the ODE; halving the step must not change it by more than 1e-9 of its value. (The last
+ * step ends where the force, a power 3/2, leaves zero: there the order is 2.5 instead of 4.) */
 static double ez_of(double delta1)
 {
     double theta = THETA_OF_DELTA1 * delta1, ez = ez_with(theta, 0.001);
@@ -90,9 +93,10 @@ static double ez_of(double delta1)
     return ez;
 }
 
-/* The error is below the requested tolerance, and near the estimate. The estimate is 1.25 times the last change c between
- * resolutions. With an error a h - b h^2 that change is a h - 3 b h^2: as long as the second-order part is below a fifth of
- * the first-order one, the error is below 2 c, that is 1.6 times the estimate. */
+/* The error is below the requested tolerance, and near the estimate. The estimate is 1.25 times the
+ * last change c between resolutions. With an error a h - b h^2 that change is a h - 3 b h^2: as
+ * long as the second-order part is below a fifth of the first-order one, the error is below 2 c,
+ * that is 1.6 times the estimate. */
 static void ez_follows_the_closed_ode(void **state)
 {
     (void)state;
@@ -113,8 +117,9 @@ static void the_ode_gives_known_values(void **state)
     CHECK_NEAR(ez_of(1), 0.2008, 5e-5, "printed to 4 digits");
 }
 
-/* 1 - e_z = 1.891706 theta - c theta^2: the remainder quarters when theta halves. The next term, of third order, is
- * theta times as large: 2 % of the remainder at delta1 = 0.01 for a coefficient of 1; 10 % allows for one of 5. */
+/* 1 - e_z = 1.891706 theta - c theta^2: the remainder quarters when theta halves. The next term, of
+ * third order, is theta times as large: 2 % of the remainder at delta1 = 0.01 for a coefficient of
+ * 1; 10 % allows for one of 5. */
 static void little_damping_has_the_first_order_coefficient_1_891706(void **state)
 {
     (void)state;
@@ -135,8 +140,8 @@ static double ratio_to_asymptote(double delta1, double ez)
     return ez * theta / pow(4 / (5 * theta), 2.0 / 3);
 }
 
-/* e_z -> (4/(5 theta))^(2/3)/theta: the ratio goes to 1. The next term is of the relative order theta^(-4/3) or
- * lower, so ten times the damping takes at least away half of the distance. */
+/* e_z -> (4/(5 theta))^(2/3)/theta: the ratio goes to 1. The next term is of the relative order
+ * theta^(-4/3) or lower, so ten times the damping takes at least away half of the distance. */
 static void strong_damping_has_the_asymptote(void **state)
 {
     (void)state;

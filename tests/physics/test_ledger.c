@@ -12,10 +12,11 @@ static int read_rows(void **state)
     return 0;
 }
 
-/* What explicit Euler loses of the energy. Positions move with the velocity before the step, so every step posts work
- * (dV)^2 too much, in units where the impact energy is 1. The sum of (dV)^2 is at most the largest dV times the
- * sum of all, F h (1 + e_z) <= 2 F h with F the largest force. The dissipation, taken at the end of the step instead of over it,
- * is wrong by the same order, with the other sign. In x dV is 2 chi q h with q <= f, and q about psi f in stick; the energy
+/* What explicit Euler loses of the energy. Positions move with the velocity before the step, so
+ * every step posts work (dV)^2 too much, in units where the impact energy is 1. The sum of (dV)^2
+ * is at most the largest dV times the sum of all, F h (1 + e_z) <= 2 F h with F the largest force.
+ * The dissipation, taken at the end of the step instead of over it, is wrong by the same order,
+ * with the other sign. In x dV is 2 chi q h with q <= f, and q about psi f in stick; the energy
  * there is psi^2. */
 static double closure_z(const struct solution *s)
 {
@@ -27,7 +28,8 @@ static double closure_x(const struct solution *s, double chi, double psi)
     return 2 * chi * closure_z(s) * fmin(1, 1 / psi);
 }
 
-/* The bounds shrink with the step: runs two and four times finer must close two and four times as well. */
+/* The bounds shrink with the step: runs two and four times finer must close two and four times as
+ * well. */
 static void both_accounts_close_to_first_order(void **state)
 {
     (void)state;
@@ -58,8 +60,8 @@ static double mean_square(int factor, int tangential)
     return sqrt(sum / truth_rows);
 }
 
-/* Not only the bound, the residual itself is of first order: four times finer leaves a quarter of it. Parts of second
- * order make it less than that, their signs a little more: 0.3. */
+/* Not only the bound, the residual itself is of first order: four times finer leaves a quarter of
+ * it. Parts of second order make it less than that, their signs a little more: 0.3. */
 static void residuals_shrink_with_elements_and_step(void **state)
 {
     (void)state;
@@ -104,7 +106,8 @@ static void rebound_energy_is_the_square_of_the_pair(void **state)
     }
 }
 
-/* Full slip, elastic: friction takes everything that is lost, and that is known: 1 - e_x^2 by (27). */
+/* Full slip, elastic: friction takes everything that is lost, and that is known: 1 - e_x^2 by
+ * (27). */
 static void friction_takes_what_full_slip_loses(void **state)
 {
     (void)state;

@@ -1,12 +1,13 @@
 /* Limits of the normal problem, and limits of friction, that are known exactly.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../support/solve.h"
+#include "../support/thin_slip.h"
 
 /* Contact time of an elastic sphere in T: 2.9432751843. */
 static const double elastic_contact_time = 2.9432751843;
 
-/* Bound on the error of a contact time: the end is dated within a step, and so is the exit of the last element but one
- * that it is continued from; the first-order rest is proportional to the step, by less than one. */
+/* Bound on the error of a contact time: the end is dated within a step, and so is the exit of the
+ * last element but one that it is continued from; the first-order rest is proportional to the step,
+ * by less than one. */
 static double contact_time_error(const restitute_result *r)
 {
     return 3 * r->time_step;
@@ -22,8 +23,9 @@ static void elastic_contact_lasts_2_9433_T(void **state)
     }
 }
 
-/* With steps far finer than elements the end is off by what the last elements leave open: 0.03 to 0.07 dx^2. Where the way
- * of the edge from the innermost element to the middle is continued wrongly, it is off by 1/4 dx^2. */
+/* With steps far finer than elements the end is off by what the last elements leave open: 0.03 to
+ * 0.07 dx^2. Where the way of the edge from the innermost element to the middle is continued
+ * wrongly, it is off by 1/4 dx^2. */
 static void end_of_contact_is_continued_to_the_middle(void **state)
 {
     (void)state;
@@ -34,8 +36,8 @@ static void end_of_contact_is_continued_to_the_middle(void **state)
     }
 }
 
-/* Without damping the default is better than its tolerance by far: the first-order part of the error vanishes and what
- * is left is of the size of the step squared, about 1e-6. */
+/* Without damping the default is better than its tolerance by far: the first-order part of the
+ * error vanishes and what is left is of the size of the step squared, about 1e-6. */
 static void elastic_impact_rebounds_with_ez_1(void **state)
 {
     (void)state;
@@ -46,9 +48,9 @@ static void elastic_impact_rebounds_with_ez_1(void **state)
     CHECK_NEAR(r.max_normal_force, 1.25, 2.5 * r.time_step, "the Hertz force at d0");
 }
 
-/* A relaxation time far above the contact time: the dashpot is frozen and both springs act, G1 + G2. Lengths and
- * times scale like (1 + 1/gamma)^(-2/5). What is left of the damping: the bound that merging states for it,
- * 4 D^(5/2) (g/tau) t, and g/tau = 1/(gamma^2 theta). */
+/* A relaxation time far above the contact time: the dashpot is frozen and both springs act, G1 +
+ * G2. Lengths and times scale like (1 + 1/gamma)^(-2/5). The remaining damping is within the bound
+ * of merging, 4 D^(5/2) (g/tau) t, with g/tau = 1/(gamma^2 theta). */
 static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **state)
 {
     (void)state;
@@ -74,11 +76,12 @@ static void damping_of_a_frozen_dashpot_falls_with_its_viscosity(void **state)
     double lost[2];
     for (int i = 0; i < 2; i++)
         lost[i] = 1 - solve_impact(to_tolerance(1e-5), impact_of(7.0 / 6, 10, i ? 1e4 : 1e2, 1)).result.ez;
-    /* the second-order term is the first times itself: at delta1 = 100 below 1 %; the error estimates are 1e-5 */
+    /* the second-order term is the first times itself: at delta1 = 100 below 1 %; the error
+     * estimates are 1e-5 */
     CHECK_NEAR(lost[0] / lost[1], 100, 1 + 100 * 1e-5 / lost[1], "lost %g and %g", lost[0], lost[1]);
 }
 
-/* No friction: nothing changes the tangential motion, at all. */
+/* No friction: the tangential motion does not change. */
 static void without_friction_ex_is_minus_1(void **state)
 {
     (void)state;
@@ -98,7 +101,7 @@ static void without_friction_ex_is_minus_1(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* Elastic similarity decouples the normal problem: bit for bit the same, whatever happens tangentially. */
+/* Elastic similarity decouples the normal problem: the same bits for any tangential motion. */
 static void normal_problem_does_not_feel_the_tangential_one(void **state)
 {
     (void)state;
@@ -120,7 +123,8 @@ static void normal_problem_does_not_feel_the_tangential_one(void **state)
     }
 }
 
-/* Values of the elastic no-slip impact with five decimals: half of the last digit, and the method's estimate. */
+/* Values of the elastic no-slip impact with five decimals: half of the last digit, and the method's
+ * estimate. */
 static void elastic_impact_without_slip_has_the_known_ex(void **state)
 {
     (void)state;
@@ -135,9 +139,10 @@ static void elastic_impact_without_slip_has_the_known_ex(void **state)
     }
 }
 
-/* Large friction approaches no friction limit. Only the edge slips then, where the force is below q ~ psi: e_x changes in
- * proportion to psi. The slope was measured to be below 1/2 (64 to 512 elements, psi down to 1e-4); when only the outermost
- * cell slips it is uncertain by as much again, which 2 psi covers with a factor of two. */
+/* Large friction approaches no friction limit. Only the edge slips then, where the force is below q
+ * ~ psi: e_x changes in proportion to psi. The slope was measured to be below 1/2 (64 to 512
+ * elements, psi down to 1e-4); when only the outermost cell slips it is uncertain by as much again,
+ * which 2 psi covers with a factor of two. */
 static void strong_friction_approaches_no_slip(void **state)
 {
     (void)state;
@@ -157,6 +162,14 @@ static void strong_friction_approaches_no_slip(void **state)
         }
 }
 
+static void slip_that_is_left_out_changes_less_than_the_estimate(void **state)
+{
+    (void)state;
+    check_thin_slip(to_tolerance(1e-3), 0.02);
+    check_thin_slip(sync_to(1e-3), 0.02);
+    check_thin_slip(sync_to(1e-4), 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +182,7 @@ int main(void)
         cmocka_unit_test(normal_problem_does_not_feel_the_tangential_one),
         cmocka_unit_test(elastic_impact_without_slip_has_the_known_ex),
         cmocka_unit_test(strong_friction_approaches_no_slip),
+        cmocka_unit_test(slip_that_is_left_out_changes_less_than_the_estimate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Oblique impacts that others measured or computed by finite elements, against a pair of unlike elastic bodies.
- * Both pairs are elastically unlike: the neglect of their coupling is within the tolerances, and flagged.
+/* Oblique impacts that others measured or computed by finite elements, against a pair of unlike
+ * elastic bodies. Both pairs are elastically unlike: the neglect of their coupling is within the
+ * tolerances, and flagged.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/data.h"
 #include "../support/solve.h"
@@ -53,7 +54,7 @@ static restitute_scene sphere_on_wall(const restitute_material *pair, double rad
     return scene;
 }
 
-/* |found/expected - 1| within the share; every point of a set is looked at before the test fails. */
+/* |found/expected - 1| within the share; every point is checked before the test fails. */
 static int misses(double found, double expected, double share, const char *what, double at)
 {
     double off = found / expected - 1;
@@ -63,14 +64,16 @@ static int misses(double found, double expected, double share, const char *what,
     return 1;
 }
 
-/* What the method adds to the tolerances below, which are those of the data, is a hundredth of the smallest of them. */
+/* What the method adds to the tolerances below, which are those of the data, is a hundredth of the
+ * smallest of them. */
 static restitute_options exact_enough(void)
 {
     return to_tolerance(1e-4);
 }
 
-/* A digitised point carries 1 %, and the measured e_z of 0.98 is 1 in an elastic model: together 1.5 %. Below 15
- * degrees the measured scatter is larger; 6 % there is what the measurement supports. */
+/* A digitised point carries 1 %, and the measured e_z of 0.98 is 1 in an elastic model: together
+ * 1.5 %. Below 15 degrees the measured scatter is larger; 6 % there is what the measurement
+ * supports. */
 static void aluminium_oxide_on_glass_rebounds_as_measured(void **state)
 {
     (void)state;
@@ -92,8 +95,9 @@ static void aluminium_oxide_on_glass_rebounds_as_measured(void **state)
     CHECK(missed == 0, "%d of %d points missed", missed, count);
 }
 
-/* The error of the coarse mesh is 0.3 to 3 % from V_t/(mu V_n) = 1.89 up; below nothing is asserted but the flag. For an
- * elastic sphere radius, density and E of the steel do not matter to e_x; the wall is a million times stiffer. */
+/* The error of the coarse mesh is 0.3 to 3 % from V_t/(mu V_n) = 1.89 up; below, only the flag is
+ * checked. For an elastic sphere e_x does not depend on radius, density and E of the steel; the
+ * wall is a million times stiffer. */
 static void elastic_sphere_on_a_rigid_wall_spins_as_by_finite_elements(void **state)
 {
     (void)state;
@@ -121,7 +125,8 @@ struct constants {
     double modulus, poisson_ratio, beta, chi, psi;
 };
 
-/* The table of constants in docs/measurements.md, made by hand from the formulas there. Half the last printed digit. */
+/* The table of constants in docs/records/measurements.md, made by hand from the formulas there.
+ * Half the last printed digit. */
 static void check_constants(const restitute_material *pair, double friction, struct constants printed)
 {
     restitute_scene scene = sphere_on_wall(pair, 2.5e-3, 4000, friction);

@@ -91,7 +91,8 @@ static void dashpot_alone_lets_the_sphere_sink_to_the_closed_depth(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Two solids that must give the same pair; equal elements and step, so that only the solids differ. */
+/* Two solids that must give the same pair; equal elements and step, so that only the solids
+ * differ. */
 static void check_same(const restitute_material *a, const restitute_material *b, double tolerance, const char *what)
 {
     const double psi[] = {0.3, 1.5};
@@ -104,7 +105,8 @@ static void check_same(const restitute_material *a, const restitute_material *b,
     }
 }
 
-/* docs/theory.md, section 7. The tolerances are the size of what is left of the term: g t/tau, g tau^2, g. */
+/* docs/theory.md, section 7. The tolerances are the size of what is left of the term: g t/tau, g
+ * tau^2, g. */
 static void limits_of_single_terms_hold(void **state)
 {
     (void)state;
@@ -135,8 +137,9 @@ static void order_and_splitting_of_terms_do_not_matter(void **state)
     restitute_material_destroy(c);
 }
 
-/* What merging does to the pair stays below its stated bound. The reference has the same terms at a tolerance so small that
- * none is merged, with the elements and the step of the merged run, so that only merging differs. */
+/* The change of the pair by merging is below its bound. The reference has the same terms at a
+ * tolerance so small that none is merged, with the elements and the step of the merged run, so that
+ * only merging differs. */
 static void merging_changes_the_pair_by_less_than_its_bound(void **state)
 {
     (void)state;
@@ -149,7 +152,8 @@ static void merging_changes_the_pair_by_less_than_its_bound(void **state)
             g[k] = random_log(&random, 1e-2, 1) * (tau[k] < 0.1 ? fmin(1e3, 0.1 / tau[k]) : 1);
         }
         restitute_material *solid = solid_of(random_below(&random, 4) ? 1 : 0, 0, 12, tau, g);
-        /* psi > 0: without slip elements leave with a force, and the instant of leaving shows at 32 elements */
+        /* psi > 0: without slip elements leave with a force, and the instant of leaving shows at 32
+         * elements */
         const double psi = random_log(&random, 0.1, 5), chi = random_in(&random, 0.4, 3);
         restitute_impact impact = impact_on(solid, chi, psi);
         restitute_options options = to_tolerance(1e-2);
@@ -168,8 +172,9 @@ static void merging_changes_the_pair_by_less_than_its_bound(void **state)
     CHECK(merged >= 300, "only %d of 720 terms merged: nothing tested", merged);
 }
 
-/* A contact that outlasts the time for which slow terms were merged is solved again with them: a strong dashpot lets the sphere
- * go so slowly that they relax meanwhile. The bound holds for the contact time that came out. */
+/* If the contact lasts longer than the time for which slow terms were merged, it is solved again
+ * with these terms: with a strong dashpot the sphere leaves so slowly that they relax. The bound
+ * holds for the computed contact time. */
 static void slow_terms_count_in_long_contacts(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Scaling, omissions and units: the library, which solves dimensionless and leaves out what it can, agrees with a naive
- * Euler in SI units at equal elements and steps.
+/* Scaling, omissions and units: the library, which solves dimensionless and leaves out what it can,
+ * agrees with a naive Euler in SI units at equal elements and steps.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "si_euler.h"
 
@@ -14,7 +14,8 @@ struct drawn {
     struct si_scene si;
 };
 
-/* G_inf and up to four terms whose times a contact of some `time` feels; every third solid has a dashpot. */
+/* G_inf and up to four terms whose times a contact of some `time` feels; every third solid has a
+ * dashpot. */
 static void draw_solid(uint64_t *random, double modulus, double time, struct drawn *d)
 {
     struct si_scene *s = &d->si;
@@ -103,8 +104,8 @@ static struct drawn draw(uint64_t *random)
     return d;
 }
 
-/* Both do the same arithmetic in another order: rounding, 1e-16 in each of some 1e3 steps, amplified by at most a few
- * digits where elements switch from stick to slip. */
+/* Both do the same arithmetic in another order: rounding, 1e-16 in each of some 1e3 steps,
+ * amplified by at most a few digits where elements switch from stick to slip. */
 static const double rounding = 1e-10;
 
 static void two_hundred_scenes_agree_at_equal_elements_and_steps(void **state)

@@ -102,8 +102,9 @@ static double ez_by(const struct solid *solid)
     return solve_impact(as_told(48, 0), impact_with(solid, 7.0 / 6, 2)).result.ez;
 }
 
-/* (27) holds in the discrete model too: U' and D' change by the same force. Only rounding is left: half a unit in the
- * last place of about psi in each of the steps, relative to psi. (e_z is cut off at 1, by no more than its error.) */
+/* (27) holds in the discrete model too: U' and D' change by the same force. Only rounding is left:
+ * half a unit in the last place of about psi in each of the steps, relative to psi. (e_z is cut off
+ * at 1, by no more than its error.) */
 static void full_slip_has_ex_of_27(void **state)
 {
     (void)state;
@@ -121,8 +122,9 @@ static void full_slip_has_ex_of_27(void **state)
         }
 }
 
-/* psi_c is where stick just fails to appear before the contact ends. In the last steps D' changes little: a sphere at
- * psi_c (1 - 1e-4) begins to stick when the velocity is within 1e-4 psi_c of its last value, several steps early. */
+/* psi_c is where stick just fails to appear before the contact ends. In the last steps D' changes
+ * little: a sphere at psi_c (1 - 1e-4) begins to stick when the velocity is within 1e-4 psi_c of
+ * its last value, several steps early. */
 static void slip_persists_to_the_end_from_psi_c_on(void **state)
 {
     (void)state;
@@ -161,9 +163,9 @@ static void contact_begins_in_stick_if_and_only_if_psi_is_at_most_1(void **state
             }
 }
 
-/* 1 < psi < psi_c: stick begins when D' = (2 chi - psi)/(2 chi - 1), everywhere at once: the sample before has no stick
- * radius, the sample after has the whole contact. The instant is seen to within one step, in which D' changes by at
- * most the largest force times the step. */
+/* 1 < psi < psi_c: stick begins when D' = (2 chi - psi)/(2 chi - 1), everywhere at once: the sample
+ * before has no stick radius, the sample after has the whole contact. The instant is seen to within
+ * one step, in which D' changes by at most the largest force times the step. */
 static void gross_slip_ends_everywhere_at_once(void **state)
 {
     (void)state;
@@ -199,7 +201,8 @@ static void gross_slip_ends_everywhere_at_once(void **state)
         }
 }
 
-/* Rounding of the caller does not decide on how a contact begins: psi within 1e-12 of 1 is 1, to the bit. */
+/* Rounding of the caller does not decide on how a contact begins: psi within 1e-12 of 1 is 1, to
+ * the bit. */
 static void psi_within_rounding_of_1_is_1(void **state)
 {
     (void)state;

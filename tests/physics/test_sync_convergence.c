@@ -1,15 +1,18 @@
-/* How fast the errors of `sync` fall when panels are half as wide (docs/sync.md, "Order of each part").
+/* How fast the errors of `sync` fall when panels are half as wide (docs/sync.md, "Order of each
+ * part").
  *
- * Panels that are not smooth are halved until they miss 1/32 of what they missed in the run before. So the errors of a run
- * are below what its polynomials may miss, those of e_z, which rests on smooth functions alone, far below. Twelve impacts a
- * material: the error of a single one may pass through zero, so that the root mean square is looked at.
+ * Panels that are not smooth are halved until they miss 1/32 of what they missed in the run before.
+ * So the errors of a run are below what its polynomials may miss, those of e_z, which rests on
+ * smooth functions alone, far below. Twelve impacts a material: the error of a single one may pass
+ * through zero, so that the root mean square is looked at.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/random.h"
 #include "../support/sync.h"
 
 enum { impacts = 12, runs = 4 };
 
-/* Elements of the first run, and of the reference, whose error is far below that of the last run. */
+/* Elements of the first run, and of the reference, whose error is far below that of the last
+ * run. */
 enum { first_run = 24, reference = 768 };
 
 /* Root mean square errors, one a run. */
@@ -44,9 +47,10 @@ static struct errors errors_of(const restitute_impact impact[impacts])
 /* What polynomials may miss in the first run: the second of two, 1e-2/32. */
 static const double first_roughness = 1e-2 / 32;
 
-/* e_x: a third of it, three times the worst that was measured (1.4e-5, 9e-7, 1.4e-8, 4e-10). e_z: 1/300, as much above
- * 3e-8, 7e-9 and then rounding of some 1e-13. The order of e_x from the first to the last run was 2.9 to 6.6: below 1e-7 what is
- * left comes from the panels in which events are. */
+/* e_x: a third of it, three times the worst that was measured (1.4e-5, 9e-7, 1.4e-8, 4e-10). e_z:
+ * 1/300, as much above 3e-8, 7e-9 and then rounding of some 1e-13. The order of e_x from the first
+ * to the last run was 2.9 to 6.6: below 1e-7 what is left comes from the panels in which events
+ * are. */
 static void check_errors(const restitute_impact impact[impacts], const char *what)
 {
     const struct errors e = errors_of(impact);
@@ -99,7 +103,8 @@ static void strongly_damped_kelvin_voigt(void **state)
     check_standard(100, 0, "Kelvin-Voigt, delta1 = 100");
 }
 
-/* Relaxation times far below a panel's (1.5e-4 T and 1.5e-3 T), which must act as the dashpots that they nearly are. */
+/* Relaxation times far below a panel's (1.5e-4 T and 1.5e-3 T), which must act as the dashpots that
+ * they nearly are. */
 static void stiff_standard_solid(void **state)
 {
     (void)state;

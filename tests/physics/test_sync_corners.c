@@ -1,5 +1,5 @@
-/* The method `sync` where slip is hard to follow (corners.h), compared with itself at its smallest tolerance;
- * test_cvode_corners.c compares that with the method `cvode`.
+/* The method `sync` where slip is hard to follow (corners.h), compared with itself at its smallest
+ * tolerance; test_cvode_corners.c compares that with the method `cvode`.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/corners.h"
 #include "../support/sync.h"
@@ -8,7 +8,8 @@ enum { impacts = 120, tolerances = 4 };
 
 static const double tolerance_of[tolerances] = {1e-3, 1e-4, 1e-5, 1e-6};
 
-/* Of impacts that end with OK: beyond the tolerance, beyond three of them, beyond the estimate, beyond ten of it. */
+/* Of impacts that end with OK: beyond the tolerance, beyond three of them, beyond the estimate,
+ * beyond ten of it. */
 struct count {
     int missed, far, low, far_too_low;
 };
@@ -36,8 +37,8 @@ static void judge(restitute_impact impact, double tolerance, struct count *count
                     impact.chi, impact.psi, impact.delta1, impact.gamma, z, x, s.result.error_ez, s.result.error_ex);
 }
 
-/* As for all impacts an estimate may be too low in one of twenty, give or take twice the scatter of so few, and few of
- * these lie near the tolerance. */
+/* As for all impacts an estimate may be too low in one of twenty, give or take twice the scatter of
+ * so few, and few of these lie near the tolerance. */
 static void check_count(struct count c)
 {
     CHECK(c.far == 0, "%d of %d beyond three tolerances", c.far, impacts);
@@ -70,8 +71,9 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
     CHECK(count.missed <= impacts / 200, "%d of %d beyond the tolerance", count.missed, impacts);
 }
 
-/* On both sides of the psi below which slip is left out: slip changes e_x by less than 2 psi. Slip at the edge that began in
- * the last step before the turning point once weighed as much there as in a ring as wide as a cell. */
+/* On both sides of the psi below which slip is left out: slip changes e_x by less than 2 psi. Slip
+ * at the edge that began in the last step before the turning point once weighed as much there as in
+ * a ring as wide as a cell. */
 static void leaving_slip_out_changes_little(void **state)
 {
     (void)state;

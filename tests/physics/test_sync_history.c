@@ -50,9 +50,10 @@ static restitute_result record(restitute_options options, restitute_impact impac
     return result;
 }
 
-/* D'^2 = 1 - D^(5/2), F = (5/4) D^(3/2), a = sqrt(D), all of it symmetric in time. Cubics err by h^4, their slopes by h^3; h: the
- * longest of the steps, pi/2 times their mean. Measured: 0.4 h^3 in F, 0.25 h^4 in the energy, and the end of contact, where the
- * sphere hardly pushes any more, to 1e-8. Half as much again. A^2 of the rebound is D. */
+/* D'^2 = 1 - D^(5/2), F = (5/4) D^(3/2), a = sqrt(D), all of it symmetric in time. Cubics err by
+ * h^4, their slopes by h^3; h: the longest of the steps, pi/2 times their mean. Measured: 0.4 h^3
+ * in F, 0.25 h^4 in the energy, and the end of contact, where the sphere hardly pushes any more, to
+ * 1e-8. Half as much again. A^2 of the rebound is D. */
 static void elastic_impact_is_that_of_hertz(void **state)
 {
     (void)state;
@@ -101,8 +102,9 @@ static void samples_are_even_and_within_bounds(void **state)
         }
 }
 
-/* U'' = -2 chi fx and D'' = -fz: sums by the trapezoidal rule are as good as forces at a thousand samples, h^2/12 times their
- * third derivatives; at first touch a dashpot's force begins as sqrt(t), which costs h^(3/2). */
+/* U'' = -2 chi fx and D'' = -fz: sums by the trapezoidal rule are as good as forces at a thousand
+ * samples, h^2/12 times their third derivatives; at first touch a dashpot's force begins as
+ * sqrt(t), which costs h^(3/2). */
 static void forces_are_what_changes_the_velocities(void **state)
 {
     (void)state;
@@ -143,9 +145,10 @@ static double beside(const struct track *t, const double *values, double time, d
     return fmax(0, fmax(low - value, value - high));
 }
 
-/* Against euler at a tolerance of 3e-4. Its velocities are those after the step and that good; its indentation is better.
- * Its dashpots lag by a step, and without slip its last elements let go at once, one by one: two per cent of the
- * largest force. Its radii end at whole elements or are continued from two of them, steps late: two elements, four steps. */
+/* Compared with euler at a tolerance of 3e-4, which is the error of its velocities after a step;
+ * its indentation is better. Its dashpots lag by a step. Without slip its last elements lose their
+ * force one by one: two per cent of the largest force. Its radii are those of whole elements, or
+ * extrapolated from two elements, some steps late: two elements, four steps. */
 static void samples_are_those_of_euler(void **state)
 {
     (void)state;

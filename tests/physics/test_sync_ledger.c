@@ -5,7 +5,8 @@
 
 static const double chi = 7.0 / 6;
 
-/* No slip; slip at the edge alone, in most of the restitution, from the start; gross slip for a while, for long, to the end. */
+/* No slip; slip at the edge alone, in most of the restitution, from the start; gross slip for a
+ * while, for long, to the end. */
 static const double slidings[] = {0, 0.02, 0.3, 0.7, 1, 1.4, 2.5, 6};
 enum { n_slidings = sizeof slidings / sizeof *slidings };
 
@@ -30,9 +31,9 @@ static struct restitute_ledger ledger_at(int64_t elements, int solid, double psi
     return solve_impact(sync_at(elements), impact_with(&all[solid], chi, psi)).ledger;
 }
 
-/* The walk that keeps the ledger has 256 elements at least, whatever the pair took, and closes to second order
- * (unit/test_sync_walk.c). Twice the worst that was measured over these scenes: 3.6e-5 in z, 5.8e-5 in x, 1.5e-4 where
- * the contact slips in a ring that is narrower than five elements. */
+/* The walk for the ledger has at least 256 elements, and its residual is of second order
+ * (unit/test_sync_walk.c). Twice the largest residual measured in these scenes: 3.6e-5 in z, 5.8e-5
+ * in x, 1.5e-4 where the slip ring is narrower than five elements. */
 static const double closure_z = 7e-5;
 
 static double closure_x(double psi)
@@ -53,8 +54,8 @@ static void both_accounts_close(void **state)
             }
 }
 
-/* U' swings sqrt(chi) times as fast. In an elastic contact friction takes what does not
- * come back, 0.0480 here; without the phase of swings in the step it would be 0.0512 with 4096 elements. */
+/* U' swings sqrt(chi) times as fast. In an elastic contact friction takes what does not come back,
+ * 0.0480 here; without the phase of swings in the step it would be 0.0512 with 4096 elements. */
 static void friction_is_right_at_large_chi(void **state)
 {
     (void)state;
@@ -77,7 +78,8 @@ static void dissipation_is_never_negative(void **state)
         }
 }
 
-/* Friction so strong that slip is left out has the ledger of no slip, as parts of psi^2, whatever psi. */
+/* With friction so strong that slip is left out, the ledger is that without slip, in units of
+ * psi^2, for any psi. */
 static void so_is_that_of_strong_friction(void **state)
 {
     (void)state;
@@ -91,9 +93,10 @@ static void so_is_that_of_strong_friction(void **state)
         }
 }
 
-/* An entry of the two ledgers may differ by what each of them does not account for, and by what the restitution of the method
- * euler, to 3e-4, is off: energies go with its square, twice that. At psi = 0.02 entries take from each other what happens
- * in the ring that slips, narrower than an element of either, also where the sum is right: 1e-3 more. */
+/* An entry of the two ledgers may differ by what each of them does not account for, and by what the
+ * restitution of the method euler, to 3e-4, is off: energies go with its square, twice that. At psi
+ * = 0.02 entries take from each other what happens in the ring that slips, narrower than an element
+ * of either, also where the sum is right: 1e-3 more. */
 static void entries_are_those_of_euler(void **state)
 {
     (void)state;
@@ -113,8 +116,8 @@ static void entries_are_those_of_euler(void **state)
         }
 }
 
-/* In full slip f is both force and friction: its work is that of two changes of momentum, whatever the solid. The force is
- * integrated in time to third order. */
+/* In full slip f is both force and friction: for any solid its work follows from two changes of
+ * momentum. The force is integrated in time to third order. */
 static void friction_of_full_slip_is_known(void **state)
 {
     (void)state;
@@ -144,8 +147,8 @@ static void without_friction_the_tangential_energy_stays(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* A sphere that sinks in is not followed; euler follows it until a hundredth of its tolerance is left, for psi = 0.02
- * at length. */
+/* A sphere that sinks in is not followed; euler follows it until a hundredth of its tolerance is
+ * left, for psi = 0.02 at length. */
 static void a_sphere_that_sinks_in_loses_all(void **state)
 {
     (void)state;

@@ -1,9 +1,10 @@
 /* What is known exactly of impacts, by the method `sync`.
  *
- * Elastic impact without slip: a linear problem. With Q = int_0^A q dX and the elements' entry at time t_X,
+ * Elastic impact without slip: a linear problem. With Q = int_0^A q dX and the elements' entry at
+ * time t_X,
  *     U'' = -(15/4) chi Q,   Q' = A U' + [A' < 0] A' (U - U(t_A)),
- * since an element has q = U - U(t_X), and leaves with what it has. D is symmetric about the turning point: the edge
- * that is at A at time t was there at 2 t_turn - t.
+ * since an element has q = U - U(t_X), and leaves with what it has. D is symmetric about the
+ * turning point: the edge that is at A at time t was there at 2 t_turn - t.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/data.h"
 #include "../support/sync.h"
@@ -76,7 +77,8 @@ static double elastic_ex(double chi, int fineness)
     return -m.w;
 }
 
-/* Bounds an error by tolerance and estimate, with the factor of ten that an estimate may be low in single cases. */
+/* Bounds an error by tolerance and estimate, with the factor of ten that an estimate may be low in
+ * single cases. */
 static double allowed(const restitute_result *r, double tolerance)
 {
     return fmin(tolerance, 10 * fmax(r->error_ez, r->error_ex));
@@ -100,8 +102,8 @@ static void elastic_impact_without_slip_has_the_ex_of_its_linear_problem(void **
     }
 }
 
-/* Only the edge slips, where the force is below q ~ psi: e_x changes in proportion to psi, with a factor below 1/2 for these (see
- * test_limits.c); 1 leaves room for a factor of two. */
+/* Only the edge slips, where the force is below q ~ psi: e_x changes in proportion to psi, with a
+ * factor below 1/2 for these (see test_limits.c); 1 leaves room for a factor of two. */
 static void strong_friction_reaches_no_slip(void **state)
 {
     const double chis[] = {0.5, 7.0 / 6, 3}, solids[][2] = {{0, INFINITY}, {1, 1}, {1, 0}};
@@ -126,8 +128,8 @@ static void strong_friction_reaches_no_slip(void **state)
     CHECK(wrong == 0, "%d of 99", wrong);
 }
 
-/* At psi = 1 gross slip begins, at psi_c it lasts to the end. e_x is continuous: |de_x/dpsi| is below 4 here, seen from (27) and
- * from tables of e_x; the step of 2e-9 adds 1e-8. */
+/* At psi = 1 gross slip begins, at psi_c it lasts to the end. e_x is continuous: |de_x/dpsi| is
+ * below 4 here, seen from (27) and from tables of e_x; the step of 2e-9 adds 1e-8. */
 static void ex_is_continuous_where_gross_slip_begins_and_where_it_lasts(void **state)
 {
     const double chis[] = {0.4, 7.0 / 6, 2.5}, solids[][2] = {{0, INFINITY}, {0.5, 0.3}, {1, 0}, {20, 0.1}};
@@ -149,7 +151,8 @@ static void ex_is_continuous_where_gross_slip_begins_and_where_it_lasts(void **s
         }
 }
 
-/* (27) is how e_x is computed there: only the rounding of a few operations on numbers of the size of psi. */
+/* (27) is how e_x is computed there: only the rounding of a few operations on numbers of the size
+ * of psi. */
 static void full_slip_is_exact(void **state)
 {
     const double chis[] = {1.0 / 3, 7.0 / 6, 1000}, factors[] = {1 + 1e-6, 1.5, 1e3, 1e8};
@@ -183,7 +186,8 @@ static void without_friction_ex_is_minus_1(void **state)
     restitute_material_destroy(rubber);
 }
 
-/* The contact time is as exact as the velocity at its end: e_z = 1, so an error of that shifts it by as much. */
+/* The contact time is as exact as the velocity at its end: e_z = 1, so an error of that shifts it
+ * by as much. */
 static void elastic_impact_has_its_contact_time_depth_and_force(void **state)
 {
     (void)state;
@@ -197,8 +201,8 @@ static void elastic_impact_has_its_contact_time_depth_and_force(void **state)
     }
 }
 
-/* 1 - e_z = 1.891706 theta - c theta^2: the remainder quarters when theta halves; the next term is 2 % of it for a coefficient
- * of 1 (test_kelvin_voigt.c). */
+/* 1 - e_z = 1.891706 theta - c theta^2: the remainder quarters when theta halves; the next term is
+ * 2 % of it for a coefficient of 1 (test_kelvin_voigt.c). */
 static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
 {
     double remainder[2];
@@ -217,9 +221,10 @@ static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
     }
 }
 
-/* e_z -> (4/(5 theta))^(2/3)/theta; at delta1 = 10 it is 10 % away (the closed ODE of test_kelvin_voigt.c), at ten times the
- * damping at most half as far. And the sphere, which hardly rebounds, keeps no tangential motion that sticks. A rebound that is
- * a small part of the tolerance is none, which is no error: there is a spring, so the sphere does not sink for good. */
+/* e_z -> (4/(5 theta))^(2/3)/theta; at delta1 = 10 it is 10 % away (the closed ODE of
+ * test_kelvin_voigt.c), at ten times the damping at most half as far. And the sphere, which hardly
+ * rebounds, keeps no tangential motion that sticks. A rebound that is a small part of the tolerance
+ * is none, which is no error: there is a spring, so the sphere does not sink for good. */
 static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
 {
     const double tolerances[] = {1e-3, 1e-5, 1e-7};
@@ -246,8 +251,8 @@ static void strong_kelvin_voigt_damping_has_its_asymptote(void **state)
     CHECK(wrong == 0, "%d of 15", wrong);
 }
 
-/* A frozen dashpot: elastic with G1 + G2, lengths and times by (1 + 1/gamma)^(-2/5); what is left of the damping is bounded
- * by 4 D^(5/2) (g/tau) t with g/tau = 1/(gamma^2 theta). */
+/* A frozen dashpot: elastic with G1 + G2, lengths and times by (1 + 1/gamma)^(-2/5); what is left
+ * of the damping is bounded by 4 D^(5/2) (g/tau) t with g/tau = 1/(gamma^2 theta). */
 static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **state)
 {
     const double gammas[] = {0.05, 0.5, 1, 4};
@@ -276,8 +281,8 @@ static void check_same(const restitute_material *a, const restitute_material *b,
     }
 }
 
-/* What is left of the term: g t/tau, g tau^2, g, each with a factor of ten for what the pair makes of it. Small enough that
- * nothing is merged at 1e-7, so that the method sees the term. */
+/* Remaining effect of the term: g t/tau, g tau^2, g, each with a factor of ten for the effect on
+ * the pair. So small that nothing is merged at 1e-7, and the method computes with the term. */
 static void limits_of_single_terms_hold(void **state)
 {
     const double slow_tau[] = {0.5, 3e6}, slow_g[] = {0.7, 0.4}, fast_tau[] = {1e-5, 0.5}, fast_g[] = {2e4, 0.7},
@@ -294,8 +299,8 @@ static void limits_of_single_terms_hold(void **state)
         restitute_material_destroy(all[i]);
 }
 
-/* Elements given, so that both have the same panels and only the solids differ: by 1e-9, the relative distance of the times,
- * and by what iterations leave. */
+/* Elements given, so that both have the same panels and only the solids differ: by 1e-9, the
+ * relative distance of the times, and by what iterations leave. */
 static void a_term_may_be_split(void **state)
 {
     const double tau[] = {0.1, 1, 4}, g[] = {1, 0.5, 2}, split_tau[] = {0.1, 1, 1.000000001, 4},
@@ -312,8 +317,8 @@ static void a_term_may_be_split(void **state)
     restitute_material_destroy(split);
 }
 
-/* e_z = 0, and e_x = 0 unless slip persists: then (27) with e_z = 0, beyond psi_c = 2 chi. The default method knows it too, to
- * its 1e-3. */
+/* e_z = 0, and e_x = 0 unless slip persists: then (27) with e_z = 0, beyond psi_c = 2 chi. The
+ * default method agrees within 1e-3. */
 static void maxwell_body_with_a_short_time_never_rebounds(void **state)
 {
     const double tau[] = {0.2}, g[] = {1}, chis[] = {0.55, 7.0 / 6, 3}, factors[] = {0, 0.1, 0.99, 1.01, 3};
@@ -329,8 +334,8 @@ static void maxwell_body_with_a_short_time_never_rebounds(void **state)
                   euler.status);
             CHECK(s.result.ez == 0 && isinf(s.result.contact_time), "ez %g, time %g", s.result.ez,
                   s.result.contact_time);
-            /* both are followed until a hundredth of their tolerance is left of the speed, so that sync goes further; the
-             * force is known to 1 % by either */
+            /* both are followed until a hundredth of their tolerance is left of the speed, so that
+             * sync goes further; the force is known to 1 % by either */
             CHECK(s.result.max_indentation >= euler.result.max_indentation && isfinite(s.result.max_indentation),
                   "depth %g, %g", s.result.max_indentation, euler.result.max_indentation);
             CHECK_NEAR(s.result.max_normal_force, euler.result.max_normal_force, 0.02 * euler.result.max_normal_force,
@@ -342,8 +347,9 @@ static void maxwell_body_with_a_short_time_never_rebounds(void **state)
     restitute_material_destroy(solid);
 }
 
-/* The impulse of the force is 1, so that of friction takes at most 2 chi from U': for 2 chi < psi < 1 the contact begins to stick
- * and yet the contact point cannot stop, |U'| >= psi - 2 chi. */
+/* The impulse of the force is 1, so that of friction takes at most 2 chi from U': for 2
+ * chi < psi < 1 the contact begins to stick and yet the contact point cannot stop, |U'| >= psi - 2
+ * chi. */
 static void what_sinks_does_not_stop_what_friction_cannot(void **state)
 {
     const double tau[] = {0.2}, g[] = {1}, psis[] = {0.7, 0.85, 0.95, 0.999};
@@ -359,8 +365,8 @@ static void what_sinks_does_not_stop_what_friction_cannot(void **state)
     restitute_material_destroy(solid);
 }
 
-/* Gross slip that ends at the turning point, at the end of a panel or beside it by rounding: a piece of no length has
- * no slopes. */
+/* Gross slip that ends at the turning point, at the end of a panel or beside it by rounding: a
+ * piece of no length has no slopes. */
 static void slip_may_end_as_the_sphere_turns(void **state)
 {
     (void)state;
@@ -374,9 +380,9 @@ static void slip_may_end_as_the_sphere_turns(void **state)
     }
 }
 
-/* Slip that nearly ends before contact does: the element that slipped last sticks again if its slip velocity, which began within
- * a step, is right to a tenth. References: to 1e-8, within 1e-7 of those to 1e-6; the method cvode has -0.017934 +- 5.2e-7
- * for the first. */
+/* Slip that nearly ends before contact does: the element that slipped last sticks again if its slip
+ * velocity, which began within a step, is right to a tenth. References: to 1e-8, within 1e-7 of
+ * those to 1e-6; the method cvode has -0.017934 +- 5.2e-7 for the first. */
 static void what_sticks_again_late_is_not_missed(void **state)
 {
     static const struct {
@@ -394,8 +400,8 @@ static void what_sticks_again_late_is_not_missed(void **state)
         }
 }
 
-/* A sphere that turns easily swings sqrt(2 chi) times as often as the contact lasts, through a force that is to be known as much
- * better. */
+/* A sphere that turns easily swings sqrt(2 chi) times as often as the contact lasts, through a
+ * force that is to be known as much better. */
 static void large_chi_keeps_its_estimate(void **state)
 {
     const double chis[] = {30, 300}, psis[] = {0.5, 1.2, 2, 4};
@@ -415,7 +421,8 @@ static void large_chi_keeps_its_estimate(void **state)
     CHECK(low <= 2, "%d of 24 estimates are low", low); /* promised are 5 % */
 }
 
-/* So little slip that its slack is rounding: finer pieces would follow that, at forty times the work (0.28 nominal seconds). */
+/* So little slip that its slack is rounding: finer pieces would follow that, at forty times the
+ * work (2.8e6 updates). */
 static void pieces_do_not_follow_rounding(void **state)
 {
     (void)state;
@@ -425,8 +432,9 @@ static void pieces_do_not_follow_rounding(void **state)
     CHECK(r.error_ex < 1e-6, "estimate %g", r.error_ex);
 }
 
-/* An arm that relaxes in 1e-7 of the contact is a dashpot to a walk as to a front: at 1e-8 elements are stepped, at 1e-5 a front is
- * followed (-w/psi), and the method cvode has 0.009724 +- 4.3e-6. Elements were off by 3.2e-5 with an estimate of 2e-8. */
+/* An arm that relaxes in 1e-7 of the contact is a dashpot to a walk as to a front: at 1e-8 elements
+ * are stepped, at 1e-5 a front is followed (-w/psi), and the method cvode has 0.009724 +- 4.3e-6.
+ * Elements were off by 3.2e-5 with an estimate of 2e-8. */
 static void elements_feel_fast_arms_as_a_front_does(void **state)
 {
     const double tau[] = {1.4318506240211543e-07, 2.7444341805103311e-04, 0.063448338813876223, 1.5117455718560062};
@@ -444,8 +452,9 @@ static void elements_feel_fast_arms_as_a_front_does(void **state)
     restitute_material_destroy(solid);
 }
 
-/* An arm that is about as fast as the first panel's first points: by polynomials of M_k alone the friction work was 2.4e-3 at 1e-3
- * and 1.9e-4 at 1e-5. `euler` has 1.330e-4 with 5376 elements. The walk of the ledger is of second order: a part in a hundred. */
+/* An arm that is about as fast as the first panel's first points: by polynomials of M_k alone the
+ * friction work was 2.4e-3 at 1e-3 and 1.9e-4 at 1e-5. `euler` has 1.330e-4 with 5376 elements. The
+ * walk of the ledger is of second order: a part in a hundred. */
 static void friction_work_has_the_first_layer_of_fast_arms(void **state)
 {
     (void)state;
@@ -456,7 +465,8 @@ static void friction_work_has_the_first_layer_of_fast_arms(void **state)
     }
 }
 
-/* What collocation leaves of the layer at the end of the first panel goes on in the next ones: without that, 3.4e-5. */
+/* The remainder of the layer at the end of the first panel continues in the next ones: without
+ * that, 3.4e-5. */
 static void first_layer_goes_on_in_later_panels(void **state)
 {
     (void)state;
@@ -464,8 +474,8 @@ static void first_layer_goes_on_in_later_panels(void **state)
     CHECK_NEAR(ledger.residual_x, 0, 1e-5, "in x");
 }
 
-/* Fluids that are weak in the units of the problem, so that the sphere is 1e32 deep in them when it stops: Newton's steps began
- * with the force of a spring of modulus 1, and no panel converged. */
+/* Fluids that are weak in the units of the problem, so that the sphere is 1e32 deep in them when it
+ * stops: Newton's steps began with the force of a spring of modulus 1, and no panel converged. */
 static void fluids_of_any_scale_stop_the_sphere(void **state)
 {
     const double tau[] = {1.747355321491428e-26, 1e-10, 1e-30}, g[] = {1.8880055218676865e-23, 1e-30, 1e-30};
@@ -483,8 +493,8 @@ static void fluids_of_any_scale_stop_the_sphere(void **state)
     }
 }
 
-/* Without slip U' swings forty times in this contact, and errors of single pieces stay in it: at 1e-3 e_x was off by 4.8e-3 with
- * an estimate of 4e-4. */
+/* Without slip U' swings forty times in this contact, and errors of single pieces stay in it: at
+ * 1e-3 e_x was off by 4.8e-3 with an estimate of 4e-4. */
 static void swings_without_slip_are_followed_at_large_chi(void **state)
 {
     (void)state;
@@ -497,8 +507,9 @@ static void swings_without_slip_are_followed_at_large_chi(void **state)
     }
 }
 
-/* A stiff dashpot answers a velocity with a force that takes it back many times over within a step: what integrates the force
- * must damp. The walk that keeps the ledger, of second order in elements for the swings of U', is the one that would swing. */
+/* A stiff dashpot answers a velocity with a force that takes it back many times over within a step:
+ * what integrates the force must damp. The walk that keeps the ledger, of second order in elements
+ * for the swings of U', is the one that would swing. */
 static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
 {
     const double impacts[4][4] = {
@@ -515,8 +526,8 @@ static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
     }
 }
 
-/* A weak dashpot holds the edge back for a moment at the turning point, which finer runs resolve worse and worse: rounding
- * must not be taken for a sphere that stays. */
+/* A weak dashpot delays the edge at the turning point for a short time. Finer runs resolve this
+ * less well: rounding must not be taken for a sphere that stops. */
 static void nearly_elastic_spheres_rebound(void **state)
 {
     const double tolerances[] = {1e-1, 1e-3, 2.5e-5, 1e-6};
@@ -530,8 +541,8 @@ static void nearly_elastic_spheres_rebound(void **state)
         }
 }
 
-/* A sphere that is easily turned: its tangential oscillation is sqrt(2 chi) times as fast as the normal one, up to forty-five
- * times. The default method needs a second for the last ones. */
+/* A sphere that is easily turned: its tangential oscillation is sqrt(2 chi) times as fast as the
+ * normal one, up to forty-five times. The default method needs a second for the last ones. */
 static void extreme_chi_works(void **state)
 {
     const double chis[] = {1.0 / 3, 0.5, 10, 100, 1000}, psis[] = {0, 0.3, 0.95, 1.5};
@@ -552,8 +563,10 @@ static void extreme_chi_works(void **state)
     CHECK(wrong == 0, "%d of 40", wrong);
 }
 
-/* Thirty terms over eighteen decades, at speeds for which other ones matter, against the default method. */
-/* Springs that have not settled when the sphere has turned: the restitution is shorter than the compression. */
+/* Thirty terms over eighteen decades, at speeds for which other ones matter, against the default
+ * method. */
+/* Springs that have not settled when the sphere has turned: the restitution is shorter than the
+ * compression. */
 static void restitution_shorter_than_memory_ends_in_time(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The error estimate of `sync` on random impacts of the whole domain, compared with the same method at its smallest tolerance
- * (which test_sync_truth.c compares with references of another kind).
+/* The error estimate of `sync` on random impacts of the whole domain, compared with the same method
+ * at its smallest tolerance (which test_sync_truth.c compares with references of another kind).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/random.h"
 #include "../support/sync.h"
@@ -97,7 +97,8 @@ static void tolerance_is_met(void **state)
             print_sample(s, k);
             missed++;
         }
-    /* an estimate is too low in up to 5 % of the impacts, and few of these lie near the tolerance */
+    /* an estimate is too low in up to 5 % of the impacts, and few of these lie near the
+     * tolerance */
     CHECK(missed <= tolerances * impacts / 100, "%d of %d", missed, tolerances * impacts);
 }
 

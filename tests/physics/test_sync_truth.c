@@ -1,5 +1,5 @@
-/* The method `sync` against the reference impacts of tests/data at every tolerance, and its error estimate against the
- * true error. All of it takes a few seconds, so nothing is left out with sanitizers.
+/* The method `sync` against the reference impacts of tests/data at every tolerance, and its error
+ * estimate against the true error. It takes a few seconds, so all of it also runs with sanitizers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
@@ -82,7 +82,8 @@ static int solve_all(void **state)
     return 0;
 }
 
-/* But for one in a hundred, by less than half of the tolerance: estimates are too low now and then. */
+/* But for one in a hundred, by less than half of the tolerance: estimates are too low now and
+ * then. */
 static void rows_meet_every_tolerance(void **state)
 {
     int missed = 0;
@@ -117,8 +118,8 @@ static void estimate_is_below_the_tolerance_or_the_status_says_so(void **state)
         }
 }
 
-/* At most one in twenty has an estimate below its true error (so few rows do not tell at each tolerance), and none below
- * a tenth of it. */
+/* At most one in twenty has an estimate below its true error (there are too few rows to check this
+ * at each tolerance), and none below a tenth of it. */
 static void estimated_error_covers_the_true_one(void **state)
 {
     int low = 0, too_low = 0;
@@ -138,8 +139,9 @@ static void estimated_error_covers_the_true_one(void **state)
     CHECK(too_low == 0, "see above");
 }
 
-/* Not by being much too careful everywhere. From run to run errors fall by 25 to 2000, so that an estimate a hundred times too
- * high costs one run, twice the time. Rows whose error is not known to a factor of two have no say. */
+/* Not by being much too careful everywhere. From run to run errors fall by 25 to 2000, so that an
+ * estimate a hundred times too high costs one run, twice the time. Rows whose error is not known to
+ * a factor of two have no say. */
 static void estimated_error_is_not_far_above_the_true_one(void **state)
 {
     (void)state;
@@ -150,7 +152,8 @@ static void estimated_error_is_not_far_above_the_true_one(void **state)
             const struct row *t = &rows[i];
             const restitute_result *r = &t->solution[k].result;
             const double z = fabs(r->ez - t->ez), x = fabs(r->ex - t->ex);
-            /* a tenth of the tolerance is said of what pieces of U' may miss, however well they do */
+            /* a tenth of the tolerance is said of what pieces of U' may miss, however well they
+             * do */
             const double sharp = 0.1 * tolerance_of[k];
             if (z > 2 * t->err_ez && r->error_ez > sharp) ratio[count++] = r->error_ez / z;
             if (x > 2 * t->err_ex && r->error_ex > sharp) ratio[count++] = r->error_ex / x;
@@ -160,9 +163,9 @@ static void estimated_error_is_not_far_above_the_true_one(void **state)
     CHECK(ratio[count / 2] <= 100, "median %g of %d", ratio[count / 2], count);
 }
 
-/* The depth is integrated with e_z and as exact; 1e-10 is what the file prints, and rounding of some thousand steps. The end of
- * contact is where a solid that hardly pushes any more lets go: a velocity wrong by the tolerance shifts it by tolerance/ez,
- * a part of the contact time. */
+/* The depth is integrated with e_z and as exact; 1e-10 is what the file prints, and rounding of
+ * some thousand steps. At the end of contact the force is nearly zero: an error of the velocity by
+ * the tolerance shifts it by tolerance/ez of the contact time. */
 static void largest_indentation_and_contact_time_are_right(void **state)
 {
     int missed = 0;

@@ -1,9 +1,10 @@
-/* The default method against the reference impacts of tests/data, and its error estimate against the true error.
+/* The default method against the reference impacts of tests/data, and its error estimate against
+ * the true error.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/data.h"
 #include "../support/solve.h"
 
-/* What the default method promises for every impact of its domain. */
+/* The accuracy of the default method for every impact of its domain. */
 static const double promised = 1e-3;
 
 static struct truth rows[truth_rows];
@@ -53,10 +54,11 @@ static double certain_error(double value, double truth, double truth_error)
     return fmax(0, fabs(value - truth) - truth_error);
 }
 
-/* An estimate from changes between resolutions can be low where two parts of the error cancel, but not often and not by
- * much: in at most 5 % of the rows, and never by a factor of ten. (At 1e-2 and coarser every row is solved at the coarsest
- * resolution of all; nearly elastic rows then have errors of 1e-7 that are of second order, and only the factor is
- * asked for.) Rounding of some 1000 steps may add 1e-12. */
+/* An estimate from changes between resolutions can be low where two parts of the error cancel, but
+ * not often and not by much: in at most 5 % of the rows, and never by a factor of ten. (At 1e-2 and
+ * coarser every row is solved at the coarsest resolution of all; nearly elastic rows then have
+ * errors of 1e-7 that are of second order, and only the factor is asked for.) Rounding of some 1000
+ * steps may add 1e-12. */
 static void estimated_error_covers_the_true_one(void **state)
 {
     (void)state;
@@ -77,16 +79,17 @@ static void estimated_error_covers_the_true_one(void **state)
     }
 }
 
-/* First order: the error is the change from the run with half the resolution. The largest of two changes, each brought to
- * the finest run, guards against one that is small by chance. */
+/* First order: the error is the change from the run with half the resolution. The largest of two
+ * changes, each brought to the finest run, guards against one that is small by chance. */
 static double estimate(double coarsest, double coarser, double fine)
 {
     return 1.25 * fmax(fabs(fine - coarser), 0.5 * fabs(coarser - coarsest));
 }
 
-/* Besides the first-order error the largest indentation is read off at the ends of steps, near a maximum: within
- * |D''| h^2/2, and |D''| is about 1 there. The end of contact is dated within the last step, and the last but
- * one element's exit that it is continued from likewise: two steps. */
+/* The largest indentation has the error of first order. It also is a value at the end of a step
+ * near a maximum, which is within |D''| h^2/2 with |D''| of about 1. The end of contact is
+ * interpolated in the last step, and extrapolated from the exit of the last but one element: two
+ * steps. */
 static void largest_indentation_and_contact_time_are_right(void **state)
 {
     (void)state;

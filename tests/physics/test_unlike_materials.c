@@ -30,7 +30,8 @@ static restitute_material *pair_of(const restitute_material *a, const restitute_
     return pair;
 }
 
-/* Stress after a step of strain h-linear in time: w <- E w + (tau/h)(1-E) d_strain, exact for it. */
+/* Stress after a step of strain h-linear in time: w <- E w + (tau/h)(1-E) d_strain, exact for
+ * it. */
 static void respond(const struct chain *c, double h, const double *w, double strain, double *rest, double *stiffness)
 {
     *rest = c->g_inf * strain;
@@ -48,7 +49,8 @@ static void update(const struct chain *c, double h, double move, double *w)
         w[k] = exp(-h / c->tau[k]) * w[k] + c->tau[k] / h * (1 - exp(-h / c->tau[k])) * move;
 }
 
-/* Direct solution of the Volterra equations: a unit step of the sum of both strains, equal stresses; stress at time t. */
+/* Direct solution of the Volterra equations: a unit step of the sum of both strains, equal
+ * stresses; stress at time t. */
 static double relaxation_by_volterra(const struct chain *a, const struct chain *b, double t, int steps)
 {
     double wa[most_terms], wb[most_terms], ga = a->g_inf, gb = b->g_inf, h = t / steps, stress = 0;
@@ -86,8 +88,8 @@ static struct chain draw(uint64_t *random)
     return c;
 }
 
-/* The scheme is of second order: one Richardson step on 2000 and 4000 steps leaves some (h/tau)^3 ~ 1e-6 of the modulus
- * (tau >= 0.03, and times down to 0.2 with h = 1e-4 there). */
+/* The scheme is of second order: one Richardson step on 2000 and 4000 steps leaves some (h/tau)^3 ~
+ * 1e-6 of the modulus (tau >= 0.03, and times down to 0.2 with h = 1e-4 there). */
 static void relaxation_of_the_pair_is_that_of_the_volterra_equations(void **state)
 {
     (void)state;
@@ -108,7 +110,7 @@ static void relaxation_of_the_pair_is_that_of_the_volterra_equations(void **stat
     }
 }
 
-/* Two like bodies are half as stiff, in every respect. */
+/* Two equal bodies are half as stiff in every direction. */
 static void a_pair_of_one_material_is_half_of_it(void **state)
 {
     (void)state;
@@ -177,8 +179,8 @@ static void a_hard_partner_is_nearly_rigid(void **state)
     restitute_material_destroy(pair);
 }
 
-/* Rates next to each other, and a partner that is rigid for all that a double knows: each term survives, and the pair is
- * half of it, or the soft one. 1e-12: rounding of a sum of a few terms. */
+/* Neighbouring rates, and a partner that is rigid to rounding: no term is lost, and the pair is
+ * half of the solid, or the soft one. 1e-12: rounding of a sum of a few terms. */
 static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state)
 {
     (void)state;
@@ -209,7 +211,7 @@ static void no_term_is_lost_at_neighbouring_rates_or_extreme_ratios(void **state
     }
 }
 
-/* The solid of two bodies is no body of its own. */
+/* A pair is refused as one of the materials of a pair. */
 static void a_pair_is_not_halved_or_paired_again(void **state)
 {
     (void)state;
@@ -237,7 +239,8 @@ static void dashpots_and_bad_arguments(void **state)
     CHECK(restitute_material_kelvin_voigt(3, 2, 0.5, &voigt, NULL) == 0, "voigt");
     CHECK(restitute_material_maxwell(5, 1, 0.5, &maxwell, NULL) == 0, "maxwell");
     restitute_material *both = pair_of(voigt, voigt), *mixed = pair_of(voigt, maxwell);
-    /* two like Kelvin-Voigt bodies are one; with a Maxwell body in series nothing carries for ever */
+    /* two equal Kelvin-Voigt bodies are one; in series with a Maxwell body there is no equilibrium
+     * modulus */
     CHECK(restitute_material_terms(both) == 0 && restitute_material_modulus(both, 1) == 1.5, "Kelvin-Voigt pair");
     CHECK(restitute_material_terms(mixed) == 2 && restitute_material_modulus(mixed, 1e9) == 0, "mixed pair");
     /* at first the dashpot is rigid */
@@ -251,7 +254,8 @@ static void dashpots_and_bad_arguments(void **state)
     restitute_material_destroy(mixed);
 }
 
-/* Two dashpots are rigid at first, and share their compliance by their viscosities: as two springs of such moduli would. */
+/* Two dashpots are rigid at first, and share their compliance by their viscosities: as two springs
+ * of such moduli would. */
 static void two_dashpots_share_by_their_viscosities(void **state)
 {
     (void)state;
@@ -268,7 +272,8 @@ static void two_dashpots_share_by_their_viscosities(void **state)
         restitute_material_destroy(all[i]);
 }
 
-/* Rates of the pair that are the same to rounding are one; the ratio of two like Poisson ratios is not above 1/2. */
+/* Rates of the pair that are the same to rounding are one; the ratio of two like Poisson ratios is
+ * not above 1/2. */
 static void pairs_to_the_last_bit(void **state)
 {
     (void)state;
@@ -327,8 +332,8 @@ static double plane_modulus(const restitute_material *m, double s)
     return 2 * sum / (1 - restitute_material_poisson_ratio(m));
 }
 
-/* 1/E* = 1/E_1* + 1/E_2* at any rate, over 16 decades of each. 1e-9: rates of the pair are good to rounding, 1e-16, beside
- * rates that are some 1e-7 apart. */
+/* 1/E* = 1/E_1* + 1/E_2* at any rate, over 16 decades of each. 1e-9: rates of the pair are good to
+ * rounding, 1e-16, beside rates that are some 1e-7 apart. */
 static void compliances_add_at_all_rates(void **state)
 {
     (void)state;
@@ -346,7 +351,8 @@ static void compliances_add_at_all_rates(void **state)
     }
 }
 
-/* Over the whole ranges and at their ends: a pair, or a refusal that says what it would be. Nothing is without end. */
+/* Over the whole ranges and at their ends: a pair, or a refusal that says what it would be. Nothing
+ * is without end. */
 static void pairs_over_the_whole_ranges(void **state)
 {
     (void)state;

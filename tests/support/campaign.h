@@ -1,5 +1,6 @@
-/* Random impacts of the whole domain and of its corners, by name, for the campaign of the method `sync`, and the
- * command that solves one of them again. Needs open_memstream of POSIX 2008. SPDX-License-Identifier: BSD-3-Clause */
+/* Random impacts of the whole domain and of its corners, by name, for the campaign of the method
+ * `sync`, and the command that solves one of them again. Needs open_memstream of POSIX 2008.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CAMPAIGN_H
 #define TEST_CAMPAIGN_H
 
@@ -28,8 +29,8 @@ static inline void free_impact(restitute_impact *impact)
     impact->material = NULL;
 }
 
-/* The measured solid at an impact time anywhere among its relaxation times; G_r is its modulus at that time. Moduli
- * vary, so that no two solids are alike. */
+/* The measured solid at an impact time anywhere among its relaxation times; G_r is its modulus at
+ * that time. Moduli vary, so that no two solids are alike. */
 static inline restitute_material *draw_polyisobutylene(struct campaign_draw *d)
 {
     const double time = random_log(&d->random, 1e-11, 1e5);
@@ -125,7 +126,7 @@ static inline double draw_psi(struct campaign_draw *d, const restitute_impact *i
     return random_in(random, 0, 10);
 }
 
-/* ----------------------------------------------------------------------------------------------------- the corners */
+/* ---- the corners */
 
 static inline restitute_impact any_impact(struct campaign_draw *d)
 {
@@ -192,8 +193,8 @@ static inline restitute_impact tiny_psi_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* A Maxwell body between sinking and rebound. Every third one has a weak spring in parallel, G1/G2 = gamma: its time
- * over the T of its G2 is gamma^0.6 theta. */
+/* A Maxwell body between sinking and rebound. Every third one has a weak spring in parallel, G1/G2
+ * = gamma: its time over the T of its G2 is gamma^0.6 theta. */
 static inline restitute_impact nearly_sinking_corner(struct campaign_draw *d)
 {
     const double tau = random_in(&d->random, 0.25, 0.4);
@@ -214,7 +215,7 @@ static inline restitute_impact strong_damping_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* Spheres that lose next to nothing, so that they rebound as they came. */
+/* Spheres that lose nearly nothing, so e_z is nearly 1. */
 static inline restitute_impact nearly_elastic_corner(struct campaign_draw *d)
 {
     restitute_impact impact = impact_of(7.0 / 6, 0, random_log(&d->random, 1e-12, 1e-4), 0);
@@ -250,7 +251,8 @@ static inline restitute_impact large_chi_corner(struct campaign_draw *d)
     return impact;
 }
 
-/* Solids that are refused are none: nothing resists, or delta1 of the dashpot is above 1e12. */
+/* Solids that the library refuses: no modulus and no viscosity, or delta1 of the dashpot above
+ * 1e12. */
 static inline int is_accepted(const restitute_material *solid)
 {
     double eta;
@@ -291,7 +293,7 @@ static const struct campaign_corner {
 
 enum { CAMPAIGN_CORNERS = sizeof campaign_corners / sizeof *campaign_corners };
 
-/* ------------------------------------------------------------------------------------------------ to solve it again */
+/* ---- to solve it again */
 
 /* A material file of any solid, on one line. */
 static inline void write_solid(const restitute_material *solid, FILE *out)
@@ -314,8 +316,8 @@ static inline void write_solid(const restitute_material *solid, FILE *out)
     fprintf(out, "}' >case.json; ");
 }
 
-/* The command that solves it, to be freed; NULL without memory. A solid goes as a scene in which d0 and T of G_r = 1 Pa
- * are 1 m and 1 s (24): R = 1 m, nu = 1/2, m = 64/15 kg, 1 m/s, 45 degrees. */
+/* The command that solves it, to be freed; NULL without memory. A solid goes as a scene in which d0
+ * and T of G_r = 1 Pa are 1 m and 1 s (24): R = 1 m, nu = 1/2, m = 64/15 kg, 1 m/s, 45 degrees. */
 static inline char *command_of(const restitute_impact *impact, const restitute_options *options)
 {
     const double mass = 64.0 / 15, friction = impact->psi > 0 ? 2 / (3 * impact->psi) : INFINITY;

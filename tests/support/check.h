@@ -1,4 +1,5 @@
-/* Checks for the cmocka tests that say, when they fail, what was compared with what and why it matters.
+/* Checks for the cmocka tests that say, when they fail, what was compared with what and why it
+ * matters.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CHECK_H
 #define TEST_CHECK_H

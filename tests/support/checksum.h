@@ -1,5 +1,5 @@
-/* The checksum of a table file (FNV-1a of all bytes behind the block of text, then of the places of its sets), put down as its
- * writer does.
+/* The checksum of a table file (FNV-1a of all bytes behind the block of text, then of the places of
+ * its sets), put down as its writer does.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CHECKSUM_H
 #define TEST_CHECKSUM_H

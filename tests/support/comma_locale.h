@@ -8,7 +8,8 @@
 
 #include "check.h"
 
-/* Sets it, or skips the test and prints why. setlocale(LC_ALL, "C") is the way back, before anything can fail. */
+/* Sets it, or skips the test and prints why. setlocale(LC_ALL, "C") is the way back, before
+ * anything can fail. */
 static inline void set_comma_locale(void)
 {
     char folder[] = "/tmp/restitute-locale-XXXXXX", command[400];

@@ -25,7 +25,8 @@ static inline double draw_number(uint64_t *random, enum reach reach, double exte
     return end == 0 ? 1 / extent : end == 1 ? extent : between;
 }
 
-/* Of moduli `scale` and times `time`. Every fourth solid has no equilibrium modulus, every third a dashpot. */
+/* Of moduli `scale` and times `time`. Every fourth solid has no equilibrium modulus, every third a
+ * dashpot. */
 static inline restitute_material *draw_material(uint64_t *random, enum reach reach, double scale, double time)
 {
     static const double moduli[] = {10, 1e6, 1e30}, times[] = {1e3, 1e12, 1e30}, dashpots[] = {10, 10, 1e60};

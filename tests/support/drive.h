@@ -38,7 +38,7 @@ static inline void drive_set_step(struct drive *drive, double step)
     CHECK(restitute_contact_rates_set(drive->law, step, &drive->rates, &error) == 0, "%s", error.message);
 }
 
-/* Radius 1 m; velocities are those of the path, whatever the force. */
+/* Radius 1 m; the path prescribes the velocities. */
 static inline struct drive drive_of(restitute_contact_law *law, double step, double friction)
 {
     struct drive drive = {.law = law};

@@ -1,10 +1,10 @@
-/* An allocator that fails on demand: the program that includes this defines malloc and its kin, on top of those of the
- * C library. The sanitizers do the same, so with them, and with another C library than that of GNU, nothing fails here:
- * CAN_FAIL is 0, and tests are to be skipped.
+/* An allocator that fails on demand: a program that includes this defines malloc and related
+ * functions in front of those of the C library. The sanitizers do the same. With them, or with
+ * another C library than that of GNU, nothing can fail: CAN_FAIL is 0, and tests are skipped.
  *
- * A subject is a call of the library. It is made with its first allocation failing, then with its second, and so on until
- * none fails any more; and all that once more with all allocations failing from there on. Those who include this ask for
- * the GNU C library's own functions first.
+ * A subject is a call of the library. It is called with a failure of its first allocation, then of
+ * its second, and so on until none fails. Then the same with a failure of all allocations from
+ * there on. Those who include this ask for the GNU C library's own functions first.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_FAILING_ALLOCATOR_H
 #define TEST_FAILING_ALLOCATOR_H
@@ -33,10 +33,11 @@
 #define skip() (print_message("skipped: no allocation can be made to fail here\n"), _skip(__FILE__, __LINE__))
 #endif
 
-/* Allocations are counted while armed, with `ours_alone` those that our libraries and libcsv ask for themselves, with
- * `others_alone` all but these; number `failing` fails, and with `for_good` all behind it. None fails within the function
- * `spared`, see spare(). `live`: blocks not yet freed; with `others_lose` those may be lost that libraries below lose. One
- * thread. Volatile, since compilers take malloc for a function that changes no variable. */
+/* Allocations are counted while armed, with `ours_alone` only those of our libraries and libcsv,
+ * with `others_alone` all others. Number `failing` fails, and with `for_good` all after it. None
+ * fails within the function `spared`, see spare(). `live`: blocks not yet freed. With `others_lose`
+ * blocks that other libraries leak are allowed. One thread. Volatile, since compilers take malloc
+ * for a function that changes no variable. */
 static volatile struct {
     int armed, ours_alone, others_alone, others_lose, for_good;
     long count, failing, live;
@@ -133,7 +134,7 @@ SEEN_BY_LIBRARIES void free(void *block)
 }
 #endif
 
-/* From now on nothing fails within this function, of a library that would crash. */
+/* From now on no allocation fails within this function, which would crash. */
 static inline void spare(const char *function)
 {
 #if CAN_FAIL
@@ -159,10 +160,10 @@ static inline void give(struct given *given, double number)
     given->number[given->count++] = number;
 }
 
-/* `begin` and `end`, both optional, make and destroy the objects that are used; `call` makes the call with ARMED, checks that
- * outputs are untouched if it failed, and else gives what came out. `stride`: of the failing allocations all up to
- * this number are tried, and about as many of each that are twice as late; 0: all. `settles`: calls behind the second
- * take no more memory. */
+/* `begin` and `end`, both optional, make and destroy the objects that are used; `call` makes the
+ * call with ARMED, checks that outputs are untouched if it failed, and else gives what came out.
+ * `stride`: of the failing allocations all up to this number are tried, and about as many of each
+ * that are twice as late; 0: all. `settles`: calls behind the second take no more memory. */
 struct subject {
     const char *name;
     void (*begin)(void);
@@ -188,7 +189,7 @@ static inline void subject_must(const struct subject *s, long failing, const cha
     CHECK(memcmp(&given, expected, sizeof given) == 0, "%s, allocation %ld: %s: other numbers", s->name, failing, what);
 }
 
-/* One round with one failing allocation; 0: there are not so many. */
+/* One round with one failing allocation; 0: there are fewer allocations. */
 static inline int subject_round(const struct subject *s, long failing, const struct given *expected, long *refused)
 {
     struct given given;

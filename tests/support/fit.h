@@ -27,7 +27,8 @@ static inline double gauss(uint64_t *state)
     return sqrt(-2 * log(u)) * cos(6.283185307179586 * v);
 }
 
-/* What the material gives, ten times as precise as the fit solves; noise is absolute in e, relative in time. */
+/* What the material gives, ten times as precise as the fit solves; noise is absolute in e, relative
+ * in time. */
 static inline void measure(const restitute_material *material, size_t n, restitute_fit_point *points, double noise,
                            int with_time, int with_ex, uint64_t seed)
 {

@@ -1,4 +1,5 @@
-/* Files that a reader must refuse: those without an end or a beginning, and those larger than it takes.
+/* Files that a reader must refuse: those without an end or a beginning, and those larger than it
+ * takes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_ODD_FILES_H
 #define TEST_ODD_FILES_H
@@ -11,14 +12,14 @@
 
 #include "check.h"
 
-/* Opening it waits for a writer, unless told not to. */
+/* Without O_NONBLOCK, open() waits for a writer. */
 static inline void make_fifo(const char *path)
 {
     unlink(path);
     CHECK(mkfifo(path, 0600) == 0, "cannot make the FIFO %s", path);
 }
 
-/* A file of `size` zero bytes that takes no room; 0: none can be made here. */
+/* A sparse file of `size` zero bytes; 0: not possible here. */
 static inline int make_sparse(const char *path, off_t size)
 {
     unlink(path);

@@ -28,7 +28,8 @@ static inline void strip_numbers(const char *text, char *form, size_t size)
     form[length] = '\0';
 }
 
-/* The place of a message, its count raised; the last place takes all others. Its example is still NULL if it is new. */
+/* The place of a message, its count raised; the last place takes all others. Its example is still
+ * NULL if it is new. */
 static inline struct remark *add_remark(struct remark remarks[most_remarks], int status, const char *text)
 {
     char form[sizeof remarks[0].form];

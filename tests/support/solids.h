@@ -42,7 +42,8 @@ static inline restitute_impact impact_with(const struct solid *solid, double chi
     return solid->material ? impact_on(solid->material, chi, psi) : impact_of(chi, psi, solid->delta1, solid->gamma);
 }
 
-/* The method sync at a number of elements. The tolerance is one that no term is merged for and no iteration stops early. */
+/* The method sync at a number of elements. The tolerance is one that no term is merged for and no
+ * iteration stops early. */
 static inline restitute_options sync_at(int64_t elements)
 {
     restitute_options options = to_tolerance(1e-8);

@@ -51,7 +51,8 @@ static inline restitute_options to_tolerance(double tolerance)
     return options;
 }
 
-/* Given numbers of elements and step; the tolerance then only decides about the merging of relaxation times. */
+/* Given numbers of elements and step; the tolerance then only decides about the merging of
+ * relaxation times. */
 static inline restitute_options as_told(int64_t elements, double time_step)
 {
     restitute_options options = default_options();

@@ -12,7 +12,8 @@ static inline restitute_options sync_to(double tolerance)
     return options;
 }
 
-/* A number of elements instead of a tolerance; small tolerance: nothing is merged, iterations are finished. */
+/* A number of elements instead of a tolerance; small tolerance: nothing is merged, iterations are
+ * finished. */
 static inline restitute_options sync_with(int64_t elements)
 {
     restitute_options options = sync_to(1e-8);
@@ -21,7 +22,7 @@ static inline restitute_options sync_with(int64_t elements)
     return options;
 }
 
-/* What a call must not leave open: the tolerance is met by the estimates, or the status says that it is not. */
+/* The estimates are below the tolerance, or the status says that they are not. */
 static inline int estimate_keeps_tolerance(const struct solution *s, double tolerance)
 {
     if (s->status == RESTITUTE_TOLERANCE_NOT_REACHED) return 1;
@@ -34,7 +35,8 @@ static inline double certain_error(double value, double reference, double refere
     return fmax(0, fabs(value - reference) - reference_error);
 }
 
-/* Error over estimate where it is more than 1, else 0: an estimate of 0 is right about an error of 0. */
+/* Error over estimate where it is more than 1, else 0: an estimate of 0 is right about an error of
+ * 0. */
 static inline double too_low_by(double error, double estimate)
 {
     return error <= estimate ? 0 : error / estimate;

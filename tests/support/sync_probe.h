@@ -20,7 +20,7 @@ void probe_motion(int64_t p, double x, double motion[6]);
 int64_t probe_contact(double chi, double psi, double roughness, double *velocity, int64_t *n_pieces);
 void probe_piece(int64_t i, double y, int64_t *panel, double range[2], int64_t *rooted, double motion[3]);
 void probe_front(int64_t n, const double *g, const double *rate, double eta, double shear, double loaded, double time,
-                 const double *m, double slip, double side, double out[4]);
+                 const double *m, double slip, int sense, double out[4]);
 
 /* Of probe_motion. */
 enum { ANGLE, RADIUS, TIME, DEPTH, VELOCITY, FORCE };

@@ -27,7 +27,8 @@ static const struct table_solid table_solid[table_solids] = {
     {"two terms", 0.5, 0, 4},       {"polyisobutylene", 0.5, 0, 5},
 };
 
-/* Relaxation times (s) and moduli (Pa) of polyisobutylene are read from `path`, lines tau_s,G_Pa. */
+/* Relaxation times (s) and moduli (Pa) of polyisobutylene are read from `path`, lines
+ * tau_s,G_Pa. */
 static inline int table_solid_pib(const char *path, restitute_material **m, restitute_error *e)
 {
     double tau[64], g[64], a, b;
@@ -41,8 +42,9 @@ static inline int table_solid_pib(const char *path, restitute_material **m, rest
     return restitute_material_prony(0, 0, n, tau, g, 0.5, m, e);
 }
 
-/* A ball of 5 mm and 4 g. At 0.1 m/s delta1 is 1, or a relaxation time is like the impact's. With gamma = 0.01 delta1 is 2:
- * over six decades of speed it then passes 4.2, where e_x turns sharply. */
+/* A ball of 5 mm and 4 g. At 0.1 m/s delta1 is 1, or a relaxation time is like the impact's. With
+ * gamma = 0.01 delta1 is 2: over six decades of speed it then passes 4.2, where e_x turns
+ * sharply. */
 static inline restitute_scene table_solid_scene(const struct table_solid *s, const char *pib, restitute_material **m)
 {
     restitute_scene scene;

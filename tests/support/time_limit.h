@@ -8,9 +8,11 @@
 
 #include "solve.h"
 
-/* The call ends in time, with a result that knows that it is not good enough, and names the limit. Five limits: twice one is
- * promised, and clock() has the time of whatever else the process does. How good the result is depends on the machine, but not
- * how true its estimate is: one in twenty may be low, and none by three. `ex` is by `sync` at 1e-7. `limit` 0: the default, 1 s. */
+/* The call ends in time, with a status that the tolerance was missed and a message that names the
+ * limit. It may take five times the limit: twice is promised, and clock() includes other work of
+ * the process. The accuracy of the result depends on the machine, but that of the estimate does
+ * not: one in twenty may be too low, and none by a factor of three. `ex` is by `sync` at 1e-7.
+ * `limit` 0: the default, 1 s. */
 static inline void check_time_limit(restitute_options options, restitute_impact impact, double limit, double ex)
 {
     const double seconds = limit > 0 ? limit : 1;

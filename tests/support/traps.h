@@ -1,4 +1,5 @@
-/* No call with valid input raises what a host may trap, and all that it gives is finite: for every method the same sweeps.
+/* No call with valid input raises a floating-point exception that a program may trap, and all
+ * results are finite. All methods run the same sweeps.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_TRAPS_H
 #define TEST_TRAPS_H
@@ -15,7 +16,8 @@
 enum { trap_samples = 40 };
 #define TRAPPED (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW)
 
-/* A call of anything: its value, with the flags that it raised looked at. `...`: what to say of it. */
+/* A call of anything: its value, with the flags that it raised looked at. `...`: what to say of
+ * it. */
 #define WITHOUT_TRAPS(status, call, ...)                                                                               \
     do {                                                                                                               \
         feclearexcept(FE_ALL_EXCEPT);                                                                                  \
@@ -63,7 +65,8 @@ static inline void all_finite(const struct drawn *d, const restitute_result *r, 
         CHECK(!isnan(r->speed_ratio) && isfinite(r->radius_ratio) && isfinite(r->displacement_ratio), "%s", d->text);
 }
 
-/* The pair; then the ledger and the history, which repeat it in other ways and may be refused by themselves. */
+/* The pair; then the ledger and the history, which repeat it in other ways and may be refused by
+ * themselves. */
 static inline int sweep_case(restitute_solver *solver, const struct drawn *d)
 {
     static double columns[8][trap_samples];
@@ -102,7 +105,8 @@ static inline restitute_solver *solver_of(const restitute_method *method, double
     return solver;
 }
 
-/* Random cases of each reach; some of the extreme ones are refused, and some take more than max_work. */
+/* Random cases of each reach; some of the extreme ones are refused, and some take more than
+ * max_updates. */
 static inline void sweep_random(const restitute_method *method, uint64_t seed, const int counts[REACHES],
                                 double tolerance, double max_work)
 {
@@ -119,8 +123,8 @@ static inline void sweep_random(const restitute_method *method, uint64_t seed, c
     restitute_solver_destroy(solver);
 }
 
-/* Every `every`-th of: the reference values; solids of every kind, rotating or not; the Prony solid of 30 terms, and one
- * that sinks. */
+/* Every `every`-th of: the reference values; solids of every kind, rotating or not; the Prony solid
+ * of 30 terms, and one that sinks. */
 static inline void sweep_known(const restitute_method *method, double tolerance, int every)
 {
     restitute_solver *solver = solver_of(method, tolerance, 1);

@@ -1,15 +1,18 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks a shared library of ours, and a C-only program that links it, if one is named:  check.sh LIBRARY [PROGRAM]
-#   - it defines nothing but restitute_*, and of these only what a header in $SOURCE_DIR/include declares
+# Checks a shared library of ours, and a C-only program that links it, if one is named:
+#   check.sh LIBRARY [PROGRAM]
+#   - it defines what HEADERS declare, all of it, each with a since-tag, and nothing else
 #   - it calls nothing of a Fortran run-time library
-#   - it neither prints nor ends the program: it needs no function that does so, and no standard stream
-#   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose last digits depend
-#     on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the library may, for batches by several threads;
-#     nor one whose name holds WITHOUT, if that is set
-#   - the library lists one whose name holds WITH as needed, if that is set
-# NM, READELF, WITH_OPENMP, WITHOUT and WITH come from the environment. Tools have lines of their own: of a pipeline the shell
-# sees the last status alone, and a tool that fails would be taken for one that finds nothing.
+#   - it neither prints nor ends the program: it needs no function that does so, and no standard
+#     stream
+#   - it needs librestitute, if it is another one
+#   - neither it nor the program lists such a library as needed, nor one of vector mathematics, whose
+#     last digits depend on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the
+#     library may, for batches by several threads; nor one whose name holds WITHOUT, if that is set
+# NM, READELF, CC, INCLUDE, HEADERS, WITH_OPENMP and WITHOUT come from the environment. Tools have
+# lines of their own: of a pipeline the shell sees the last status alone, and a tool that fails would
+# be taken for one that finds nothing.
 set -eu
 library=$1
 wrong=0
@@ -26,12 +29,16 @@ defined=$(echo "$defined" | awk '{ print $NF }')
 foreign=$(echo "$defined" | grep -v -e '^restitute_' -e '^__' || true)
 [ -z "$foreign" ] || complain "$library defines other names than restitute_*:" $foreign
 
-# RESTITUTE_INIT(since, name) declares restitute_name_init_sized.
+# shellcheck disable=SC2086 # a list of words
+facts=$(sh "$(dirname -- "$0")/../abi/facts.sh" "$INCLUDE" $HEADERS)
+untagged=$(echo "$facts" | awk '$1 == "function" && $3 != "exported" { print $2 }')
+[ -z "$untagged" ] || complain "$HEADERS: no RESTITUTE_SINCE_x_y before:" $untagged
+declared=$(echo "$facts" | awk '$1 == "function" { print $2 }')
+for name in $declared; do
+    echo "$defined" | grep -qx "$name" || complain "$library does not define $name of $HEADERS"
+done
 for name in $(echo "$defined" | grep '^restitute_'); do
-    init=${name#restitute_} init=${init%_init_sized}
-    grep -qw "$name" "$SOURCE_DIR"/include/restitute/*.h ||
-        grep -q "^RESTITUTE_INIT(.*, $init)" "$SOURCE_DIR"/include/restitute/*.h ||
-        complain "$library defines what no header declares: $name"
+    echo "$declared" | grep -qx "$name" || complain "$library defines $name, which is not in $HEADERS"
 done
 
 undefined=$("$NM" -D --undefined-only "$library")
@@ -49,6 +56,10 @@ for file in "$@"; do
     needed=$("$READELF" --dynamic "$file")
     needed=$(echo "$needed" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
     [ -n "$needed" ] || complain "$file needs no library at all: not what this test expects"
+    case $file in
+    */librestitute.so*) ;;
+    *) echo "$needed" | grep -Eq '^librestitute(_table)?\.so' || complain "$file does not need librestitute" ;;
+    esac
     runtime=$(echo "$needed" | grep -E 'gfortran|quadmath|flang|FortranRuntime|libifcore' || true)
     [ -z "$runtime" ] || complain "$file needs a Fortran run-time library:" $runtime
     ! echo "$needed" | grep -q mvec || complain "$file needs the vector mathematics library libmvec"
@@ -58,6 +69,5 @@ for file in "$@"; do
     [ -z "$banned" ] || complain "$file needs what it must do without:" $banned
     echo "$file needs:" $needed
 done
-[ -z "${WITH:-}" ] || "$READELF" --dynamic "$library" | grep -q "NEEDED.*$WITH" || complain "$library does not need $WITH"
 echo "$library defines:" $defined
 exit $wrong

@@ -1,5 +1,5 @@
-! A library that exports a foreign name and one that no header has, takes memory unseen, calls the Fortran run-time
-! library, prints and ends the program: the checks must find all of it.
+! A library that exports a foreign name, takes memory unseen, calls the Fortran run-time library,
+! prints and ends the program: the checks must find all of it.
 ! SPDX-License-Identifier: BSD-3-Clause
 subroutine leaky_name(value) bind(c, name="leaky_name")
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_null_char
@@ -20,5 +20,5 @@ subroutine leaky_name(value) bind(c, name="leaky_name")
   if (puts("value"//c_null_char) < 0) call end_program()
 end subroutine leaky_name
 
-subroutine undeclared() bind(c, name="restitute_undeclared")
-end subroutine undeclared
+subroutine restitute_private_name() bind(c, name="restitute_private_name")
+end subroutine restitute_private_name

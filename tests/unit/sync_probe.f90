@@ -1,8 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and test_sync_front.c. One motion at a
-!> time is held here, in rooms of fixed size: a test program, not the library, may keep state.
+!> Single procedures of the method `sync` behind plain arguments, for test_sync_parts.c and
+!> test_sync_front.c. One motion at a time is held here, in rooms of fixed size: a test program, not
+!> the library, may keep state.
 module sync_probe
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr
+  use rst_friction_mode, only: mode_gross_slip, mode_partial_slip
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, point, integral, weights_at, last_coefficient, start_of, differential, applied, root_between, &
                              factors_type, factorize, solution_of
@@ -10,7 +12,7 @@ module sync_probe
   use rst_panel, only: panel_type, normal_type
   use rst_normal_motion, only: normal_control_type, follow_normal
   use rst_store, only: contact_type, record_type, piece_type, store_type, of_arm
-  use rst_front, only: element_type, slack_type, look_at, find_front
+  use rst_front, only: element_type, margin_type, element_at, find_front
   use rst_tangential_motion, only: follow_contact
   implicit none (type, external)
   private
@@ -21,9 +23,9 @@ module sync_probe
   type(store_type) :: store
   real(dp), target :: g_room(arms), rate_room(arms), entry_room(2*stages*arms), kernel_room(stages*points*arms*room)
   real(dp), target, dimension(points*arms*room) :: memory_room, loading_room
-  real(dp), target :: held_room(of_arm*points*arms*room)
+  real(dp), target :: corrective_room(of_arm*points*arms*room)
   real(dp), target :: response_room(stages*points*arms)
-  real(dp), target, dimension(points*arms) :: now_z_room, now_x_room, now_l_room
+  real(dp), target, dimension(points*arms) :: memory_z_room, memory_x_room, loading_x_room
   type(panel_type), target :: panel_room(room)
   type(record_type), target :: record_room(room)
   type(piece_type), target :: piece_room(room)
@@ -42,7 +44,8 @@ contains
     weight = weights_at(x)
   end subroutine probe_weights
 
-  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before the point i.
+  !> last_coefficient and start_of of y, its slopes at the points if y(0) is 0, and its root before
+  !> the point i.
   subroutine probe_polynomial(y, i, last, start, slope, root) bind(c)
     real(c_double), intent(in) :: y(0:stages)
     integer(c_int64_t), value :: i
@@ -78,7 +81,8 @@ contains
     failed = merge(1_ip, 0_ip, fails)
   end function probe_respond
 
-  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the compression and of all.
+  !> The normal motion of a solid, in panels of at most (pi/2)/2^halvings; counts: panels of the
+  !> compression and of all.
   function probe_normal(eta, n, g, rate, depth, halvings, roughness, counts) bind(c) result(found)
     real(c_double), value :: eta, depth, roughness
     integer(c_int64_t), value :: n, halvings
@@ -87,7 +91,7 @@ contains
     integer(c_int64_t) :: found
     type(normal_control_type) :: control
     call hold(eta, n, g, rate)
-    normal%radius = sqrt(0.4_dp*depth)
+    normal%scale = sqrt(0.4_dp*depth)
     normal%closeness = 1.0e-12_dp
     control = normal_control_type(roughness=roughness, stop_speed=1.0e-9_dp, halvings=halvings, capacity=room, &
                                   n_coarse=0_ip, n_coarse_compression=0_ip, coarse=c_null_ptr)
@@ -115,15 +119,16 @@ contains
     store%n_pieces = 0
     store%record => record_room
     store%piece => piece_room
-    store%held(1:of_arm, 0:stages, 1:n, 1:room) => held_room
-    store%room(1:stages, 0:stages, 1:n) => response_room
-    store%kernel => store%room
-    store%now_z(0:stages, 1:n) => now_z_room
-    store%now_x(0:stages, 1:n) => now_x_room
-    store%now_l(0:stages, 1:n) => now_l_room
+    store%corrective(1:of_arm, 0:stages, 1:n, 1:room) => corrective_room
+    store%kernel_room(1:stages, 0:stages, 1:n) => response_room
+    store%kernel => store%kernel_room
+    store%memory_z(0:stages, 1:n) => memory_z_room
+    store%memory_x(0:stages, 1:n) => memory_x_room
+    store%loading_x(0:stages, 1:n) => loading_x_room
   end subroutine hold
 
-  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth, velocity, force.
+  !> The motion on the panel p (from 1) where x of it is passed, 0 to 1: angle, radius, time, depth,
+  !> velocity, force.
   subroutine probe_motion(p, x, motion) bind(c)
     integer(c_int64_t), value :: p
     real(c_double), value :: x
@@ -144,11 +149,12 @@ contains
     integer(c_int64_t) :: found
     call follow_contact(normal, contact_type(chi=chi, psi=psi, roughness=roughness, noise=1.0e-8_dp, &
                         closeness=1.0e-12_dp, stress=1.0_dp, &
-                                             no_slip=0_ip), store, velocity, found)
+                                             mode=merge(mode_gross_slip, mode_partial_slip, psi > 1)), store, velocity, found)
     n_pieces = store%n_pieces
   end function probe_contact
 
-  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S, stick radius at y of the piece.
+  !> The piece i (from 1): its panel, the part of it, whether in the root of what is left; U', S,
+  !> stick radius at y of the piece.
   subroutine probe_piece(i, y, panel, range, rooted, motion) bind(c)
     integer(c_int64_t), value :: i
     real(c_double), value :: y
@@ -160,19 +166,20 @@ contains
       panel = on%panel
       rooted = on%rooted
       range = [on%from, on%to]
-      motion = [sum(weight*on%velocity), sum(weight*on%force), sum(weight*on%stick)]
+      motion = [sum(weight*on%shear_velocity), sum(weight*on%shear_force), sum(weight*on%stick_radius)]
     end associate
   end subroutine probe_piece
 
   !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has
   !> the memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
-  subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, side, out) bind(c)
+  subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, sense, out) bind(c)
     integer(c_int64_t), value :: n
+    integer(c_int), value :: sense
     real(c_double), intent(in) :: g(n), rate(n), m(n, 2)
-    real(c_double), value :: eta, shear, loaded, time, slip, side
+    real(c_double), value :: eta, shear, loaded, time, slip
     real(c_double), intent(out) :: out(4)
-    type(slack_type) :: slack
-    type(element_type) :: edge
+    type(margin_type) :: margin
+    type(element_type) :: outermost
     real(dp) :: stress, force, radius
     integer(ip) :: i, j, k
     integer(ip), parameter :: records = 4
@@ -185,20 +192,20 @@ contains
         r%end = r%to
         do i = 0, stages
           radius = r%from + (r%to - r%from)*point(i)
-          r%edge(:, i) = [radius, radius**2, 2*radius, shear*2*radius]
+          r%touch(:, i) = [radius, radius**2, 2*radius, shear*2*radius]
           do k = 1, n
             call load(g(k), rate(k), radius**2, stress, force)
-            store%held(:, i, k, j) = [(1 - shear)*[stress, force], (1 + shear)*[stress, force]]
+            store%corrective(:, i, k, j) = [(1 - shear)*[stress, force], (1 + shear)*[stress, force]]
           end do
         end do
       end associate
     end do
-    call look_at(normal, store, time, side, sqrt(loaded), edge)
-    slack%angle = 0
-    slack%centre = eta*slip + sum(m(:, 1) - side*m(:, 2))
-    slack%near = 1.0e-4_dp
-    call find_front(normal, store, time, side, sqrt(loaded), edge, slack)
-    out = [slack%radius, slack%force, slack%centre, slack%edge]
+    call element_at(normal, store, time, sense, sqrt(loaded), outermost)
+    margin%angle = 0
+    margin%at_centre = eta*slip + sum(m(:, 1) - sense*m(:, 2))
+    margin%accuracy = 1.0e-4_dp
+    call find_front(normal, store, time, sense, sqrt(loaded), outermost, margin)
+    out = [margin%stick_radius, margin%force, margin%at_centre, margin%at_edge]
   end subroutine probe_front
 
   !> M and P at the time t under D' = 1, A = sqrt(t), by the series of the exponential (rate t < 2).

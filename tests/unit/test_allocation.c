@@ -1,4 +1,5 @@
-/* Once a solver has solved an impact of a kind, `sync` takes no more memory: calls of the allocator are counted.
+/* Once a solver has solved an impact of a kind, `sync` takes no more memory: calls of the allocator
+ * are counted.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
@@ -16,8 +17,8 @@ static void the_counter_counts(void **state)
     CHECK(allocator.count == before + 1, "%ld calls counted", allocator.count - before);
 }
 
-/* From the second call on; the first one at each tolerance makes room, for the largest number of panels too. With ledger and
- * history on a solid of some terms as well. */
+/* From the second call on; the first one at each tolerance makes room, for the largest number of
+ * panels too. With ledger and history on a solid of some terms as well. */
 static void use_twice(double tolerance, const restitute_material *solid, restitute_ledger *ledger,
                       restitute_history *history)
 {

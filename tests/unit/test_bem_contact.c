@@ -1,5 +1,5 @@
-/* The bounded solver against closed forms: Hertz, the flat punch, Cattaneo and Mindlin, in units of G and the curvature 1
- * (profile r^2/2; K is that of nu = 1/2, so E* = 4).
+/* The bounded solver against closed forms: Hertz, the flat punch, Cattaneo and Mindlin, in units of
+ * G and the curvature 1 (profile r^2/2; K is that of nu = 1/2, so E* = 4).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <stdlib.h>
@@ -83,7 +83,8 @@ static void hertz(void **state)
         const double r = sqrt(radius2(i, spacing));
         contact += x[i] > 0;
         if (r < 0.9) worst = fmax(worst, fabs(x[i] / spacing - 8 / pi * sqrt(1 - r * r)));
-        /* the radius, by cells: none beyond one cell of the edge is on the wrong side of it */
+        /* the radius, by cells: all cells more than one cell from the edge are on the right side of
+         * it */
         if (r < 1 - spacing) CHECK(x[i] > 0, "no contact at r = %g", r);
         if (r > 1 + spacing) CHECK(x[i] <= 0, "contact at r = %g", r);
     }
@@ -92,7 +93,8 @@ static void hertz(void **state)
     CHECK_NEAR(sqrt(4 * contact / pi) * spacing, 1, 0.01, "radius from the area"); /* half a cell */
 }
 
-/* A circular punch of radius 1 pressed in by 1: P = 2 E* a; its pressure is singular, first order in the spacing. */
+/* A circular punch of radius 1 pressed in by 1: P = 2 E* a; its pressure is singular, first order
+ * in the spacing. */
 static void flat_punch(void **state)
 {
     double errors[2];
@@ -112,8 +114,8 @@ static void flat_punch(void **state)
     CHECK(errors[1] < 0.8 * errors[0], "no better on the finer grid: %g, %g", errors[0], errors[1]);
 }
 
-/* Constant normal force, then a shift that sticks within c: u_x = (3/2)(1 - c^2), Q = P (1 - c^3) for mu = 1. The solution neglects
- * the direction of slip, as the bounds here do. */
+/* Constant normal force, then a shift that sticks within c: u_x = (3/2)(1 - c^2), Q = P (1 - c^3)
+ * for mu = 1. The solution neglects the direction of slip, as the bounds here do. */
 static void cattaneo_mindlin(void **state)
 {
     (void)state;
@@ -128,7 +130,8 @@ static void cattaneo_mindlin(void **state)
             x[i] = 0;
         }
         solve(BEM_SHEAR);
-        /* Off the circle the uniform direction of slip is not exact for K_x, which is not axisymmetric: 1e-3 */
+        /* Off the circle the uniform direction of slip is not exact for K_x, which is not
+         * axisymmetric: 1e-3 */
         CHECK_NEAR(sum(x) / normal, 1 - c * c * c, 2e-3, "force for c = %g", c);
         for (int i = 0; i < cells; i++) {
             const double r = sqrt(radius2(i, spacing));

@@ -21,7 +21,8 @@ static struct creep creep_of(double g_inf, int64_t n, const double *g, const dou
     return c;
 }
 
-/* int_0^t exp(-(t-s)/a) (1 - exp(-s/b)) ds, without cancellation where t is far below or above a and b. */
+/* int_0^t exp(-(t-s)/a) (1 - exp(-s/b)) ds, without cancellation where t is far below or above a
+ * and b. */
 static double exponential_pair(double t, double a, double b)
 {
     double sum = 0; /* Gauss-Legendre of 3 nodes on cells that grow from both ends: smooth, error below 1e-9 */
@@ -105,7 +106,8 @@ static void poles_interlace_and_product_is_t(void **state)
     }
 }
 
-/* Transforms: s G(s) times s J(s) is 1, over twenty decades of relaxation times, as polymers have. */
+/* Transforms: s G(s) times s J(s) is 1, over twenty decades of relaxation times, as polymers
+ * have. */
 static void wide_spectrum(void **state)
 {
     double g[30], tau[30];
@@ -128,7 +130,8 @@ static void wide_spectrum(void **state)
     }
 }
 
-/* b of one term after f(t) = t^2 in many small steps, and in the one step that is exact for a line. */
+/* b of one term after f(t) = t^2 in many small steps, and in the one step that is exact for a
+ * line. */
 static void recursion_is_exact_for_lines(void **state)
 {
     double compliance = 0.7, lambda = 0.3, decay, gain, b = 0;

@@ -1,4 +1,5 @@
-/* Influence coefficients against quadrature, and the convolution by cosine transforms against the plain sum.
+/* Influence coefficients against quadrature, and the convolution by cosine transforms against the
+ * plain sum.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
 
@@ -15,7 +16,8 @@ static double kernel(enum bem_kind kind, double x, double y)
     return (1 / r + x * x / (r * r * r)) / (4 * pi);
 }
 
-/* Gauss-Legendre of 10 nodes in each direction: its error is far below 1e-9 for cells that do not touch the point. */
+/* Gauss-Legendre of 10 nodes in each direction: its error is far below 1e-9 for cells that do not
+ * touch the point. */
 static double by_quadrature(enum bem_kind kind, int i, int j)
 {
     static const double node[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
@@ -46,7 +48,8 @@ static void coefficients_are_the_integrals(void **state)
     }
 }
 
-/* int 1/r over the unit square about its centre is 4 ln(1 + sqrt 2); that of x^2/r^3 is half of it, by symmetry. */
+/* int 1/r over the unit square about its centre is 4 ln(1 + sqrt 2); that of x^2/r^3 is half of it,
+ * by symmetry. */
 static void own_cell(void **state)
 {
     double table[4];
@@ -58,7 +61,8 @@ static void own_cell(void **state)
     CHECK_NEAR(table[0], 1.5 * exact, 1e-15, "shear");
 }
 
-/* K x at cell (i, j) of the quarter, x even in both directions, by the sum over all four quarters. */
+/* K x at cell (i, j) of the quarter, x even in both directions, by the sum over all four
+ * quarters. */
 static double by_sum(const double *table, int n, int m, int ld, const double *x, int i, int j)
 {
     double sum = 0;

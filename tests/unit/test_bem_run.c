@@ -1,4 +1,5 @@
-/* Single runs: the loading of a standard solid after Lee and Radok, and the orders of convergence in step and grid.
+/* Single runs: the loading of a standard solid after Lee and Radok, and the orders of convergence
+ * in step and grid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -10,7 +11,12 @@ static double g = 2, tau = 0.5, room[8];
 static struct rst_problem problem_of(double psi, int standard_solid)
 {
     struct rst_problem p = {
-        .chi = 7.0 / 6, .psi = psi, .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP, .tolerance = 1e-3};
+        .chi = 7.0 / 6,
+        .psi = psi,
+        .shear_speed = psi,
+        .shear_scale = 1,
+        .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
+        .tolerance = 1e-3};
     p.solid = (struct rst_solid){.g_inf = 1, .n_terms = standard_solid, .g = &g, .tau = &tau};
     return p;
 }
@@ -68,7 +74,8 @@ static void lee_radok_loading(void **state)
     run_of(&problem, (struct bem_variant){0}, 64, 0.95, 0.01, &l.observer);
     for (int i = 0; i < l.n && l.velocity[i] > 0; i++) {
         const double h = l.time[i] - time, hertz = 16.0 / 3 * pow(l.depth[i], 1.5);
-        /* D^(3/2) taken linear in the step: the relaxing part decays over the step and gets the mean of exp(-(h-s)/tau) */
+        /* D^(3/2) taken linear in the step: the relaxing part decays over the step and gets the
+         * mean of exp(-(h-s)/tau) */
         memory = memory * exp(-h / tau) + (hertz - before) * tau / h * -expm1(-h / tau);
         before = hertz;
         time = l.time[i];
@@ -97,8 +104,9 @@ struct orders {
     double z, x;
 };
 
-/* Squared errors of the velocities after with 26 to 210 steps, against a reference with 1680, are added up over grids of several widths:
- * cells come and go one at a time, which makes those of a single grid noisy. */
+/* Squared errors of the velocities after with 26 to 210 steps, against a reference with 1680, are
+ * added up over grids of several widths: cells come and go one at a time, which makes those of a
+ * single grid noisy. */
 static struct orders orders_in_the_step(struct bem_variant variant, int standard_solid, double psi)
 {
     enum { steps = 4, finest = 64 };
@@ -117,8 +125,8 @@ static struct orders orders_in_the_step(struct bem_variant variant, int standard
     return (struct orders){0.5 * slope(steps, h, squares_z), 0.5 * slope(steps, h, squares_x)};
 }
 
-/* Measured 2.06 over seven grids (an elastic sphere keeps its energy, and there is no error to speak of). Single steps between neighbours
- * differ by 0.3, four grids average that out to 0.1. */
+/* Measured 2.06 over seven grids (an elastic sphere keeps its energy, and there is no error to
+ * speak of). Single steps between neighbours differ by 0.3, four grids average that out to 0.1. */
 static void normal_velocity_is_of_second_order_in_the_step(void **state)
 {
     const struct orders damped = orders_in_the_step((struct bem_variant){0}, 1, 0.5);
@@ -126,8 +134,8 @@ static void normal_velocity_is_of_second_order_in_the_step(void **state)
     CHECK(damped.z > 1.8 && damped.z < 2.3, "%g", damped.z);
 }
 
-/* Cells enter and begin to slip one at a time, which is not smooth: less than second order with this many steps, more than the first of
- * the paper's. Measured 1.33 elastic and 1.35 damped. */
+/* Cells enter and begin to slip one at a time, which is not smooth: less than second order with
+ * this many steps, more than the first of the paper's. Measured 1.33 elastic and 1.35 damped. */
 static void shear_velocity_is_between_the_orders(void **state)
 {
     const struct orders elastic = orders_in_the_step((struct bem_variant){0}, 0, 0.5);
@@ -137,7 +145,8 @@ static void shear_velocity_is_between_the_orders(void **state)
     CHECK(damped.x > 1.15 && damped.x < 1.6, "standard solid: %g", damped.x);
 }
 
-/* Measured 1.06 to 1.07: 1, and 0.06 because the reference has an eighth of the smallest step and so an eighth of its error. */
+/* Measured 1.06 to 1.07: 1, and 0.06 because the reference has an eighth of the smallest step and
+ * so an eighth of its error. */
 static void the_papers_steps_are_of_first_order(void **state)
 {
     const struct bem_variant paper = {.explicit_euler = 1, .stick_sets = 1};
@@ -159,8 +168,9 @@ static void stick_sets_agree_with_bounds(void **state)
                "U' after"); /* the sets do not let a cell stick again */
 }
 
-/* The order in the cells, from 8 to 64 over the side of the box, against 128. The largest depth is the smoothest of what a run gives:
- * measured 1.98; whole cells at the rim cost 3/2 in single steps of it, two on the average. Velocities stay within the estimates of the method. */
+/* The order in the cells, from 8 to 64 over the side of the box, against 128. The largest depth is
+ * the smoothest of what a run gives: measured 1.98; whole cells at the edge cost 3/2 in single
+ * steps of it, two on the average. Velocities stay within the estimates of the method. */
 static void converges_with_the_grid(void **state)
 {
     enum { grids = 4 };

@@ -1,4 +1,5 @@
-/* The plain tables behind materials and the command: what is read, what is refused and how, and the strict reading of numbers.
+/* The plain tables behind materials and the command: what is read, what is refused and how, and the
+ * strict reading of numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -16,7 +17,7 @@
 /* Every test writes this one file in the current directory; the teardown removes it. */
 #define TABLE "test_csv_table.csv"
 
-/* What outputs point to before a call that must not touch them. */
+/* Values of outputs before a call that must not change them. */
 static char untouched_place;
 #define UNTOUCHED ((struct rst_csv *)&untouched_place)
 
@@ -54,7 +55,8 @@ static void check_cell(const struct rst_csv *csv, size_t row, size_t column, con
     CHECK(strcmp(cell, expected) == 0, "row %zu column %zu is \"%s\", not \"%s\"", row, column, cell, expected);
 }
 
-/* The file as it is now on disk is refused: status, output untouched, a message with all the words. */
+/* The file as it is now on disk is refused: status, output untouched, a message with all the
+ * words. */
 static void check_refused(const char *path, int expected, const char *const *words, const char *what)
 {
     struct rst_csv *csv = UNTOUCHED;
@@ -69,7 +71,7 @@ static void check_refused(const char *path, int expected, const char *const *wor
     CHECK(rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, NULL) == expected && csv == UNTOUCHED, "%s: without an error struct", what);
 }
 
-/* -------------------------------------------------------------------------------------------------- what is read */
+/* ---- what is read */
 
 static void plain_table(void **state)
 {
@@ -251,7 +253,7 @@ static void long_cell(void **state)
     free(text);
 }
 
-/* ----------------------------------------------------------------------------------------------- what is refused */
+/* ---- what is refused */
 
 static void malformed_tables(void **state)
 {
@@ -384,9 +386,10 @@ static void truncated_table(void **state)
         check_any_bytes(rich_table, length, (int)length);
 }
 
-/* ------------------------------------------------------------------------------------------------------- numbers */
+/* ---- numbers */
 
-/* The values are those that the compiler reads from the same digits: both round to the nearest double. */
+/* The values are those that the compiler reads from the same digits: both round to the nearest
+ * double. */
 static void numbers(void **state)
 {
     (void)state;
@@ -442,7 +445,7 @@ static void no_numbers(void **state)
         refused_number(texts[i], RESTITUTE_ERROR_FORMAT);
 }
 
-/* The header allows inf and no other word. */
+/* The header allows inf and no other text. */
 static void infinity_is_no_number(void **state)
 {
     (void)state;

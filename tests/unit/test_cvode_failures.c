@@ -1,5 +1,6 @@
-/* What goes wrong inside the method `cvode`: failures of CVODE itself come back with its words, storms and endless runs with ours, and
- * nothing is ever printed. The failures are made here: a right-hand side that gives no numbers, limits that a sound run passes.
+/* Failures inside the method `cvode`. Failures of CVODE are reported with its text, too many events
+ * and endless runs with ours. Nothing is printed. The failures are provoked: a right-hand side
+ * without a finite value, limits below those of a normal run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
@@ -11,7 +12,8 @@
 
 #include "../support/cvode.h"
 
-/* Standard output and standard error go to a file from capture() on; captured() undoes that and tells how much was written. */
+/* Standard output and standard error go to a file from capture() on; captured() undoes that and
+ * tells how much was written. */
 struct capture {
     FILE *file;
     int output, error;
@@ -40,7 +42,7 @@ static long captured(struct capture *c)
     return written;
 }
 
-/* y' = -y, for so many evaluations: from then on it has no value. */
+/* y' = -y for a number of evaluations; after them it has no value. */
 struct decay {
     long calls, most;
 };
@@ -141,12 +143,14 @@ static void failures_have_the_words_of_cvode_and_print_nothing(void **state)
     }
 }
 
-/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the limits of the run. */
+/* An elastic impact with 40 elements, or one on a solid that is no number; `spoil` changes the
+ * limits of the run. */
 static int follow_impact(double modulus, void (*spoil)(struct run_setup *setup), struct run *run)
 {
     const struct rst_problem problem = {.method = restitute_method_cvode(),
                                         .chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = modulus},
                                         .tolerance = 1e-4,
@@ -194,14 +198,14 @@ static void runs_without_end_are_ended_and_say_why(void **state)
     const struct {
         double modulus;
         void (*spoil)(struct run_setup *setup);
-        int status, spent;
+        int status;
         const char *words;
     } cases[] = {
-        {1, spoil_nothing, RESTITUTE_OK, 0, ""},
-        {1, allow_no_event, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "event storm"},
-        {1, allow_thirty_steps, RESTITUTE_ERROR_TOO_MUCH_WORK, 0, "more than 30 steps"},
-        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, 1, "max_work = 10:"},
-        {NAN, spoil_nothing, RESTITUTE_ERROR_INTEGRATOR, 0, "right-hand side"},
+        {1, spoil_nothing, RESTITUTE_OK, ""},
+        {1, allow_no_event, RESTITUTE_ERROR_CONVERGENCE, "event storm"},
+        {1, allow_thirty_steps, RESTITUTE_ERROR_CONVERGENCE, "more than 30 steps"},
+        {1, allow_little_work, RESTITUTE_ERROR_TOO_MUCH_WORK, "max_work = 10:"},
+        {NAN, spoil_nothing, RESTITUTE_ERROR_INTEGRATOR, "right-hand side"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -210,18 +214,19 @@ static void runs_without_end_are_ended_and_say_why(void **state)
         const int status = follow_impact(cases[i].modulus, cases[i].spoil, &run);
         const long written = captured(&c);
         CHECK(written == 0, "case %zu: %ld bytes printed", i, written);
-        CHECK(status == cases[i].status && run.spent == cases[i].spent, "case %zu: %d, %s", i, status, run.text);
+        CHECK(status == cases[i].status, "case %zu: %d, %s", i, status, run.text);
         CHECK(strstr(run.text, cases[i].words) != NULL, "case %zu: \"%s\"", i, run.text);
         CHECK((status == RESTITUTE_OK) == run.ended, "case %zu", i);
     }
 }
 
-/* What becomes of it in a call: the status and the words. */
+/* The result of a call: the status and the message. */
 static void a_call_hands_on_the_words_of_cvode(void **state)
 {
     const struct rst_problem problem = {.method = restitute_method_cvode(),
                                         .chi = 8,
                                         .psi = 0.5,
+                                        .shear_speed = 0.5,
                                         .mode = RST_PARTIAL_SLIP,
                                         .solid = {.g_inf = NAN},
                                         .tolerance = 1e-4,

@@ -9,8 +9,9 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* (6): g(x) = |x| int_0^|x| f'(r)/sqrt(x^2 - r^2) dr with f = r^2/(2R); r = x sin t removes the root's singularity, and the
- * integrand x sin t/R is smooth: Simpson on 200 intervals is good to (pi/400)^4/90 = 4e-11. */
+/* (6): g(x) = |x| int_0^|x| f'(r)/sqrt(x^2 - r^2) dr with f = r^2/(2R); r = x sin t removes the
+ * root's singularity, and the integrand x sin t/R is smooth: Simpson on 200 intervals is good to
+ * (pi/400)^4/90 = 4e-11. */
 static void profile_is_the_transform_of_the_parabola(void **state)
 {
     (void)state;
@@ -48,7 +49,8 @@ static void step_coefficients_are_backward_euler(void **state)
     }
 }
 
-/* A mass on the solid, coupled as the sphere is: position first, then the force, then the velocity. */
+/* A mass on the solid, coupled as the sphere is: position first, then the force, then the
+ * velocity. */
 static double swing(double coupling, double h, double g_inf, double eta, int n, const double *g, const double *tau)
 {
     double decay[2], gain[2], y[2] = {0}, u = 0, v = 1, largest = 0;
@@ -86,14 +88,15 @@ static void step_is_stable_just_below_the_limit_and_not_above(void **state)
             swing(coupling, 0.99 * h, solids[i].g_inf, solids[i].eta, solids[i].n, solids[i].g, solids[i].tau);
         double above =
             swing(coupling, 1.01 * h, solids[i].g_inf, solids[i].eta, solids[i].n, solids[i].g, solids[i].tau);
-        /* 1500 steps beyond the limit multiply by at least (1 + 0.01)^1500 = 3e6; below it a swing stays within
-         * the factor 1/sqrt(1 - 0.99^2) = 7 of a linear oscillator near its limit */
+        /* 1500 steps beyond the limit multiply by at least (1 + 0.01)^1500 = 3e6; below it a swing
+         * stays within the factor 1/sqrt(1 - 0.99^2) = 7 of a linear oscillator near its limit */
         CHECK(below < 10, "%s: %g at 0.99 of the limit", solids[i].name, below);
         CHECK(above > 1e5, "%s: %g at 1.01 of the limit", solids[i].name, above);
     }
 }
 
-/* The look ahead sizes the foundation: it must know the depth to two per cent, and the force of an elastic body. */
+/* The look ahead sizes the foundation: it must know the depth to two per cent, and the force of an
+ * elastic body. */
 static void scout_knows_the_largest_indentation(void **state)
 {
     (void)state;
@@ -141,7 +144,8 @@ static void far_terms_are_merged_and_near_ones_kept(void **state)
     CHECK(n == 0 && slow_rate == 0 && fast_bound == 0, "no terms");
 }
 
-/* Fortran fills exactly what C declares: a pattern behind the struct survives, and the last member is reached. */
+/* Fortran fills exactly what C declares: a pattern behind the struct survives, and the last member
+ * is reached. */
 static void struct_twins_have_the_same_layout(void **state)
 {
     (void)state;
@@ -150,7 +154,7 @@ static void struct_twins_have_the_same_layout(void **state)
         unsigned char canary[64];
     } guarded;
     struct euler_scene scene = {.chi = 1,
-                                .psi = 0.25,
+                                .shear_speed = 0.25,
                                 .g_inf = 1,
                                 .step = 0.01,
                                 .spacing = 0.1,

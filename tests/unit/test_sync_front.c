@@ -1,4 +1,5 @@
-/* Slip as a corrective contact, as the method `sync` has it (docs/sync.md): the front, and the motion behind it.
+/* Slip as a corrective contact, as the method `sync` has it (docs/sync.md): the front, and the
+ * motion behind it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -7,8 +8,9 @@
 
 /* ---- front */
 
-/* Cattaneo and Mindlin, loaded at an angle: D' = 1 and U' = beta < 1 to D1, where all sticks; then D stays and U goes
- * on to U1. With q = U1 - beta X^2 in stick c^2 = (D1 - U1)/(1 - beta) and H = (2/3)(1 - beta) c^3. */
+/* Cattaneo and Mindlin, oblique loading: D' = 1 and U' = beta < 1 up to D1, while all elements
+ * stick; then D is constant and U increases to U1. With q = U1 - beta X^2 in stick c^2 = (D1 -
+ * U1)/(1 - beta) and H = (2/3)(1 - beta) c^3. */
 static void front_of_cattaneo_and_mindlin(void **state)
 {
     (void)state;
@@ -20,8 +22,9 @@ static void front_of_cattaneo_and_mindlin(void **state)
                 const double b = side * beta, u1 = side * (b * d1 + load * (d1 - b * d1)), m[2] = {d1, u1};
                 double out[4], c = sqrt((d1 - side * u1) / (1 - b));
                 probe_front(1, &g, &rate, 0, beta, d1, d1, m, -1, side, out);
-                /* the search ends where 1e-4 of a slack is left, and goes on linearly: c is then off by some 1e-8 of itself,
-                 * and H by 1e-12 at most; the last of Newton's steps is better than it has to be */
+                /* the search ends where the stick margin is 1e-4, and continues linearly: the
+                 * relative error of c is then about 1e-8, that of H at most 1e-12; the last Newton
+                 * step is better than needed */
                 CHECK_NEAR(out[0], c, 0.6e-7 * c, "c, beta = %g, side %d, load %g", beta, side, load);
                 CHECK_NEAR(out[1], 2.0 / 3 * (1 - b) * c * c * c, 1e-14, "H, beta = %g, side %d, load %g", beta, side,
                            load);
@@ -44,8 +47,9 @@ static double faded(double rate, double dt)
     return rate > 0 ? -expm1(-rate * dt) / rate : dt;
 }
 
-/* A solid with a spring, two arms and a dashpot, loaded at D' = 1 and U' = beta, then held in z and driven in x with
- * U' = w: the front against the slack of 20000 elements, each with its own history. */
+/* A solid with a spring, two arms and a dashpot, loaded at D' = 1 and U' = beta, then held in z and
+ * driven in x with U' = w: the front against the slack of 20000 elements, each with its own
+ * history. */
 static void front_of_a_viscoelastic_solid_is_that_of_its_elements(void **state)
 {
     (void)state;
@@ -74,7 +78,8 @@ static void front_of_a_viscoelastic_solid_is_that_of_its_elements(void **state)
                 c = x + 0.5 * dx;
             }
             CHECK(c > 0.1 && c < 0.9, "partial slip: c = %g", c);
-            /* elements are dx = 5e-5 wide: c to that, H to slope dx^2 = 1e-8; polynomials of a record miss 1e-9 */
+            /* elements are dx = 5e-5 wide: c to that, H to slope dx^2 = 1e-8; polynomials of a
+             * record miss 1e-9 */
             CHECK_NEAR(out[0], c, dx, "stick radius, side %d, %g later", side, later);
             CHECK_NEAR(out[1], sum, 2e-8, "slack force, side %d, %g later", side, later);
         }
@@ -82,7 +87,8 @@ static void front_of_a_viscoelastic_solid_is_that_of_its_elements(void **state)
 
 /* ---- tangential motion */
 
-/* e_x of the recorded impacts that do not slip to the end; rows where elements stick again are not for the front. */
+/* e_x of the recorded impacts that do not slip to the end; rows where elements stick again are not
+ * for the front. */
 static void recorded_tangential_motions_are_met(void **state)
 {
     (void)state;
@@ -99,14 +105,15 @@ static void recorded_tangential_motions_are_met(void **state)
         assert_int_equal(probe_normal(s.eta, s.n, s.g, s.rate, rows[i].max_indentation, 3, 1e-6, counts), 0);
         if (probe_contact(rows[i].chi, rows[i].psi, 1e-6 * fmin(1, rows[i].psi), &velocity, &n_pieces) != 0) continue;
         solved++;
-        /* polynomials that miss 1e-6 of U' on some piece, and what the row itself may be wrong by */
+        /* polynomials that miss 1e-6 of U' on some piece, and what the row itself may be wrong
+         * by */
         CHECK_NEAR(-velocity / rows[i].psi, rows[i].ex, 2e-6 + rows[i].err_ex, "row %d", i);
     }
     /* that of chi = 3.127 */
     CHECK(solved == partial - 1, "%d of %d rows solved by a front", solved, partial);
 }
 
-/* A foundation of elements, driven by velocities that are known, with one arm beside the spring. */
+/* A foundation of elements with prescribed velocities, and one arm parallel to the spring. */
 enum { elements = 600, substeps = 40 };
 
 struct foundation {
@@ -114,8 +121,8 @@ struct foundation {
     double x2[elements], dx;
 };
 
-/* One step of the length h with velocities that are linear in it; the sphere is at the depths d0 and d1. The force in
- * x, and in *stuck the length of what sticks. */
+/* One step of the length h with velocities that are linear in it; the sphere is at the depths d0
+ * and d1. The force in x, and in *stuck the length of what sticks. */
 static double drive(struct foundation *f, double h, double d0, double d1, const double v0[2], const double v1[2],
                     double *stuck)
 {
@@ -149,8 +156,8 @@ static double drive(struct foundation *f, double h, double d0, double d1, const 
     return total;
 }
 
-/* S and the stick radius behind the front against elements that know of no front: they are driven by the D' and U' that
- * were found, and each slips by itself when its trial force exceeds its friction limit. */
+/* S and the stick radius behind the front, compared with elements without a front. These have the
+ * computed D' and U', and each slips when its trial force exceeds its friction limit. */
 static void front_is_that_of_a_foundation(void **state)
 {
     (void)state;
@@ -183,8 +190,8 @@ static void front_is_that_of_a_foundation(void **state)
         compared += new[2] > 0.05 && new[2] < 0.95 * now[RADIUS];
     }
     CHECK(compared > 5, "%d pieces end with a front within the contact", compared);
-    /* elements are 1.5e-3 wide, so that the rim, where f falls to 0, counts for slope*dx^2 = 5e-6, and so do those
-     * that change from stick to slip; the steps count for as much */
+    /* elements are 1.5e-3 wide, so that the rim, where f falls to 0, counts for slope*dx^2 = 5e-6,
+     * and so do those that change from stick to slip; the steps count for as much */
     CHECK(worst_s < 1e-5, "S off by %g", worst_s);
     CHECK(worst_c < f.dx, "stick radius off by %g, elements are %g wide", worst_c, f.dx);
 }

@@ -1,4 +1,5 @@
-/* The normal motion that a plan or a batch keeps: when a run of the method sync stays, and when it is solved anew.
+/* The normal motion that a plan or a batch keeps: when a run of the method sync is kept, and when
+ * it is solved again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/check.h"
 #include "sync/motion.h"
@@ -13,6 +14,7 @@ static struct rst_problem problem_of(double g_inf, double eta, int n_terms, doub
 {
     return (struct rst_problem){.chi = 7.0 / 6,
                                 .psi = psi,
+                                .shear_speed = psi,
                                 .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
                                 .solid = {.g_inf = g_inf, .eta = eta, .n_terms = n_terms, .g = modulus, .tau = relaxation},
                                 .tolerance = tolerance};
@@ -71,7 +73,8 @@ static void a_sphere_that_stops_is_followed_anew_for_another_stop_speed(void **s
     rst_workspace_free(&workspace);
 }
 
-/* Maxwell bodies that rebound ever more slowly: one is sought whose rebound counts at a small tolerance alone. */
+/* Maxwell bodies that rebound ever more slowly: one is sought whose rebound counts at a small
+ * tolerance alone. */
 static void a_slow_rebound_stays_for_stop_speeds_below_it(void **state)
 {
     (void)state;

@@ -9,8 +9,8 @@
 
 /* ---- collocation */
 
-/* Radau's points are the zeros of P_6 - P_5, and integrals of x^k are exact up to k = 5, at the end up to k = 10: that
- * is what the order 11 rests on. Rounding: sums of six terms below 1. */
+/* Radau's points are the zeros of P_6 - P_5, and integrals of x^k are exact up to k = 5, at the end
+ * up to k = 10: that is what the order 11 rests on. Rounding: sums of six terms below 1. */
 static void radau_integrates_powers(void **state)
 {
     (void)state;
@@ -46,8 +46,8 @@ static double power_sum(const double c[points], double x)
     return y;
 }
 
-/* Through the start and the six points passes one polynomial of degree 6, and all that is asked of it is exact but for
- * rounding: 1e-13 for numbers of the size 1 and weights up to 735. */
+/* Through the start and the six points passes one polynomial of degree 6, and all that is asked of
+ * it is exact but for rounding: 1e-13 for numbers of the size 1 and weights up to 735. */
 static void polynomials_of_degree_six_are_exact(void **state)
 {
     (void)state;
@@ -92,8 +92,9 @@ static void polynomials_of_degree_six_are_exact(void **state)
 
 /* ---- arms */
 
-/* Solutions of random systems are found again to 1e-11, for matrices that have a zero on the diagonal and whose rows change
- * places more than once; a matrix of rank 5 is refused. Conditions of such matrices are below 1e4, as a rule. */
+/* Solutions of random systems are found again to 1e-11, for matrices that have a zero on the
+ * diagonal and whose rows change places more than once; a matrix of rank 5 is refused. Conditions
+ * of such matrices are below 1e4, as a rule. */
 static void linear_systems_are_solved_with_pivots(void **state)
 {
     (void)state;
@@ -120,8 +121,8 @@ static void linear_systems_are_solved_with_pivots(void **state)
     }
 }
 
-/* An arm that is released relaxes by exp(-rate t). At the ends of panels the error is of order 11, at a point between
- * of order 7. */
+/* An arm that is released relaxes by exp(-rate t). At the ends of panels the error is of order 11,
+ * at a point between of order 7. */
 static void order_is_eleven_at_the_end_and_seven_within(void **state)
 {
     (void)state;
@@ -138,13 +139,15 @@ static void order_is_eleven_at_the_end_and_seven_within(void **state)
             y *= decay[stages - 1];
         error[fine] = y - exp(-12);
     }
-    /* 2^11 and 2^7, as far as panels of 1.5 and 0.75 relaxation times are small: within a factor of 2 */
+    /* 2^11 and 2^7, as far as panels of 1.5 and 0.75 relaxation times are small: within a factor of
+     * 2 */
     CHECK(error[0] / error[1] > 1024 && error[0] / error[1] < 4096, "ratio %g at the end", error[0] / error[1]);
     CHECK(within[0] / within[1] > 64 && within[0] / within[1] < 256, "ratio %g within", within[0] / within[1]);
 }
 
-/* A spring integrates; a slow arm is a spring but for rate*time; where the arm relaxes in the panel its stress is that
- * of v(t) = 1 + t/3 in closed form; a fast one is a dashpot, and what it held at the start is gone. */
+/* A spring integrates; a slow arm is a spring but for rate*time; where the arm relaxes in the panel
+ * its stress is that of v(t) = 1 + t/3 in closed form; a fast one is a dashpot, and what it held at
+ * the start is gone. */
 static void arms_are_springs_and_dashpots_in_their_limits(void **state)
 {
     (void)state;
@@ -175,7 +178,8 @@ static void arms_are_springs_and_dashpots_in_their_limits(void **state)
                 CHECK_NEAR(sum, expected, tolerance, "rate %g, point %d", rate, i);
                 CHECK_NEAR(decay[i - 1], exp(-rate * t), 1e-15 + 1e-9 * pow(rate, 7), "rate %g, point %d", rate, i);
             } else {
-                /* v/rate but for 1/rate of it, times the inverse of the integrals, which is below 40 */
+                /* v/rate but for 1/rate of it, times the inverse of the integrals, which is below
+                 * 40 */
                 CHECK_NEAR(rate * sum, 1 + t / 3, 100 / rate + 1e-13, "rate %g, point %d", rate, i);
                 CHECK(fabs(decay[i - 1]) < 100 / rate, "rate %g: %g left at point %d", rate, decay[i - 1], i);
             }
@@ -185,8 +189,9 @@ static void arms_are_springs_and_dashpots_in_their_limits(void **state)
 
 /* ---- normal motion */
 
-/* Energy: D'^2 = 1 - D^(5/2); the restitution is the compression mirrored in time. Sixteen panels a phase are good to
- * 1e-9, where iterations end at 1e-12 and between the points of a panel polynomials of degree 6 miss 2e-9. */
+/* Energy: D'^2 = 1 - D^(5/2); the restitution is the compression mirrored in time. Sixteen panels a
+ * phase are good to 1e-9, where iterations end at 1e-12 and between the points of a panel
+ * polynomials of degree 6 miss 2e-9. */
 static void elastic_impact_keeps_its_energy_and_is_symmetric(void **state)
 {
     (void)state;
@@ -207,7 +212,8 @@ static void elastic_impact_keeps_its_energy_and_is_symmetric(void **state)
             CHECK_NEAR(out[ANGLE], in[ANGLE], 4 * DBL_EPSILON, "panel %d, x = %g", p, x);
             CHECK_NEAR(out[RADIUS], in[RADIUS], 1e-8, "panel %d, x = %g", p, x);
             CHECK_NEAR(out[VELOCITY], -in[VELOCITY], 1e-8, "panel %d, x = %g", p, x);
-            /* a time is known 1/D' as well as a depth: within 1e-4 of the turning point less well */
+            /* a time is known 1/D' as well as a depth: within 1e-4 of the turning point less
+             * well */
             CHECK_NEAR(out[TIME] - turn[TIME], turn[TIME] - in[TIME], 1e-7, "panel %d, x = %g", p, x);
         }
     probe_motion(32, 1, out);
@@ -215,8 +221,9 @@ static void elastic_impact_keeps_its_energy_and_is_symmetric(void **state)
     CHECK_NEAR(out[RADIUS], 0, DBL_EPSILON, "the edge is back at the centre");
 }
 
-/* Kelvin-Voigt by itself: the compression in the root sigma of time with the force (2/3) A^3 + theta A D', the
- * restitution D'' = -(5/4)(D + theta D')^(3/2), which ends where D + theta D' = 0. */
+/* Kelvin-Voigt without the library: the compression in the root sigma of time with the force (2/3)
+ * A^3 + theta A D', the restitution D'' = -(5/4)(D + theta D')^(3/2), which ends where D + theta D'
+ * = 0. */
 static void voigt_rates(int back, double theta, double sigma, const double y[2], double out[2])
 {
     if (back) { /* D, D' over time */
@@ -247,7 +254,8 @@ static double voigt_end(int back, double theta, const double y[2])
     return back ? y[0] + theta * y[1] : y[1];
 }
 
-/* From y to the end of the phase in steps of h, the last one shortened by secants; the t of the end. */
+/* From y to the end of the phase in steps of h, the last one shortened by secants; the t of the
+ * end. */
 static double voigt_phase(int back, double theta, double h, double y[2])
 {
     for (int64_t n = 0;; n++) {
@@ -278,7 +286,8 @@ static void kelvin_voigt_follows_its_own_equations(void **state)
         time = voigt_phase(0, s.eta, 1e-4, y);
         double depth = y[0] * y[0];
         time *= time;
-        /* 32 panels a phase: a weak dashpot holds the edge back within an angle of about theta after the turn */
+        /* 32 panels a phase: a weak dashpot holds the edge back within an angle of about theta
+         * after the turn */
         assert_int_equal(normal(s, depth, 5, counts), 0);
         probe_motion(counts[0], 1, turn);
         probe_motion(counts[1], 1, end);
@@ -294,7 +303,8 @@ static void kelvin_voigt_follows_its_own_equations(void **state)
     }
 }
 
-/* All rows of the recorded impacts, which another method computed: e_z, largest indentation and contact time. */
+/* All rows of the recorded impacts, which another method computed: e_z, largest indentation and
+ * contact time. */
 static void recorded_normal_motions_are_met(void **state)
 {
     (void)state;
@@ -317,7 +327,8 @@ static void recorded_normal_motions_are_met(void **state)
             CHECK_NEAR(end[TIME], rows[i].contact_time, 1e-6, "row %d", i);
         }
     }
-    /* the second run has polynomials that miss 1e-6 between the points on some panel, and less at its end */
+    /* the second run has polynomials that miss 1e-6 between the points on some panel, and less at
+     * its end */
     CHECK(worst[1] < 5e-8, "worst e_z %g", worst[1]);
     CHECK(worst[1] < worst[0] / 100, "worst e_z %g, then %g", worst[0], worst[1]);
 }

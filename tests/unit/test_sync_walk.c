@@ -26,7 +26,7 @@ static const struct motion *motion_of(const struct solid *s, int n, int n1, doub
 
 static double body[(most_nodes + walk_lanes) * walk_columns];
 
-/* The room holds NaN: nothing of it may be read before it is written. */
+/* The workspace holds NaN: no value may be read before it is written. */
 static void follow(const struct solid *s, const struct motion *m, const struct walk *walk, struct result *result)
 {
     static double stress[(most_nodes + walk_lanes) * (most_terms + 1) * 2];
@@ -49,6 +49,7 @@ static struct walk walk_of(const struct solid *s, int n, double chi, double psi)
                          .end = 2 * n,
                          .n_terms = s->n,
                          .capacity = (n + walk_lanes) / walk_lanes * walk_lanes,
+                         .mode = RST_PARTIAL_SLIP,
                          .chi = chi,
                          .psi = psi,
                          .g_inf = s->g_inf,
@@ -88,8 +89,9 @@ static struct solid solid_of(const struct truth *t)
     return (struct solid){"Kelvin-Voigt", 1, theta, 0, {0}, {0}};
 }
 
-/* Second order: 4 times as many nodes leave a 16th of the error, and twice that where slip is a thin ring; at first order it
- * would be a quarter. Kinks between nodes add up to their spacing squared. 2e-3: the worst of these impacts has 1.1e-3. */
+/* Second order: 4 times as many nodes leave a 16th of the error, and twice that where slip is a
+ * thin ring; at first order it would be a quarter. Kinks between nodes add up to their spacing
+ * squared. 2e-3: the worst of these impacts has 1.1e-3. */
 static void converges(const struct solid *s, double chi, double psi, double expected)
 {
     const double coarse = impact(s, 64, chi, psi).rebound, fine = impact(s, 256, chi, psi).rebound;
@@ -98,8 +100,9 @@ static void converges(const struct solid *s, double chi, double psi, double expe
                psi);
 }
 
-/* Where springs make U' swing many times, nearly all of the error would be its phase: the trapezoidal rule is off by 0.53 and
- * 0.15 here. What is left are 9e-3 and 2.1e-3. Expected is e_x by collocation and 8192 nodes, known to 2e-6. */
+/* Where springs make U' swing many times, nearly all of the error would be its phase: the
+ * trapezoidal rule is off by 0.53 and 0.15 here. What is left are 9e-3 and 2.1e-3. Expected is e_x
+ * by collocation and 8192 nodes, known to 2e-6. */
 static void fast_swings_keep_their_phase(void **state)
 {
     const double expected = 0.767491, chi = 300, psi = 0.5;
@@ -129,7 +132,8 @@ static void impacts_converge_to_the_reference(void **state)
     converges(&two, 7.0 / 6, 1.5, 0.413696092);
 }
 
-/* Started at first touch, where each element has to find out for itself that it slips: (27), to rounding. */
+/* Started at first touch, where each element has to find out for itself that it slips: (27), to
+ * rounding. */
 static void full_slip_is_exact(void **state)
 {
     (void)state;
@@ -151,8 +155,8 @@ static void full_slip_is_exact(void **state)
         }
 }
 
-/* A heavy body (chi -> 0) keeps its velocity psi, so an element in contact for a time T takes the momentum
- * psi (G_inf T^2/2 + sum g tau (T - tau (1 - exp(-T/tau))) + eta T). */
+/* A heavy body (chi -> 0) keeps its velocity psi, so an element in contact for a time T takes the
+ * momentum psi (G_inf T^2/2 + sum g tau (T - tau (1 - exp(-T/tau))) + eta T). */
 static void without_slip_a_heavy_body_strains_each_element_evenly(void **state)
 {
     (void)state;
@@ -164,7 +168,7 @@ static void without_slip_a_heavy_body_strains_each_element_evenly(void **state)
             int n = p == 0 ? 64 : 128;
             const struct motion *m = motion_of(s, n, n / 2, half_pi / 2);
             struct walk walk = walk_of(s, n, chi, psi);
-            walk.no_slip = 1;
+            walk.mode = RST_NO_SLIP;
             struct result r;
             follow(s, m, &walk, &r);
             loss[p] = (psi - r.shear[2 * n].velocity) / (15.0 / 4 * chi * psi);
@@ -184,7 +188,7 @@ static void without_slip_a_heavy_body_strains_each_element_evenly(void **state)
     }
 }
 
-/* To second order, and none of its parts is negative. */
+/* To second order, and no part of it is negative. */
 static void ledger_closes(void **state)
 {
     (void)state;
@@ -203,8 +207,9 @@ static void ledger_closes(void **state)
         }
 }
 
-/* Friction work depends on how slip begins and ends in each element. Second order: differences fall by 4 as n doubles, up
- * to the scatter of kinks between nodes (0.36 at most; first order would be a half). */
+/* Friction work depends on how slip begins and ends in each element. Second order: differences fall
+ * by 4 as n doubles, up to the scatter of kinks between nodes (0.36 at most; first order would be a
+ * half). */
 static void friction_work_converges(void **state)
 {
     (void)state;
@@ -236,8 +241,8 @@ static void prescribed_stick_has_its_share_of_full_friction(void **state)
     }
 }
 
-/* A push that makes all slip after the turning point: from then on springs follow their limits, v = D'. An end velocity
- * found from displacements alone would swing by 2 U' from step to step. */
+/* A push that makes all slip after the turning point: from then on springs follow their limits, v =
+ * D'. An end velocity found from displacements alone would swing by 2 U' from step to step. */
 static void slip_velocity_of_springs_does_not_swing(void **state)
 {
     (void)state;
@@ -296,8 +301,8 @@ static void fast_terms_are_a_dashpot(void **state)
     CHECK_NEAR(fast.ledger.friction_x, dashpot.ledger.friction_x, 1e-7, "friction work");
 }
 
-/* A light body on a strong dashpot is stopped within a step. Its velocity does not swing afterwards: it then creeps, by
- * 3e-4 of psi at most. */
+/* A light body on a strong dashpot is stopped within a step. Its velocity does not swing
+ * afterwards: it then creeps, by 3e-4 of psi at most. */
 static void light_bodies_are_held(void **state)
 {
     (void)state;
@@ -311,7 +316,8 @@ static void light_bodies_are_held(void **state)
         CHECK_NEAR(r.shear[l].velocity, 0, 1e-3, "level %d", l);
 }
 
-/* Gross slip to the end is closed form in x but for its share of the losses in z; chi = 0 leaves those in z. */
+/* Gross slip to the end is closed form in x but for its share of the losses in z; chi = 0 leaves
+ * those in z. */
 static void gross_slip_loses_as_the_normal_problem_does(void **state)
 {
     (void)state;
@@ -323,7 +329,7 @@ static void gross_slip_loses_as_the_normal_problem_does(void **state)
         follow(solids[i], m, &walk, &r);
         CHECK_NEAR(r.ledger.viscous_x, 7.0 / 3 * r.ledger.viscous_z, 1e-12, "%s", solids[i]->name);
         CHECK_NEAR(r.left_over_x * 25, 7.0 / 3 * r.left_over_z, 1e-12, "%s", solids[i]->name);
-        walk.chi = 0;
+        walk.mode = RST_FRICTIONLESS;
         follow(solids[i], m, &walk, &none);
         CHECK_NEAR(none.rebound, -1, 1e-15, "%s", solids[i]->name);
         CHECK_NEAR(none.ledger.viscous_z, r.ledger.viscous_z, 1e-15, "%s", solids[i]->name);

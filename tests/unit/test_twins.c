@@ -8,8 +8,7 @@
 #include "cvode/kernels.h"
 #endif
 #include "euler/kernels.h"
-#include "sync/sync_kernels.h"
-#include "sync/walk_kernels.h"
+#include "sync/kernels.h"
 
 /* unit/twins.F90. */
 void fortran_offsets(int64_t i, int64_t *n, int64_t *offset);
@@ -19,7 +18,7 @@ struct member {
     size_t offset, size;
 };
 
-/* A member; one that is an array of so many members in Fortran; what is behind the last. */
+/* A member; a member that is several members in Fortran; the end of the struct. */
 #define AT(type, member) {#member, offsetof(struct type, member), sizeof ((struct type *)0)->member}
 #define PART(type, member, count) {#member, offsetof(struct type, member), (count) * sizeof ((struct type *)0)->member}
 #define END(type) {"end", sizeof(struct type), 0}
@@ -34,7 +33,7 @@ static const struct {
     [0] = {"rst_chain", {AT(rst_chain, m_inf), AT(rst_chain, eta), AT(rst_chain, n), END(rst_chain)}},
     [1] = {"rst_ledger", {AT(rst_ledger, viscous_z), AT(rst_ledger, left_z), AT(rst_ledger, friction_x),
         AT(rst_ledger, viscous_x), AT(rst_ledger, left_x), END(rst_ledger)}},
-    [2] = {"euler_scene", {AT(euler_scene, chi), AT(euler_scene, psi), AT(euler_scene, g_inf), AT(euler_scene, eta),
+    [2] = {"euler_scene", {AT(euler_scene, chi), AT(euler_scene, shear_speed), AT(euler_scene, g_inf), AT(euler_scene, eta),
         AT(euler_scene, step), AT(euler_scene, spacing), AT(euler_scene, rest_speed), AT(euler_scene, n_terms),
         AT(euler_scene, capacity), AT(euler_scene, can_sink), AT(euler_scene, keep_ledger), AT(euler_scene, mode),
         END(euler_scene)}},
@@ -51,22 +50,22 @@ static const struct {
     [5] = {"sync_normal_control", {AT(sync_normal_control, roughness), AT(sync_normal_control, stop_speed),
         AT(sync_normal_control, halvings), AT(sync_normal_control, capacity), AT(sync_normal_control, n_coarse),
         AT(sync_normal_control, n_coarse_compression), AT(sync_normal_control, coarse), END(sync_normal_control)}},
-    [6] = {"sync_normal", {AT(sync_normal, eta), AT(sync_normal, radius), AT(sync_normal, closeness),
-        AT(sync_normal, left), AT(sync_normal, n_arms), AT(sync_normal, n_compression), AT(sync_normal, n_panels),
+    [6] = {"sync_normal", {AT(sync_normal, eta), AT(sync_normal, scale), AT(sync_normal, closeness),
+        AT(sync_normal, residual_speed), AT(sync_normal, n_arms), AT(sync_normal, n_compression), AT(sync_normal, n_panels),
         AT(sync_normal, g), AT(sync_normal, rate), AT(sync_normal, panel), AT(sync_normal, memory),
         AT(sync_normal, loading), AT(sync_normal, kernel), AT(sync_normal, entry), END(sync_normal)}},
     [7] = {"sync_contact", {AT(sync_contact, chi), AT(sync_contact, psi), AT(sync_contact, roughness),
-        AT(sync_contact, noise), AT(sync_contact, closeness), AT(sync_contact, stress), AT(sync_contact, no_slip),
+        AT(sync_contact, noise), AT(sync_contact, closeness), AT(sync_contact, stress), AT(sync_contact, mode),
         END(sync_contact)}},
-    [8] = {"sync_record", {AT(sync_record, from), AT(sync_record, to), AT(sync_record, end), AT(sync_record, edge),
+    [8] = {"sync_record", {AT(sync_record, from), AT(sync_record, to), AT(sync_record, end), AT(sync_record, touch),
         END(sync_record)}},
     [9] = {"sync_piece", {AT(sync_piece, panel), AT(sync_piece, rooted), AT(sync_piece, from), AT(sync_piece, to),
-        AT(sync_piece, velocity), AT(sync_piece, force), AT(sync_piece, stick), END(sync_piece)}},
+        AT(sync_piece, shear_velocity), AT(sync_piece, shear_force), AT(sync_piece, stick_radius), END(sync_piece)}},
     [10] = {"sync_store", {AT(sync_store, capacity), AT(sync_store, n_records), AT(sync_store, n_pieces),
-        AT(sync_store, record), AT(sync_store, piece), AT(sync_store, held), AT(sync_store, room),
-        AT(sync_store, now_z), AT(sync_store, now_x), AT(sync_store, now_l), END(sync_store)}},
+        AT(sync_store, record), AT(sync_store, piece), AT(sync_store, corrective), AT(sync_store, room),
+        END(sync_store)}},
     [11] = {"walk", {AT(walk, n), AT(walk, n_terms), AT(walk, capacity), AT(walk, start), AT(walk, end),
-        AT(walk, no_slip), AT(walk, prescribed), AT(walk, chi), AT(walk, psi), AT(walk, g_inf), AT(walk, eta),
+        AT(walk, mode), AT(walk, prescribed), AT(walk, chi), AT(walk, psi), AT(walk, g_inf), AT(walk, eta),
         END(walk)}},
     [12] = {"walk_level", {AT(walk_level, step), AT(walk_level, radius), AT(walk_level, depth),
         AT(walk_level, velocity), AT(walk_level, force), END(walk_level)}},
@@ -77,7 +76,7 @@ static const struct {
     [15] = {"cvode_scene", {AT(cvode_scene, chi), AT(cvode_scene, g_inf), AT(cvode_scene, eta),
         AT(cvode_scene, reference), AT(cvode_scene, step_start), AT(cvode_scene, n_terms), AT(cvode_scene, n_modes),
         AT(cvode_scene, n_states), AT(cvode_scene, n_knots), AT(cvode_scene, n_nodes), AT(cvode_scene, n_entered),
-        AT(cvode_scene, restitution), AT(cvode_scene, no_slip), END(cvode_scene)}},
+        AT(cvode_scene, restitution), AT(cvode_scene, mode), END(cvode_scene)}},
     [16] = {"cvode_contact", {AT(cvode_contact, square), AT(cvode_contact, radius), AT(cvode_contact, force),
         END(cvode_contact)}},
     [17] = {"cvode_sums", {AT(cvode_sums, force), AT(cvode_sums, stick), AT(cvode_sums, backward),

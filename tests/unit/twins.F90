@@ -26,7 +26,8 @@ module twins
 
 contains
 
-  !> Offsets of the members of the type i of test_twins.c, then its size; n: how many numbers. 0: no such type.
+  !> Offsets of the members of the type i of test_twins.c, then its size; n: how many numbers. 0: no
+  !> such type.
   subroutine fortran_offsets(i, n, offset) bind(c)
     integer(c_int64_t), value :: i
     integer(c_int64_t), intent(out) :: n, offset(40)
@@ -64,7 +65,7 @@ contains
       call put(c_sizeof(ledger), [c_loc(ledger%viscous_z), c_loc(ledger%left_z), c_loc(ledger%friction_x), &
                 c_loc(ledger%viscous_x), c_loc(ledger%left_x)])
     case (2)
-      call put(c_sizeof(euler_scene), [c_loc(euler_scene%chi), c_loc(euler_scene%psi), c_loc(euler_scene%g_inf), &
+      call put(c_sizeof(euler_scene), [c_loc(euler_scene%chi), c_loc(euler_scene%shear_speed), c_loc(euler_scene%g_inf), &
                 c_loc(euler_scene%eta), c_loc(euler_scene%step), c_loc(euler_scene%spacing), &
                 c_loc(euler_scene%rest_speed), c_loc(euler_scene%n_terms), c_loc(euler_scene%capacity), &
                 c_loc(euler_scene%can_sink), c_loc(euler_scene%keep_ledger), c_loc(euler_scene%mode)])
@@ -87,30 +88,29 @@ contains
                 c_loc(sync_normal_control%capacity), c_loc(sync_normal_control%n_coarse), &
                 c_loc(sync_normal_control%n_coarse_compression), c_loc(sync_normal_control%coarse)])
     case (6)
-      call put(c_sizeof(sync_normal), [c_loc(sync_normal%eta), c_loc(sync_normal%radius), &
-                c_loc(sync_normal%closeness), c_loc(sync_normal%left), c_loc(sync_normal%n_arms), &
+      call put(c_sizeof(sync_normal), [c_loc(sync_normal%eta), c_loc(sync_normal%scale), &
+                c_loc(sync_normal%closeness), c_loc(sync_normal%residual_speed), c_loc(sync_normal%n_arms), &
                 c_loc(sync_normal%n_compression), c_loc(sync_normal%n_panels), c_loc(sync_normal%g), &
                 c_loc(sync_normal%rate), c_loc(sync_normal%panel), c_loc(sync_normal%memory), &
                 c_loc(sync_normal%loading), c_loc(sync_normal%kernel), c_loc(sync_normal%entry)])
     case (7)
       call put(c_sizeof(sync_contact), [c_loc(sync_contact%chi), c_loc(sync_contact%psi), &
                 c_loc(sync_contact%roughness), c_loc(sync_contact%noise), c_loc(sync_contact%closeness), &
-                c_loc(sync_contact%stress), c_loc(sync_contact%no_slip)])
+                c_loc(sync_contact%stress), c_loc(sync_contact%mode)])
     case (8)
       call put(c_sizeof(sync_record), [c_loc(sync_record%from), c_loc(sync_record%to), c_loc(sync_record%end), &
-                c_loc(sync_record%edge)])
+                c_loc(sync_record%touch)])
     case (9)
       call put(c_sizeof(sync_piece), [c_loc(sync_piece%panel), c_loc(sync_piece%rooted), c_loc(sync_piece%from), &
-                c_loc(sync_piece%to), c_loc(sync_piece%velocity), c_loc(sync_piece%force), &
-                c_loc(sync_piece%stick)])
+                c_loc(sync_piece%to), c_loc(sync_piece%shear_velocity), c_loc(sync_piece%shear_force), &
+                c_loc(sync_piece%stick_radius)])
     case (10)
       call put(c_sizeof(sync_store), [c_loc(sync_store%capacity), c_loc(sync_store%n_records), &
                 c_loc(sync_store%n_pieces), c_loc(sync_store%record), c_loc(sync_store%piece), &
-                c_loc(sync_store%held), c_loc(sync_store%room), c_loc(sync_store%now_z), c_loc(sync_store%now_x), &
-                c_loc(sync_store%now_l)])
+                c_loc(sync_store%corrective), c_loc(sync_store%room)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
-                c_loc(walk%end), c_loc(walk%no_slip), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
+                c_loc(walk%end), c_loc(walk%mode), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
                 c_loc(walk%g_inf), c_loc(walk%eta)])
     case (12)
       call put(c_sizeof(walk_level), [c_loc(walk_level%step), c_loc(walk_level%radius), c_loc(walk_level%depth), &
@@ -126,7 +126,7 @@ contains
                 c_loc(cvode_scene%reference), c_loc(cvode_scene%step_start), c_loc(cvode_scene%n_terms), &
                 c_loc(cvode_scene%n_modes), c_loc(cvode_scene%n_states), c_loc(cvode_scene%n_knots), &
                 c_loc(cvode_scene%n_nodes), c_loc(cvode_scene%n_entered), c_loc(cvode_scene%restitution), &
-                c_loc(cvode_scene%no_slip)])
+                c_loc(cvode_scene%mode)])
     case (16)
       call put(c_sizeof(cvode_contact), [c_loc(cvode_contact%square), c_loc(cvode_contact%radius), &
                 c_loc(cvode_contact%force)])

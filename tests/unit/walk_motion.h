@@ -1,5 +1,6 @@
-/* The normal motion of an impact at the levels of a walk over elements (src/sync/walk.h), by fine steps of Runge and
- * Kutta's method: independent of the library, and good to 1e-9 if no relaxation time is below 0.05.
+/* The normal motion of an impact at the levels of a walk over elements (src/sync/walk.h), by fine
+ * steps of Runge and Kutta's method: independent of the library, and good to 1e-9 if no relaxation
+ * time is below 0.05.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_WALK_MOTION_H
 #define TEST_WALK_MOTION_H
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sync/walk_kernels.h"
+#include "sync/kernels.h"
 
 enum { most_terms = 2, most_nodes = 256, most_states = 3 + 2 * most_terms, fine_steps = 16 };
 
@@ -146,7 +147,8 @@ static inline void note_level(const struct solid *s, struct motion *m, int l, do
     memcpy(m->memory + l * s->n, y + 3 + s->n, (size_t)s->n * sizeof *y);
 }
 
-/* The angles from pi/2 at first touch to 0: node n1 is at phi1, and nodes are even on both sides of it. */
+/* The angles from pi/2 at first touch to 0: node n1 is at phi1, and nodes are even on both sides of
+ * it. */
 static inline double angle_of(int i, int n, int n1, double phi1)
 {
     double j = (double)i / fine_steps;
@@ -199,7 +201,8 @@ static inline void make_motion(const struct solid *s, int n, int n1, double phi1
     free(trace);
 }
 
-/* The angle at which the sphere has the velocity `target`: the inverse polynomial through four levels of one phase. */
+/* The angle at which the sphere has the velocity `target`: the inverse polynomial through four
+ * levels of one phase. */
 static inline double angle_at(const struct solid *s, double target, int *restitution)
 {
     static struct motion m;

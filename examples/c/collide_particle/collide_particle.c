@@ -1,5 +1,6 @@
-/* A hollow rubber ball with topspin hits the floor: velocities and spin after it, as a DEM code wants them.
- * Its mass and moment of inertia are its own; the thick shell is taken to deform like a solid ball. */
+/* A hollow rubber ball with topspin hits the floor: velocities and spin after the impact, as a DEM
+ * code needs them. Mass and moment of inertia are those of a shell; the thick shell is assumed to
+ * deform like a solid ball. */
 #include <math.h>
 #include <restitute/restitute.h>
 #include <stdio.h>
@@ -21,7 +22,7 @@ int main(void)
     ball.inertia = 0.5 * ball.mass * ball.radius * ball.radius; /* between solid, 2/5, and thin shell, 2/3 */
     ball.position[2] = 0.01;
     ball.velocity[0] = 1.0, ball.velocity[1] = 0.5, ball.velocity[2] = -2.0; /* m/s */
-    ball.spin[1] = 150.0, ball.spin[2] = 20.0;                               /* rad/s; about z: a twist, which stays */
+    ball.spin[1] = 150.0, ball.spin[2] = 20.0;                               /* rad/s; that about z stays */
     restitute_collision_init(&collision);
     collision.material = rubber, collision.friction = 0.4;
     restitute_result_init(&result);
@@ -32,7 +33,7 @@ int main(void)
     printf("ez = %.3f, ex = %.3f\n", result.ez, result.ex);
     printf("velocity%8.3f%8.3f%8.3f\n", ball.velocity[0], ball.velocity[1], ball.velocity[2]);
     printf("spin    %8.2f%8.2f%8.2f\n", ball.spin[0], ball.spin[1], ball.spin[2]);
-    for (int flag = 1; flag <= RESTITUTE_FLAG_COUPLED; flag *= 2) /* what the model is strained by, in words */
+    for (int flag = 1; flag <= RESTITUTE_FLAG_COUPLED; flag *= 2) /* exceeded limits of the model */
         if (result.flags & flag) printf("note: %s\n", restitute_flag_text(flag));
     restitute_solver_destroy(solver);
     restitute_material_destroy(rubber);

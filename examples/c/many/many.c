@@ -1,5 +1,5 @@
-/* A table of the restitution pair over speed and angle, solved by all processors at once; the numbers are the same for any
- * number of threads. A steel ball on rubber. */
+/* A table of the restitution pair over speed and angle, solved by all processors at once; the
+ * numbers are the same for any number of threads. A steel ball on rubber. */
 #include <math.h>
 #include <restitute/restitute.h>
 #include <stdio.h>

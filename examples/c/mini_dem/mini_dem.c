@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * A box of two hundred rubber spheres of two sizes that fly, spin and hit one another and the walls: an event-driven
- * simulation whose impacts take both restitutions, of the normal speed and of the angle, from a table.
+ * A box of two hundred rubber spheres of two sizes that fly, spin and hit one another and the
+ * walls: an event-driven simulation whose impacts take both restitutions, of the normal speed and
+ * of the angle, from a table.
  *
  *   start      one table for the material; it serves large and small, and the walls by restitute_table_contact_set
  *   event      the next impact of all: fly there, let the two collide by the table, predict anew
  *   accounts   momentum against what the walls took; no impact gains energy
  *
- * No cut-off against inelastic collapse is needed: slow impacts of a viscoelastic solid are nearly elastic. */
+ * No cut-off against inelastic collapse is needed: slow impacts of a viscoelastic solid are nearly
+ * elastic. */
 #include <math.h>
 #include <restitute/table.h>
 #include <stdint.h>
@@ -22,16 +24,16 @@ struct sphere {
     int kind;
     restitute_body body; /* m, m/s, rad/s */
     double when;         /* s, of its next impact */
-    int partner;         /* with whom: a sphere, or SPHERES + 2 axis + (1 if the far wall) */
+    int partner;         /* a sphere, or SPHERES + 2 axis + (1 if the far wall) */
 };
 
 struct box {
     struct sphere sphere[SPHERES];
     const restitute_table *table;
-    restitute_table_contact with_wall; /* the walls are rigid; spheres among themselves are the table's own contact */
+    restitute_table_contact with_wall; /* the walls are rigid; the table was built for two spheres */
     double now;                        /* s */
     double wall_impulse[3];            /* kg m/s, given by the walls so far */
-    double cost, least;                /* J, of all impacts so far; of the one that cost least */
+    double cost, least;                /* J, lost in all impacts so far; the least loss of one */
 };
 
 static double mass(int kind)
@@ -57,7 +59,7 @@ static double uniform(uint64_t *state) /* in [0, 1): splitmix64, so that every m
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-/* ------------------------------------------------------------------------------------------------------ the table */
+/* ---- the table */
 
 static int prepare_table(struct box *box, const restitute_material *rubber, restitute_table **table,
                          restitute_error *error)
@@ -77,7 +79,7 @@ static int prepare_table(struct box *box, const restitute_material *rubber, rest
     return 0;
 }
 
-/* ----------------------------------------------------------------------------------------------------- one impact */
+/* ---- one impact */
 
 static double energy(const struct sphere *a)
 {
@@ -108,7 +110,7 @@ static int hit(struct box *box, struct sphere *a, struct sphere *b, const double
     return 0;
 }
 
-/* --------------------------------------------------------------------------------------------------------- events */
+/* ---- events */
 
 /* Time until two spheres touch; infinity if they do not approach or pass by. */
 static double time_to_sphere(const struct sphere *a, const struct sphere *b)
@@ -120,10 +122,10 @@ static double time_to_sphere(const struct sphere *a, const struct sphere *b)
     const double gap = dot(x, x) - reach * reach; /* of the squares */
     const double root = approach * approach - dot(v, v) * gap;
     if (approach <= 0 || root < 0) return INFINITY;
-    return gap > 0 ? gap / (approach + sqrt(root)) : 0; /* this form does not cancel */
+    return gap > 0 ? gap / (approach + sqrt(root)) : 0; /* this form has no cancellation */
 }
 
-/* The next impact of sphere i. Others learn of it if it comes before theirs. */
+/* The next impact of sphere i. It replaces that of its partner if it comes earlier. */
 static void predict(struct box *box, int i)
 {
     struct sphere *a = &box->sphere[i];
@@ -161,13 +163,13 @@ static int next_impact(struct box *box)
 
     predict(box, first);
     if (b) predict(box, partner);
-    for (int i = 0; i < SPHERES; ++i) /* whoever was to meet one of them meets someone else */
+    for (int i = 0; i < SPHERES; ++i) /* spheres that were to hit one of them need a new impact */
         if (i != first && i != partner && (box->sphere[i].partner == first || (b && box->sphere[i].partner == partner)))
             predict(box, i);
     return 0;
 }
 
-/* ------------------------------------------------------------------------------------------------ box and accounts */
+/* ---- box and accounts */
 
 static void fill(struct box *box)
 {
@@ -232,7 +234,8 @@ int main(void)
     double momentum_error = 0;
     for (int k = 0; k < 3; ++k)
         momentum_error = fmax(momentum_error, fabs(momentum[k] - before[k]) / (SPHERES * mass(LARGE) * SPEED));
-    /* 5000 impacts, each good to some 1e-16 of what there is: 1e-12 holds if nothing but rounding is lost. */
+    /* 5000 impacts, each with a rounding error of some 1e-16 of the total: 1e-12 is enough for
+     * rounding alone. */
     const int sane = energy_error < 1e-12 && momentum_error < 1e-12 && overlap < 1e-12 && box.least >= -1e-16 * start;
     printf("energy, momentum and room add up to rounding: %s\n", sane ? "yes" : "NO");
     if (!sane) printf("off by %.1e, %.1e, %.1e, %.1e\n", energy_error, momentum_error, overlap, box.least / start);

@@ -1,5 +1,6 @@
-/* A DEM in a hundred lines: rubber spheres drop into a box, with the contact law of restitute. Writes soft_sphere.csv: where
- * the energy goes. SPDX-License-Identifier: BSD-3-Clause */
+/* A DEM in a hundred lines: rubber spheres drop into a box, with the contact law of restitute.
+ * Writes soft_sphere.csv: the energies over time.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/contact.h>
 
 #include <math.h>
@@ -14,8 +15,8 @@ struct sphere {
     double x[3], v[3], w[3], force[3], torque[3]; /* place, velocity, spin */
 };
 static struct sphere sphere[spheres];
-static double state[spheres][spheres + walls][doubles]; /* of every contact there may be; all zeros: none */
-static restitute_contact_energies open, closed;         /* of contacts that last, of those that have ended */
+static double state[spheres][spheres + walls][doubles]; /* of every possible contact; all zeros: none */
+static restitute_contact_energies open, closed;         /* of present contacts, of ended ones */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -45,7 +46,8 @@ static double overlap_of(int i, int j, double n[3])
     return 2 * radius - distance;
 }
 
-/* One step of one contact. Velocities are those of the middle of the step, as velocity Verlet has them. */
+/* One step of one contact. Velocities are those of the middle of the step, as in velocity
+ * Verlet. */
 static int touch(const restitute_contact_law *law, const restitute_contact_rates *rates, double mass, int i, int j)
 {
     struct sphere at_rest = {0}, *one = &sphere[i], *two = j < spheres ? &sphere[j] : &at_rest;

@@ -1,4 +1,5 @@
-!> A steel ball on rubber from steep to grazing: ex changes sign where sliding takes over. One solver serves all impacts.
+!> A steel ball on rubber from steep to grazing: ex changes sign where sliding dominates. One solver
+!> serves all impacts.
 program angle_sweep
   use restitute
   implicit none (type, external)

@@ -1,5 +1,6 @@
-!> A hollow rubber ball with topspin hits the floor: velocities and spin after it, as a DEM code wants them.
-!> Its mass and moment of inertia are its own; the thick shell is taken to deform like a solid ball.
+!> A hollow rubber ball with topspin hits the floor: velocities and spin after the impact, as a DEM
+!> code needs them. Mass and moment of inertia are those of a shell; the thick shell is assumed to
+!> deform like a solid ball.
 program collide_particle
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use restitute
@@ -34,7 +35,7 @@ program collide_particle
   print "(2(a, f5.3))", "ez = ", result%ez, ", ex = ", result%ex
   print "(a, 3f8.3)", "velocity", ball%velocity
   print "(a, 3f8.2)", "spin    ", ball%spin
-  do bit = 0, 3 ! what the model is strained by, in words
+  do bit = 0, 3 ! exceeded limits of the model
     if (btest(result%flags, bit)) print "(2a)", "note: ", restitute_flag_text(2**bit)
   end do
   call restitute_solver_destroy(solver)

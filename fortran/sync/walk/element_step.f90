@@ -1,4 +1,4 @@
-!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section 9).
+!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section 8).
 !>
 !> An element holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip velocity
 !> kappa = U' - v. The spring G_inf is the arm 0, whose relaxation time is infinite. The force is
@@ -16,6 +16,7 @@ module rst_sync_element_step
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
+  use rst_tuning, only: largest_phase
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force
@@ -32,9 +33,9 @@ module rst_sync_element_step
     integer(ip) :: capacity    !! room for elements: n + 1, rounded up to a multiple of 8
     integer(ip) :: start       !! level at which gross slip ends: 0 for psi <= 1, 2 n if never
     integer(ip) :: end         !! the last level: 2 n, or n for a sphere that stops in the solid
-    integer(ip) :: no_slip     !! 1: friction without limit
+    integer(ip) :: mode        !! how friction acts
     integer(ip) :: prescribed  !! 1: U' is given from the level `start` on
-    real(dp) :: chi, psi, g_inf, eta
+    real(dp) :: chi, psi, g_inf, eta  !! psi: U' at first touch, 1 without slip or friction
   end type walk_type
 
   !> An arm in a step, and M_k at the level where the walk is. Twin of `struct walk_term` in C.
@@ -78,7 +79,7 @@ contains
     step%last = min(l, 2*walk%n - l - 1)
     step%top = step%last/lanes*lanes + lanes - 1
     step%h = h
-    square = min(mass_factor*walk%chi*h*sum(term%decay*term%from_start)*stuck, 0.5_dp)
+    square = min(mass_factor*walk%chi*h*sum(term%decay*term%from_start)*stuck, largest_phase)
     stretch = square/3 + 2*square**2/15
     step%swing = (1 + stretch)*h
     term%from_start = (1 + stretch*term%decay)*term%from_start

@@ -1,4 +1,4 @@
-!> The tangential motion of an impact by elements (docs/sync.md, section 9): for slip that sticks again, and for
+!> The tangential motion of an impact by elements (docs/sync.md, section 8): for slip that sticks again, and for
 !> the energy ledger. Module rst_sync_element_step has the step of the elements; here are contact and sphere.
 !>
 !> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at which the edge of the
@@ -9,12 +9,14 @@
 !>
 !> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with walk%prescribed,
 !> shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
-!> contain. Results: shear(0:end) and the accounts of module rst_ledger. For no friction set chi = 0 and start = 2n.
+!> contain. Results: shear(0:end) and the accounts of module rst_ledger. Without friction start = 2n.
 module rst_sync_walk
+  use rst_friction_mode, only: mode_frictionless, mode_no_slip
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
   use rst_memory, only: memory_type, memory_of
   use rst_ledger, only: ledger_type
+  use rst_tuning, only: most_trials, walk_closeness
   use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
                                    c_force, measure_step, relax, friction_force, move_elements, weighted_sum
   implicit none (type, external)
@@ -43,7 +45,8 @@ module rst_sync_walk
 
 contains
 
-  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger)
+  pure subroutine follow_elements(walk, g, tau, level, memory, shear, term, body, stress, ledger) &
+    bind(c, name="rst_follow_elements")
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
@@ -59,8 +62,10 @@ contains
     integer(ip) :: l
     body = 0
     stress = 0
-    do l = 0, min(walk%start, walk%end)  ! gross slip
-      shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force)
+    do l = 0, min(walk%start, walk%end)
+      shear(l) = walk_shear_type(walk%psi, 0.0_dp)
+      if (walk%mode == mode_frictionless) cycle
+      shear(l) = walk_shear_type(walk%psi - 2*walk%chi*(1 - level(l)%velocity), level(l)%force) ! gross slip
     end do
     stuck = 0
     do l = 0, walk%end - 1
@@ -93,7 +98,7 @@ contains
     type(account_type), intent(inout) :: account
     real(dp) :: own
     own = velocity
-    if (walk%no_slip == 0) own = min(max(velocity, -level(j)%velocity), level(j)%velocity)
+    if (walk%mode /= mode_no_slip) own = min(max(velocity, -level(j)%velocity), level(j)%velocity)
     body(j, c_weight) = (level(j + 1)%radius - level(max(j - 1, 0_ip))%radius)/2
     body(j, c_slip) = velocity - own
     body(j, c_force) = step%viscous*own
@@ -161,8 +166,8 @@ contains
     end associate
     share = account%force_z + rim%weight*rim%limit
     share = merge(level(l + 1)%force/max(share, tiny(share)), 1.0_dp, share > 0)
-    if (walk%no_slip /= 0) body(0:step%top, c_limit) = huge(1.0_dp)
-    if (walk%no_slip /= 0) rim%limit = huge(1.0_dp)
+    if (walk%mode == mode_no_slip) body(0:step%top, c_limit) = huge(1.0_dp)
+    if (walk%mode == mode_no_slip) rim%limit = huge(1.0_dp)
     call find_velocity(walk, level(l:l + 1), share, rim, step, body, shear, stuck)
     call move_elements(walk, term, step, shear%velocity, body, stress, friction, work)
     account%friction = account%friction + friction
@@ -182,8 +187,6 @@ contains
     real(dp), intent(in) :: body(0:walk%capacity - 1, columns)
     type(walk_shear_type), intent(inout) :: shear(0:1)
     real(dp), intent(out) :: stuck  !! weight of the elements that stick, as the force has it
-    integer(ip), parameter :: most_trials = 60  !! halvings that exhaust all digits
-    real(dp), parameter :: tolerance = 1.0e-13_dp  !! of psi: above rounding
     type(memory_type) :: m
     real(dp) :: w, push, v, low, high, miss, change, force, slope, q
     integer(ip) :: trial
@@ -208,7 +211,7 @@ contains
       change = -miss/(1 + push*w*slope)
       if (v + change < low .or. v + change > high) change = (low + high)/2 - v
       v = v + change
-      if (abs(change) <= tolerance*walk%psi) exit
+      if (abs(change) <= walk_closeness*walk%psi) exit
     end do
     shear(1) = walk_shear_type(v, force)
     stuck = slope/step%end_response
@@ -228,6 +231,7 @@ contains
     ledger%friction_x = 4*mass_factor*walk%chi*(account%friction + slide)
     ledger%left_x = 4*mass_factor*walk%chi*account%left_x
     ledger%viscous_x = 4*mass_factor*walk%chi*max(account%work_x - account%left_x, 0.0_dp)
+    if (walk%mode == mode_frictionless) ledger = ledger_type(ledger%viscous_z, ledger%left_z, 0.0_dp, 0.0_dp, 0.0_dp)
     if (walk%n_terms > 0 .or. walk%eta > 0) return
     ledger%viscous_z = 0  ! not rounding
     ledger%viscous_x = 0

@@ -1,4 +1,5 @@
-/* A user's program: one impact by every call that a user needs. Exit status 0 if the pair is what it should be.
+/* A user's program: one impact by every call that a user needs. Exit status 0 if the pair is what
+ * it should be.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -7,8 +8,8 @@
 
 enum { SAMPLES = 20, BATCH = 8 };
 
-/* An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip limit of the
- * literature); the default tolerance is 1e-3. */
+/* An elastic no-slip impact of a solid incompressible sphere rebounds with ex = 0.10397 (no-slip
+ * limit of the literature); the default tolerance is 1e-3. */
 static int no_slip_is_right(void)
 {
     double ez = 0, ex = 0;
@@ -51,7 +52,8 @@ static int rubber_ball_rebounds(restitute_material *rubber, restitute_solver *so
     return result.ez > 0 && result.ez < 1 && fabs(result.ex) < 1 && history.count == SAMPLES;
 }
 
-/* Two threads, so that a static library's user must link what they need; the angles are told apart. */
+/* Two threads, so that a static library's user must link what they need; the angles are told
+ * apart. */
 static int batch_is_solved(void)
 {
     restitute_impact impacts[BATCH];

@@ -31,7 +31,7 @@ static bool ball_leaves(restitute_solver *solver, const restitute_material *rubb
            ball.velocity[2] > 0;
 }
 
-// A ball that slides faster over a rough floor turns back less of its sliding, with one plan for both.
+// A ball that slides faster over a rough floor reverses less of its sliding; one plan for both.
 static bool sliding_counts(const restitute_material *rubber)
 {
     restitute_scene scene;

@@ -15,7 +15,6 @@ int main()
     restitute_error error = {};
     restitute_contact_rates_init(&rates);
     restitute_contact_motion_init(&motion);
-    restitute_contact_rates_init(&rates);
     if (restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, &error) < 0 ||
         restitute_contact_law_create(rubber, nullptr, &law, &error) < 0 ||
         restitute_contact_rates_set(law, 1e-6, &rates, &error) < 0) {

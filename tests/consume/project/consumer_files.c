@@ -1,4 +1,5 @@
-/* A user's program that reads the material file named by its argument. Exit status 0 if it holds a solid.
+/* A user's program that reads the material file named by its argument. Exit status 0 if it holds a
+ * solid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 

@@ -1,4 +1,5 @@
-/* A user's program that fits a modulus to contact times of an elastic ball. Exit status 0 if it finds it.
+/* A user's program that fits a modulus to contact times of an elastic ball. Exit status 0 if it
+ * finds it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
@@ -16,6 +17,7 @@ int main(void)
     restitute_fit_result_init(&result);
     options.model = RESTITUTE_FIT_MODEL_ELASTIC;
     for (int i = 0; i < 4; i++) {
+        restitute_scene_init(&scenes[i]);
         restitute_fit_point_init(&points[i]);
         restitute_scene_init(&scenes[i]);
         scenes[i].radius1 = 0.005, scenes[i].mass1 = 0.004, scenes[i].normal_speed = 0.1 * (i + 1);

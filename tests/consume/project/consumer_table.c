@@ -1,4 +1,5 @@
-/* A user's program that builds a table in memory and looks up in it. Exit status 0 if the pair is one.
+/* A user's program that builds a table in memory and looks up in it. Exit status 0 if the pair is
+ * one.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 

@@ -1,4 +1,5 @@
-/* A user's program that reads the table named by its argument. Exit status 0 if it holds a pair for 1 m/s.
+/* A user's program that reads the table named by its argument. Exit status 0 if it holds a pair for
+ * 1 m/s.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 

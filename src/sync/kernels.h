@@ -1,14 +1,15 @@
-/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90.
+/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90
+ * and fortran/sync/walk/elements.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_KERNELS_H
 #define RST_SYNC_KERNELS_H
 
-#include <stdint.h>
+#include "base/kernels.h"
 
 /* Points of a panel beside its start. */
 enum { rst_stages = 6, rst_points = rst_stages + 1 };
 
-/* Values of an element at the edge, and of an arm of it: of_edge and of_arm. */
+/* Values of an element at the edge, and of an arm of it: of_touch and of_arm. */
 enum { rst_values = 4 };
 
 /* Twin of panel_type. */
@@ -27,7 +28,7 @@ struct sync_normal_control {
 
 /* Twin of normal_arrays_type. */
 struct sync_normal {
-    double eta, radius, closeness, left;
+    double eta, scale, closeness, residual_speed;
     int64_t n_arms, n_compression, n_panels;
     double *g, *rate;
     struct sync_panel *panel;
@@ -37,20 +38,20 @@ struct sync_normal {
 /* Twin of contact_type. */
 struct sync_contact {
     double chi, psi, roughness, noise, closeness, stress;
-    int64_t no_slip;
+    int64_t mode;
 };
 
 /* Twin of record_type. */
 struct sync_record {
     double from, to, end;
-    double edge[rst_points][rst_values];
+    double touch[rst_points][rst_values];
 };
 
 /* Twin of piece_type. */
 struct sync_piece {
     int64_t panel, rooted;
     double from, to;
-    double velocity[rst_points], force[rst_points], stick[rst_points];
+    double shear_velocity[rst_points], shear_force[rst_points], stick_radius[rst_points];
 };
 
 /* Twin of store_arrays_type. */
@@ -58,7 +59,7 @@ struct sync_store {
     int64_t capacity, n_records, n_pieces;
     struct sync_record *record;
     struct sync_piece *piece;
-    double *held, *room, *now_z, *now_x, *now_l;
+    double *corrective, *room; /* room: (rst_stages + 3) rst_points n_arms */
 };
 
 /* What rst_follow_normal and rst_follow_contact found. */
@@ -70,6 +71,35 @@ void rst_follow_contact(const struct sync_normal *normal, const struct sync_cont
                         double *velocity, int64_t *found);
 void rst_sync_find_velocity(const struct sync_normal *normal, double velocity, double *angle, int64_t *returning);
 void rst_sync_weights_at(double x, double *weight);
+
+/* Twin of walk_type. */
+struct walk {
+    int64_t n, n_terms, capacity, start, end, mode, prescribed;
+    double chi, psi, g_inf, eta;
+};
+
+/* Twin of walk_level_type. */
+struct walk_level {
+    double step, radius, depth, velocity, force;
+};
+
+/* Twin of walk_shear_type. */
+struct walk_shear {
+    double velocity, force;
+};
+
+/* Twin of walk_term_type. */
+struct walk_term {
+    double g, decay, from_start, from_end, normal;
+};
+
+enum { walk_columns = 6, walk_lanes = 8 };
+
+/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity walk_columns,
+ * stress 2 capacity (n_terms + 1). */
+void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
+                         const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,
+                         double *stress, struct rst_ledger *ledger);
 
 /* What the polynomial through the points of a panel is where these are the weights. */
 static inline double rst_value_of(const double *weight, const double *y)
