@@ -17,5 +17,5 @@ set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gfortran")
 set(CPACK_PACKAGE_DESCRIPTION
     "Restitution pairs of viscoelastic spheres that hit obliquely, with
 friction, by the Method of Dimensionality Reduction: the command
-restitute, the libraries for C and C++, the module for Fortran.")
+restitute, the libraries for C and C++, the modules for Fortran.")
 include(CPack)

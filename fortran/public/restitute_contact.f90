@@ -133,9 +133,8 @@ module restitute_contact_module
                                          modulus, error_bound, error) bind(c, name="restitute_contact_law_series")
       import
       type(c_ptr), value :: law
-      real(c_double), intent(inout), optional :: equilibrium_modulus, parallel_viscosity, relaxation_time(*), &
-        modulus(*), &
-        error_bound
+      real(c_double), intent(inout), optional :: equilibrium_modulus, parallel_viscosity, error_bound
+      real(c_double), intent(inout), optional :: relaxation_time(*), modulus(*)
       integer(c_size_t), intent(inout), optional :: n_terms
       type(restitute_error), intent(inout), optional :: error
     end function c_law_series
@@ -303,15 +302,15 @@ contains
     type(restitute_contact_force), contiguous, intent(inout) :: forces(:)
     integer(c_int), intent(inout), optional :: statuses(:)
     type(restitute_error), intent(inout), optional :: error
-    integer(c_size_t) :: n
+    integer(c_size_t) :: n, stride
     n = size(motions, kind=c_size_t)
-    status = room_in(law, size(states, 1, c_size_t), error)
+    stride = size(states, 1, c_size_t)
+    status = room_in(law, stride, error)
     call check_number("states(1, :)", size(states, 2, c_size_t), "motions", n, status, error)
     call check_length("forces", forces, "motions", n, status, error)
     call check_length("statuses", statuses, "motions", n, status, error)
-    if (status == RESTITUTE_OK) status = c_step_many(law%address, rates, n, motions, states, size(states, 1, &
-      c_size_t), &
-                                                     forces, statuses, error)
+    if (status == RESTITUTE_OK) status = c_step_many(law%address, rates, n, motions, states, stride, forces, statuses, &
+                                                     error)
   end function restitute_contact_step_many
 
   integer(c_int) function restitute_contact_peek(law, normal, state, force, error) result(status)
@@ -351,7 +350,7 @@ contains
     integer(c_size_t) :: needed
     status = RESTITUTE_OK
     needed = c_law_state_size(law%address)
-    if (doubles < needed) call check_number("state", doubles, "restitute_contact_law_state_size says", needed, &
-      status, error)
+    if (doubles >= needed) return
+    call check_number("state", doubles, "restitute_contact_law_state_size says", needed, status, error)
   end function room_in
 end module restitute_contact_module

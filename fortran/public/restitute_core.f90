@@ -110,8 +110,8 @@ module restitute_core_module
   ! Functions of C that take or give addresses; the procedures below call them.
   interface
     integer(c_int) function c_material_prony(equilibrium_modulus, parallel_viscosity, n_terms, relaxation_time, &
-      modulus, &
-                                             poisson_ratio, material, error) bind(c, name="restitute_material_prony")
+                                             modulus, poisson_ratio, material, error) &
+      bind(c, name="restitute_material_prony")
       import
       real(c_double), value :: equilibrium_modulus, parallel_viscosity, poisson_ratio
       integer(c_size_t), value :: n_terms
@@ -333,8 +333,7 @@ contains
 
   !> The arrays are made as long as the series.
   integer(c_int) function restitute_material_series(material, equilibrium_modulus, parallel_viscosity, &
-    relaxation_time, &
-                                                    modulus, error) result(status)
+                                                    relaxation_time, modulus, error) result(status)
     type(restitute_material), intent(in) :: material
     real(c_double), intent(inout), optional :: equilibrium_modulus, parallel_viscosity
     real(c_double), allocatable, intent(inout), optional :: relaxation_time(:), modulus(:)
@@ -343,10 +342,10 @@ contains
     integer(c_size_t) :: n
     integer :: failed
     n = restitute_material_terms(material)
-    allocate (tau(n), g(n), stat=failed)
     status = RESTITUTE_ERROR_MEMORY
-    if (failed == 0) status = c_material_series(material%address, equilibrium_modulus, parallel_viscosity, tau, g, &
-      error)
+    allocate (tau(n), g(n), stat=failed)
+    if (failed /= 0) return
+    status = c_material_series(material%address, equilibrium_modulus, parallel_viscosity, tau, g, error)
     if (status < 0) return
     if (present(relaxation_time)) call move_alloc(tau, relaxation_time)
     if (present(modulus)) call move_alloc(g, modulus)

@@ -16,8 +16,7 @@
 !>     print *, restitute_text(result%name(:, 1)), result%value(1), restitute_text(result%remarks)
 module restitute_fit_module
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int64_t, c_loc, c_null_char, &
-    c_null_funptr, &
-    c_null_ptr, c_ptr, c_size_t, c_sizeof
+    c_null_funptr, c_null_ptr, c_ptr, c_size_t, c_sizeof
   use restitute, only: restitute_error, restitute_material, restitute_scene, RESTITUTE_OK
   use restitute_texts_module, only: check_length
   implicit none (type, external)

@@ -18,8 +18,8 @@ module restitute_table_module
   use restitute_texts_module, only: check_length
   implicit none (type, external)
   private
-  public :: restitute_table, restitute_table_options, restitute_table_contact, restitute_table_info, &
-    restitute_table_data
+  public :: restitute_table, restitute_table_options, restitute_table_contact, restitute_table_info
+  public :: restitute_table_data
   public :: restitute_table_build, restitute_table_build_many, restitute_table_destroy, restitute_table_progress
   public :: restitute_table_contact_set, restitute_table_pair, restitute_table_pair_many, restitute_table_collide
   public :: restitute_table_flags, restitute_table_describe, restitute_table_data_get, restitute_table_create
@@ -49,8 +49,8 @@ module restitute_table_module
   type, bind(c) :: restitute_table_info
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: speed(2) = 0, chi = 0, gamma = 0, delta1(2) = 0, friction = 0, radius = 0, mass = 0, &
-      tolerance = 0, &
-      error_ez = 0, error_ex = 0, rebound_speed = 0, fast_speed = 0, large_contact_speed = 0, long_slide_speed = 0
+      tolerance = 0, error_ez = 0, error_ex = 0, rebound_speed = 0, fast_speed = 0, large_contact_speed = 0, &
+      long_slide_speed = 0
     integer(c_int64_t) :: impacts = 0, checks = 0, speeds = 0, stick_cells = 0, slip_cells = 0
     integer(c_size_t) :: bytes = 0
     character(kind=c_char) :: version(32) = c_null_char
@@ -64,9 +64,8 @@ module restitute_table_module
     integer(c_int64_t) :: impacts = 0, checks = 0
     character(kind=c_char) :: version(32) = c_null_char
     real(c_double) :: chi = 0, gamma = 0, delta1 = 0, psi_factor = 0, duration = 0, friction = 0, radius = 0, &
-      mass = 0, &
-      poisson_ratio = 0, equilibrium_modulus = 0, parallel_viscosity = 0, speed_limit = 0, radius_limit = 0, &
-      displacement_limit = 0
+      mass = 0, poisson_ratio = 0, equilibrium_modulus = 0, parallel_viscosity = 0, speed_limit = 0, &
+      radius_limit = 0, displacement_limit = 0
     integer(c_int64_t) :: terms = 0, speeds = 0, stick_cells = 0, slip_cells = 0
     type(c_ptr) :: relaxation_time = c_null_ptr, modulus = c_null_ptr, speed = c_null_ptr, ez = c_null_ptr, &
       strain = c_null_ptr, ex = c_null_ptr
@@ -295,7 +294,7 @@ contains
     call check_length("ez", ez, "normal_speeds", n, status, error)
     call check_length("ex", ex, "normal_speeds", n, status, error)
     if (status == RESTITUTE_OK) status = c_pair_many(table%address, contact, n, normal_speeds, tangential_speeds, &
-      ez, ex, error)
+                                                     ez, ex, error)
   end function restitute_table_pair_many
 
   integer(c_int) function restitute_table_collide(table, contact, first, second, ez, ex, error) result(status)
@@ -333,9 +332,8 @@ contains
   !> places of psi, speeds).
   subroutine restitute_table_arrays(data, relaxation_time, modulus, speed, ez, strain, ex)
     type(restitute_table_data), intent(in) :: data
-    real(c_double), pointer, intent(out), optional :: relaxation_time(:), modulus(:), speed(:), ez(:, :), strain(:, &
-      :), &
-      ex(:, :, :)
+    real(c_double), pointer, intent(out), optional :: relaxation_time(:), modulus(:), speed(:), ez(:, :), &
+      strain(:, :), ex(:, :, :)
     if (present(relaxation_time)) call c_f_pointer(data%relaxation_time, relaxation_time, [data%terms])
     if (present(modulus)) call c_f_pointer(data%modulus, modulus, [data%terms])
     if (present(speed)) call c_f_pointer(data%speed, speed, [data%speeds])
@@ -350,9 +348,8 @@ contains
   subroutine restitute_table_arrays_set(data, stick_cells, relaxation_time, modulus, speed, ez, strain, ex)
     type(restitute_table_data), intent(inout) :: data
     integer, intent(in) :: stick_cells
-    real(c_double), pointer, contiguous, intent(in) :: relaxation_time(:), modulus(:), speed(:), ez(:, :), strain(:, &
-      :), &
-      ex(:, :, :)
+    real(c_double), pointer, contiguous, intent(in) :: relaxation_time(:), modulus(:), speed(:), ez(:, :), &
+      strain(:, :), ex(:, :, :)
     integer :: n
     n = size(speed)
     data%terms = size(modulus)

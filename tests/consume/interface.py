@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares the public headers with the Fortran modules: interface.py CC INCLUDE SOURCES COMPONENT...
 
-INCLUDE holds the headers, SOURCES the modules. It says what differs of names and arguments of functions and of names of
-constants. It writes layout.c and layout.f90, which print sizes, offsets and values for interface.sh to compare.
+INCLUDE holds the headers, SOURCES the modules. It says what differs of names and arguments of
+functions, and of names of structs and constants. It writes layout.c and layout.f90, which print
+sizes, offsets and values for interface.sh to compare.
 """
 import pathlib
 import re
@@ -46,7 +47,7 @@ def members(body):
 
 
 def bindings(source):
-    """C name -> (result, arguments, {argument: (type, attributes)}) of all that a module binds to C."""
+    """C name -> (result, arguments, {argument: (type, attributes)}) of what a module binds to C."""
     text = re.sub(r" *& *\n *", " ", re.sub(r"!.*", "", source))
     body = re.compile(r"^ *(?:pure )?([^\n]*?) ?\b(?:function|subroutine) \w+\(([^)]*)\) bind\(c, name=\"(restitute_\w+)\"\)(.*?)"
                       r"^ *end ", re.M | re.S)
@@ -75,6 +76,7 @@ def expected(argument, structs):
 
 
 def compare(name, prototype, binding, structs):
+    """What is wrong of a function: a line each."""
     kind, arguments = prototype
     result, names, types = binding
     results = {"void": "", "const char *": "type(c_ptr)", "const restitute_method *": "type(c_ptr)"}
@@ -113,9 +115,8 @@ def write_layouts(parts, structs):
         f += [f"elemental subroutine is_{kind}(x)", f"{SCALARS[kind]}, intent(in) :: x", "end subroutine"]
     f += ["subroutine put(name, start, member, bytes)", "character(len=*), intent(in) :: name",
           "type(c_ptr), intent(in) :: start, member", "integer(c_size_t), intent(in) :: bytes",
-          'print "(2a, 2(1x, i0))", "", name, transfer(member, 0_c_intptr_t) - transfer(start, 0_c_intptr_t), bytes',
+          'print "(a, 2(1x, i0))", name, transfer(member, 0_c_intptr_t) - transfer(start, 0_c_intptr_t), bytes',
           "end subroutine"]
-
     for struct, its_members in structs.items():
         c += [f'printf("{struct} %zu\\n", sizeof({struct}));']
         f += [f"subroutine put_{struct}()", f"type({struct}), target :: x", f'print "(a, i0)", "{struct} ", c_sizeof(x)']
@@ -144,14 +145,21 @@ def main(cc, include, sources, *components):
     functions = {name: f for header in parts.values() for name, f in header.functions.items()}
     bound = bindings(source)
     constants = {k for header in parts.values() for k in header.constants}
-    here = set(re.findall(r"\bRESTITUTE_\w+(?= = )", source))
-    wrong = [f"{n}: in C alone" for n in sorted((functions.keys() - bound.keys()) | (constants - here))]
-    wrong += [f"{n}: in Fortran alone" for n in sorted((bound.keys() - functions.keys()) | (here - constants))]
+    wrong = []
+    handle = r"(?!\n *type\(c_ptr\) :: address)"
+    for in_c, here in [(functions, bound), (constants, re.findall(r"\bRESTITUTE_\w+(?= = )", source)),
+                       (structs, re.findall(r"type, bind\(c\) :: (restitute_\w+)$" + handle, source, re.M))]:
+        wrong += [f"{name}: in C alone" for name in sorted(set(in_c) - set(here))]
+        wrong += [f"{name}: in Fortran alone" for name in sorted(set(here) - set(in_c))]
     for name in sorted(functions.keys() & bound.keys()):
         wrong += compare(name, functions[name], bound[name], structs)
+        struct = name.removesuffix("_init_sized")
+        if struct != name and not re.search(rf"^ *interface {struct}$", source, re.M):
+            wrong.append(f"{struct}: no constructor in Fortran")
     write_layouts(parts, structs)
-    counts = f"{len(functions)} functions, {len(structs)} structs and {len(constants)} constants"
-    sys.exit("\n".join(wrong) if wrong else print(counts))
+    print(f"{len(functions)} functions, {len(structs)} structs and {len(constants)} constants")
+    if wrong:
+        sys.exit("\n".join(wrong))
 
 
 if __name__ == "__main__":

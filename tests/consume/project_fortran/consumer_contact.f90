@@ -16,7 +16,7 @@ program consumer_contact
   type(restitute_error) :: error
   real(rk), allocatable :: tau(:), modulus(:), state(:), states(:, :)
   real(rk) :: limit, bound
-  integer :: statuses(2), k
+  integer :: status, statuses(2), k
   logical :: good
 
   good = restitute_material_standard_solid(1e6_rk, 2e6_rk, 50.0_rk, 0.5_rk, rubber) == RESTITUTE_OK
@@ -24,8 +24,8 @@ program consumer_contact
   options%energies = 1
   good = good .and. restitute_contact_law_create(rubber, options, law, error) == RESTITUTE_OK
   call restitute_material_destroy(rubber)
-  good = good .and. restitute_contact_law_series(law, relaxation_time=tau, modulus=modulus, &
-    error_bound=bound) == RESTITUTE_OK
+  status = restitute_contact_law_series(law, relaxation_time=tau, modulus=modulus, error_bound=bound)
+  good = good .and. status == RESTITUTE_OK
   ! eta/G2 within rounding, and nothing was left out.
   good = good .and. size(tau) == 1 .and. abs(tau(1) - 25e-6_rk) < 1e-18_rk .and. abs(modulus(1) - 2e6_rk) < 1e-6_rk
   good = good .and. .not. bound > 0 .and. restitute_contact_law_hash(law) /= 0
@@ -57,11 +57,11 @@ program consumer_contact
   good = good .and. restitute_contact_turn(law, [0.0_rk, 0.0_rk, 1.0_rk], [1.0_rk, 0.0_rk, 0.0_rk], state, error) == 0
 
   good = good .and. restitute_contact_step(law, rates, motions(1), state(2:), force, error) == RESTITUTE_ERROR_DOMAIN
-  good = good .and. index(restitute_message(error), &
-    "state: must have as many values as restitute_contact_law_state_size") == 1
-  good = good .and. restitute_contact_step_many(law, rates, motions, states(:, :1), forces, &
-    error=error) == RESTITUTE_ERROR_DOMAIN
+  good = good .and. index(restitute_message(error), "state: must have as many values as") == 1
+  status = restitute_contact_step_many(law, rates, motions, states(:, :1), forces, error=error)
+  good = good .and. status == RESTITUTE_ERROR_DOMAIN
   print "(a, i0, a, es10.3, a)", "state of ", size(state), ", force ", force%normal, " N"
   call restitute_contact_law_destroy(law)
+  deallocate (tau, modulus, state, states) ! a program's own live on to its end, which looks like a leak
   if (.not. good) error stop 1
 end program consumer_contact

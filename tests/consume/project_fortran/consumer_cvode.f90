@@ -35,5 +35,6 @@ program consumer_cvode
   print "(3a, i0, a)", "SUNDIALS ", restitute_cvode_sundials_version(), ", ", size(events), " events"
   call restitute_solver_destroy(solver)
   call restitute_cvode_recorder_destroy(recorder)
+  deallocate (events) ! a program's own live on to its end, which looks like a leak
   if (.not. good) error stop 1
 end program consumer_cvode

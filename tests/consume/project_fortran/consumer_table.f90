@@ -2,6 +2,7 @@
 !> A Fortran user's program: a table, its look-ups, its numbers and a table made of them. Exit
 !> status 0 if all is what it should be.
 program consumer_table
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_ptr
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use restitute
   use restitute_table_module
@@ -19,7 +20,8 @@ program consumer_table
   real(rk), pointer, contiguous :: tau(:), modulus(:), speed(:), on_speed(:, :), strain(:, :), on_psi(:, :, :)
   real(rk) :: ez, ex, other(2), many(2, 3)
   real(rk), parameter :: speeds(3) = [0.1_rk, 0.5_rk, 2.0_rk], slides(3) = [0.0_rk, 0.2_rk, -3.0_rk]
-  integer :: k, flags
+  integer :: status, k, flags
+  integer, target :: finished(2)
   logical :: good
 
   good = restitute_material_standard_solid(1e6_rk, 2e6_rk, 50.0_rk, 0.5_rk, rubber) == RESTITUTE_OK
@@ -39,17 +41,18 @@ program consumer_table
   ! Many places, one place, and the same for a contact that is the table's own.
   small = restitute_table_contact()
   good = good .and. restitute_table_contact_set(table, scene, small, error) == RESTITUTE_OK
-  good = good .and. restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides, ez=many(1, :), &
-                                              ex=many(2, :), error=error) == RESTITUTE_OK
+  status = restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides, ez=many(1, :), &
+                                     ex=many(2, :), error=error)
+  good = good .and. status == RESTITUTE_OK
   do k = 1, 3
     good = good .and. restitute_table_pair(table, normal_speed=speeds(k), tangential_speed=slides(k), ez=ez, ex=ex) == 0
     good = good .and. restitute_table_pair(table, small, speeds(k), slides(k), other(1), other(2)) == RESTITUTE_OK
     ! The same bits of many, as table.h says; of the other contact the factors are 1 within rounding.
     good = good .and. .not. any(abs(many(:, k) - [ez, ex]) > 0) .and. all(abs(other - [ez, ex]) < 1e-12_rk)
   end do
-  good = good .and. restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides(:2), &
-    error=error) == &
-         RESTITUTE_ERROR_DOMAIN
+  good = good .and. restitute_table_pair_many(table, small, speeds, slides, ez=many(1, :), error=error) == RESTITUTE_OK
+  status = restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides(:2), error=error)
+  good = good .and. status == RESTITUTE_ERROR_DOMAIN
   good = good .and. restitute_message(error) == "tangential_speeds: must have as many values as normal_speeds, 3; has 2"
   good = good .and. restitute_table_flags(table, 10.0_rk, 0.0_rk, flags, error) == RESTITUTE_OK
   good = good .and. iand(flags, RESTITUTE_FLAG_LARGE_CONTACT) /= 0
@@ -73,19 +76,22 @@ program consumer_table
   good = good .and. abs(speed(1) - data%low) < 1e-15_rk .and. all(on_speed(1, :) >= 0) .and. all(on_speed(1, :) <= 1)
   call restitute_table_arrays_set(data, int(info%stick_cells), tau, modulus, speed, on_speed, strain, on_psi)
   good = good .and. data%slip_cells == info%slip_cells .and. restitute_table_create(data, copy, error) == RESTITUTE_OK
-  good = good .and. restitute_table_pair(copy, normal_speed=0.5_rk, tangential_speed=0.2_rk, ez=ez, &
-    ex=ex) == RESTITUTE_OK
+  status = restitute_table_pair(copy, normal_speed=0.5_rk, tangential_speed=0.2_rk, ez=ez, ex=ex)
+  good = good .and. status == RESTITUTE_OK
   good = good .and. .not. any(abs([ez, ex] - many(:, 2)) > 0)
   call restitute_table_destroy(copy)
   call restitute_table_arrays_set(data, int(info%stick_cells), tau, modulus, speed, on_speed, on_speed, on_psi)
   good = good .and. restitute_table_create(data, copy, error) == RESTITUTE_ERROR_NULL
   good = good .and. restitute_message(error) == "data.strain is NULL"
 
-  good = good .and. restitute_table_build_many([rubber, rubber], scene, options, tables=tables(2:), error=error) == &
-         RESTITUTE_ERROR_DOMAIN
+  status = restitute_table_build_many([rubber, rubber], scene, options, tables=tables(2:), error=error)
+  good = good .and. status == RESTITUTE_ERROR_DOMAIN
   options%tolerance = 1e-2_rk
-  good = good .and. restitute_table_build_many([rubber, rubber], scene, options, tables=tables, &
-    error=error) == RESTITUTE_OK
+  finished = 0
+  status = restitute_table_build_many([rubber, rubber], scene, options, count_finished, c_loc(finished), tables, error)
+  good = good .and. status == RESTITUTE_OK
+  good = good .and. all(finished == 3)
+  good = good .and. restitute_table_pair(tables(2), normal_speed=0.5_rk, tangential_speed=0.2_rk, ex=ex) == RESTITUTE_OK
   print "(2a, f7.4, a, f7.4)", "table of restitute ", restitute_text(info%version), many(1, 2), ",", many(2, 2)
   do k = 1, 3
     call restitute_table_destroy(tables(k))
@@ -94,4 +100,16 @@ program consumer_table
   call restitute_table_destroy(table)
   call restitute_material_destroy(rubber)
   if (.not. good) error stop 1
+
+contains
+
+  !> Progress: how many calls there were in their order, and of how many tables they told.
+  subroutine count_finished(data, done, count) bind(c)
+    type(c_ptr), value :: data
+    integer(restitute_size), value :: done, count
+    integer, pointer :: seen(:)
+    call c_f_pointer(data, seen, [2])
+    if (done == seen(1) + 1) seen(1) = seen(1) + 1
+    seen(2) = int(count)
+  end subroutine count_finished
 end program consumer_table
