@@ -102,8 +102,6 @@ contains
     store%memory_x(0, :) = 0
     store%loading_x(0, :) = 0
     panel = 1
-    x = 0
-    velocity = contact%psi
     if (.not. contact%psi > 1 .or. contact%no_slip /= 0) return
     velocity = (2*contact%chi - contact%psi)/(2*contact%chi - 1)
     call find_velocity(normal, velocity, panel, x)
