@@ -130,7 +130,7 @@ contains
       first = merge(control%n_coarse_compression, 0_ip, back) + 1
       last = merge(control%n_coarse, control%n_coarse_compression, back)
       if (first > last) return
-      i = first - 1 + range_at(place + 0.5_dp, real(passed(coarse(first:last)%from, back), dp))
+      i = first - 1 + range_at(merge(whole - place - 0.5_dp, place + 0.5_dp, back)*unit, coarse(first:last), back)
       if (passed(coarse(i)%to, back) > place) &
         width = max(1_ip, min(width, (passed(coarse(i)%to, back) - passed(coarse(i)%from, back))/2))
     end subroutine halve_coarser
@@ -162,7 +162,7 @@ contains
     integer(ip), intent(in) :: place, n
     type(panel_type), intent(in) :: panel(n)
     integer(ip) :: width
-    associate (on => panel(range_at((place - 0.5_dp)*unit, panel%from)))
+    associate (on => panel(range_at((place - 0.5_dp)*unit, panel)))
       width = nint(on%to/unit, ip) - nint(on%from/unit, ip)
     end associate
   end function width_at

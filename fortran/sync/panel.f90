@@ -34,19 +34,25 @@ contains
     type(panel_type), intent(in) :: panel(n_panels)
     integer(ip), intent(out) :: p
     real(dp), intent(out) :: weight(0:stages)
-    p = range_at(theta, panel%from)
+    p = range_at(theta, panel)
     weight = weights_at(place_on(panel(p), theta))
   end subroutine find_angle
 
-  !> The last range that begins at theta or before, or else the first one; `from` rises.
-  pure function range_at(theta, from) result(i)
-    real(dp), intent(in) :: theta, from(:)
+  !> The last panel that begins at theta or before, or else the first one, of panels whose angles rise, or fall if that is said.
+  !> (Of the angles alone, one component of the panels, the compiler would make a copy.)
+  pure function range_at(theta, panel, descends) result(i)
+    real(dp), intent(in) :: theta
+    type(panel_type), intent(in) :: panel(:)
+    logical, intent(in), optional :: descends
+    real(dp) :: sense
     integer(ip) :: i, last, middle
+    sense = 1
+    if (present(descends)) sense = merge(-1.0_dp, 1.0_dp, descends)
     i = 1
-    last = size(from, kind=ip)
+    last = size(panel, kind=ip)
     do while (i < last)
       middle = (i + last + 1)/2
-      if (theta < from(middle)) then
+      if (sense*theta < sense*panel(middle)%from) then
         last = middle - 1
       else
         i = middle

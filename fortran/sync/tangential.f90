@@ -5,7 +5,7 @@ module rst_tangential_motion
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
   use rst_tuning, only: most_idle, steady, weightless, shortest
-  use rst_panel, only: normal_type, range_at
+  use rst_panel, only: normal_type
   use rst_store, only: contact_type, piece_type, store_type, backward, sticks, forward
   use rst_piece, only: interval_type, set_interval, advance_memory
   use rst_slip, only: solution_type, take_piece, solved, sticks_again, no_event, slip_begins, stick_ends, slip_reverses
@@ -132,7 +132,10 @@ contains
     real(dp), intent(out) :: x
     real(dp) :: above(0:stages)
     integer(ip) :: i
-    panel = range_at(-velocity, -normal%panel(:normal%n_panels)%velocity(0))
+    panel = 1
+    do while (normal%panel(panel)%velocity(stages) > velocity .and. panel < normal%n_panels)
+      panel = panel + 1
+    end do
     above = normal%panel(panel)%velocity - velocity
     i = 1
     x = 1

@@ -210,7 +210,6 @@ static void measured_impacts(void **state)
 {
     restitute_scene scenes[4];
     restitute_fit_point points[4];
-    restitute_scene scenes[4];
     restitute_fit_result result;
     restitute_fitter *fitter = NULL;
     restitute_error *e = &with.error;
