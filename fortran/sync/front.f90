@@ -122,7 +122,7 @@ contains
       if (theta >= store%record(middle)%from) record = middle
     end do
     associate (r => store%record(record))
-      weight = weights_at((theta - r%from)/(r%end - r%from))
+      weight = weights_at((theta - r%from)/(r%to - r%from))
     end associate
   end subroutine find_record
 

@@ -167,29 +167,22 @@ contains
     end associate
   end function width_at
 
-  !> The start of a panel is the end of the one before, and the first one starts at first touch.
+  !> The start of a panel is the end of the one before, and the first one starts at first touch. (Values at its points come later.)
   subroutine begin(normal, n)
     type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: n
-    associate (panel => normal%panel)
-      panel(n)%radius(0) = 0
-      panel(n)%time(0) = 0
-      panel(n)%depth(0) = 0
-      panel(n)%velocity(0) = 1
-      panel(n)%force(0) = 0
-      panel(n)%pace(0) = 0
-      normal%memory(0, :, n) = 0
-      normal%loading(0, :, n) = 0
-      if (n == 1) return
-      panel(n)%radius(0) = panel(n - 1)%radius(stages)
-      panel(n)%time(0) = panel(n - 1)%time(stages)
-      panel(n)%depth(0) = panel(n - 1)%depth(stages)
-      panel(n)%velocity(0) = panel(n - 1)%velocity(stages)
-      panel(n)%force(0) = panel(n - 1)%force(stages)
-      panel(n)%pace(0) = panel(n - 1)%pace(stages)
+    if (n == 1) then
+      normal%panel(1) = panel_type(from=0, to=0, radius=0, time=0, depth=0, velocity=1, force=0, pace=0)
+      normal%memory(0, :, 1) = 0
+      normal%loading(0, :, 1) = 0
+    else
+      associate (last => normal%panel(n - 1))
+        normal%panel(n) = panel_type(from=0, to=0, radius=last%radius(stages), time=last%time(stages), depth=last%depth(stages), &
+                                     velocity=last%velocity(stages), force=last%force(stages), pace=last%pace(stages))
+      end associate
       normal%memory(0, :, n) = normal%memory(stages, :, n - 1)
       normal%loading(0, :, n) = normal%loading(stages, :, n - 1)
-    end associate
+    end if
   end subroutine begin
 
   !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the

@@ -25,10 +25,10 @@ module rst_store
   end type contact_type
 
   !> A range of the compression in which all elements stick, or all slip: what they were given when the edge reached them, here
-  !> and in `corrective` of store_type. The edge angle goes from `from` to `to`; the last point is at `end`, which may be beyond.
+  !> and in `corrective` of store_type. The edge angle goes from `from` to `to`.
   !> touch: X, t_X, and D' and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
   type, bind(c) :: record_type
-    real(dp) :: from, to, end
+    real(dp) :: from, to
     real(dp) :: touch(of_touch, 0:stages)
   end type record_type
 

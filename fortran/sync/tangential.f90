@@ -4,7 +4,7 @@ module rst_tangential_motion
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, root_between, weights_at, factors_type, factorize, solution_of
   use rst_arms, only: advance
-  use rst_tuning, only: most_idle, steady, weightless
+  use rst_tuning, only: most_idle, steady, weightless, shortest
   use rst_panel, only: normal_type, range_at
   use rst_store, only: contact_type, piece_type, store_type, backward, sticks, forward
   use rst_piece, only: interval_type, set_interval, advance_memory
@@ -92,7 +92,9 @@ contains
     type(store_type), intent(inout) :: store
     integer(ip), intent(out) :: panel
     real(dp), intent(out) :: x, velocity
+    type(interval_type) :: interval
     real(dp) :: weight(0:stages)
+    logical :: fails
     integer(ip) :: k
     panel = 0
     x = 0
@@ -103,19 +105,18 @@ contains
     store%memory_x(0, :) = 0
     store%loading_x(0, :) = 0
     panel = 1
-    x = 0
-    velocity = contact%psi
     if (contact%mode /= mode_gross_slip) return
     velocity = (2*contact%chi - contact%psi)/(2*contact%chi - 1)
     call find_velocity(normal, velocity, panel, x)
     do k = 1, min(panel, normal%n_compression)
-      call record_slip(normal, k, store)
+      interval%panel = k
+      interval%from = 0
+      interval%to = merge(x, 1.0_dp, k == panel)
+      interval%rooted = .false.
+      if (.not. interval%to > shortest) cycle
+      call set_interval(normal, store, interval, fails)
+      if (.not. fails) call add_record(normal, interval, interval%velocity, .true., store)
     end do
-    if (panel <= normal%n_compression) then
-      associate (last => store%record(panel))
-        last%to = last%from + x*(last%end - last%from)
-      end associate
-    end if
     weight = weights_at(x)
     do k = 1, normal%n_arms
       store%memory_x(0, k) = sum(weight*normal%memory(:, k, panel))
@@ -142,29 +143,6 @@ contains
     x = root_between(i, above)
   end subroutine find_velocity
 
-  !> A panel of the compression in gross slip.
-  subroutine record_slip(normal, panel, store)
-    type(normal_type), intent(in) :: normal
-    integer(ip), intent(in) :: panel
-    type(store_type), intent(inout) :: store
-    integer(ip) :: i, k
-    store%n_records = panel
-    associate (on => normal%panel(panel))
-      store%record(panel)%from = on%from
-      store%record(panel)%to = on%to
-      store%record(panel)%end = on%to
-      do i = 0, stages
-        store%record(panel)%touch(:, i) = [on%radius(i), on%time(i), on%velocity(i)*on%pace(i), on%velocity(i)*on%pace(i)]
-      end do
-    end associate
-    do k = 1, normal%n_arms
-      do i = 0, stages
-        store%corrective(1:2, i, k, panel) = 0
-        store%corrective(3:4, i, k, panel) = 2*[normal%memory(i, k, panel), normal%loading(i, k, panel)]
-      end do
-    end do
-  end subroutine record_slip
-
   !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end starts the next one.
   subroutine keep(normal, sense, interval, s, store)
     type(normal_type), intent(in) :: normal
@@ -172,33 +150,38 @@ contains
     type(interval_type), intent(in) :: interval
     type(solution_type), intent(in) :: s
     type(store_type), intent(inout) :: store
-    real(dp) :: weight(0:stages), loading
-    integer(ip) :: n, i, k
     store%n_pieces = store%n_pieces + 1
     store%piece(store%n_pieces) = piece_type(interval%panel, merge(1_ip, 0_ip, interval%rooted), interval%from, interval%to, &
                                              s%shear_velocity, s%shear_force, s%stick_radius)
-    if (sense == sticks .and. .not. interval%returning) then
-      n = store%n_records + 1
-      store%n_records = n
-      store%record(n)%from = interval%angle(0)
-      store%record(n)%to = interval%angle(stages)
-      store%record(n)%end = interval%angle(stages)
-      do i = 0, stages
-        store%record(n)%touch(:, i) = [interval%radius(i), interval%time(i), interval%velocity(i)*interval%pace(i), &
-                                       s%shear_velocity(i)*interval%pace(i)]
-        weight = weights_at(interval%x(i))
-        do k = 1, normal%n_arms
-          loading = sum(weight*normal%loading(:, k, interval%panel))
-          store%corrective(:, i, k, n) = [store%memory_z(i, k) - store%memory_x(i, k), loading - store%loading_x(i, k), &
-                                    store%memory_z(i, k) + store%memory_x(i, k), loading + store%loading_x(i, k)]
-        end do
-      end do
-    end if
-    do k = 1, normal%n_arms
-      store%memory_x(0, k) = store%memory_x(stages, k)
-      store%loading_x(0, k) = store%loading_x(stages, k)
-    end do
+    if (sense == sticks .and. .not. interval%returning) call add_record(normal, interval, s%shear_velocity, .false., store)
+    store%memory_x(0, :) = store%memory_x(stages, :)
+    store%loading_x(0, :) = store%loading_x(stages, :)
   end subroutine keep
+
+  !> An interval of the compression in which all sticks, or all slips: then elements have the same stress in x as in z.
+  subroutine add_record(normal, interval, shear_velocity, slips, store)
+    type(normal_type), intent(in) :: normal
+    type(interval_type), intent(in) :: interval
+    real(dp), intent(in) :: shear_velocity(0:stages)
+    logical, intent(in) :: slips
+    type(store_type), intent(inout) :: store
+    real(dp) :: weight(0:stages), z(2), x(2)
+    integer(ip) :: n, i, k
+    n = store%n_records + 1
+    store%n_records = n
+    store%record(n)%from = interval%angle(0)
+    store%record(n)%to = interval%angle(stages)
+    do i = 0, stages
+      store%record(n)%touch(:, i) = [interval%radius(i), interval%time(i), interval%velocity(i)*interval%pace(i), &
+                                     shear_velocity(i)*interval%pace(i)]
+      weight = weights_at(interval%x(i))
+      do k = 1, normal%n_arms
+        z = [store%memory_z(i, k), sum(weight*normal%loading(:, k, interval%panel))]
+        x = merge(z, [store%memory_x(i, k), store%loading_x(i, k)], slips)
+        store%corrective(:, i, k, n) = [z - x, z + x]
+      end do
+    end do
+  end subroutine add_record
 
   !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its stick
   !> margin y stays 0, which asks for the velocity v, and it slips with v - v_d.

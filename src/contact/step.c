@@ -42,8 +42,8 @@ RST_DEFAULTS(contact_motion, .normal = {0, 0, 1})
 
 RST_DEFAULTS(contact_energies, .struct_size = 0)
 
-/* Motions and rates are read in place, since every caller's have what a step needs. One test for all: comparisons are
- * false for NaN. */
+/* Motions and rates are read in place, since those of every caller have what a step needs. One test
+ * for all: comparisons are false for NaN. */
 static int is_good(const restitute_contact_rates *rates, const restitute_contact_motion *m)
 {
     if (!RST_IS_SIZED(contact_motion, m)) return 0;

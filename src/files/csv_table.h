@@ -1,4 +1,5 @@
-/* CSV tables, for materials and for the command: a header row of column names, then rows of as many cells. Immutable.
+/* CSV tables, for materials and for the command: a header row of column names, then rows of as many
+ * cells. Immutable.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_CSV_TABLE_H
 #define RST_CSV_TABLE_H
@@ -11,12 +12,14 @@ struct rst_csv;
 #define RST_BYTES_OF_MATERIAL (UINT64_C(1) << 26)
 #define RST_BYTES_OF_TABLE (UINT64_C(1) << 32)
 
-/* Read a table (RFC 4180: commas, optional double quotes; LF or CRLF) of up to `most` bytes. Empty lines and lines that
- * begin with # are skipped, spaces around unquoted cells dropped. It may have no rows.
+/* Read a table (RFC 4180: commas, optional double quotes; LF or CRLF) of up to `most` bytes. Empty
+ * lines and lines that begin with # are skipped, spaces around unquoted cells dropped. It may have
+ * no rows.
  *
  * path     a regular file; "-" is standard input, of whatever kind
- * returns  ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT for an empty file, a row with more or fewer
- *          cells than the header, a stray quote, an empty or repeated column name; ERROR_MEMORY */
+ * returns  ERROR_FILE (cannot be read, not regular, too large); ERROR_FORMAT for an empty file, a
+ *          row with more or fewer cells than the header, a stray quote, an empty or repeated column
+ *          name; ERROR_MEMORY */
 int rst_csv_read(const char *path, uint64_t most, struct rst_csv **csv, restitute_error *error);
 
 /* Release a table; NULL is allowed. */

@@ -11,7 +11,8 @@ struct file_text {
     size_t length;
 };
 
-/* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees text->bytes. */
+/* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees
+ * text->bytes. */
 int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
 
 /* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */

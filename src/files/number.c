@@ -11,7 +11,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* strtod also takes leading blanks, hexadecimal and "nan(...)", none of which belongs in a table. */
+/* strtod also takes blanks before it, hexadecimal and "nan(...)": none belongs in a table. */
 static int only_number_characters(const char *text)
 {
     const char *digits = text + (*text == '+' || *text == '-');

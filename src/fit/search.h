@@ -47,7 +47,7 @@ int rst_fit_rescale(struct rst_fit_search *search);
  * weights. */
 int rst_fit_linearise(struct rst_fit_search *search, double *j);
 
-/* What the linearised problem says. Directions are those of the logarithms of the fitted constants. */
+/* What the linearised problem says. Directions are those of the logarithms of fitted constants. */
 struct rst_fit_intervals {
     double noise;  /* standard deviation of a weighted residual; NaN: no degree of freedom is left */
     double judged; /* the same, but not below the noise of a measurement: decides what is determined */

@@ -43,7 +43,7 @@ struct sync_contact {
 
 /* Twin of record_type. */
 struct sync_record {
-    double from, to, end;
+    double from, to;
     double touch[rst_points][rst_values];
 };
 

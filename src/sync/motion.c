@@ -30,8 +30,7 @@ struct rst_motion *rst_motion_of(struct rst_workspace *workspace)
     return (struct rst_motion *)workspace->own;
 }
 
-/* Room for `count` doubles; what was in it is lost if it grows. Nonzero: out of memory. */
-static int make_room(double **room, size_t *size, size_t count)
+int rst_make_room(double **room, size_t *size, size_t count)
 {
     if (count <= *size) return 0;
     double *larger = malloc(count * sizeof(double));
@@ -114,7 +113,7 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
 {
     const size_t n = (size_t)motion->n_arms, c = (size_t)capacity, points = rst_points * n * c;
     const size_t panels = c * sizeof(struct sync_panel) / sizeof(double), kernels = rst_stages * points;
-    if (make_room(&run->room, &run->room_size, panels + 2 * points + kernels + 2 * rst_stages * n + 1)) return 1;
+    if (rst_make_room(&run->room, &run->room_size, panels + 2 * points + kernels + 2 * rst_stages * n + 1)) return 1;
     run->capacity = capacity;
     run->normal = (struct sync_normal){.eta = motion->eta,
                                        .n_arms = motion->n_arms,
@@ -187,8 +186,8 @@ static int lay_out_store(struct rst_motion *motion, int64_t capacity)
     const size_t records = c * sizeof(struct sync_record) / sizeof(double);
     const size_t pieces = c * sizeof(struct sync_piece) / sizeof(double);
     struct sync_store *s = &motion->store;
-    if (make_room(&motion->store_room, &motion->store_size,
-                  records + pieces + rst_values * points + (rst_stages + 3) * rst_points * n + 1))
+    if (rst_make_room(&motion->store_room, &motion->store_size,
+                      records + pieces + rst_values * points + (rst_stages + 3) * rst_points * n + 1))
         return 1;
     double *next = motion->store_room;
     s->capacity = capacity;

@@ -3,7 +3,6 @@
 #include "sync/walk.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/gross_slip.h"
 #include "sync/tuning.h"
@@ -31,13 +30,7 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     const size_t of_term = sizeof(struct walk_term) / sizeof(double);
     const size_t count = marks + levels * (1 + of_level + of_shear + terms) + terms + (terms + 1) * of_term +
                          capacity * (walk_columns + 2 * (terms + 1));
-    if (count > motion->walk_size) {
-        double *larger = malloc(count * sizeof(double));
-        if (!larger) return 1;
-        free(motion->walk_room);
-        motion->walk_room = larger;
-        motion->walk_size = count;
-    }
+    if (rst_make_room(&motion->walk_room, &motion->walk_size, count)) return 1;
     r->capacity = (int64_t)capacity;
     r->mark = motion->walk_room;
     r->time = r->mark + marks;

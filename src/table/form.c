@@ -22,7 +22,8 @@ static int check_counts(const restitute_table_data *d, restitute_error *error)
     return status;
 }
 
-/* Ranges of what contacts can have: no lookup overflows or divides by 0, for programs that trap that. */
+/* Ranges of what contacts can have: no lookup overflows or divides by 0, for programs that trap
+ * that. */
 static int check_numbers(const restitute_table_data *d, restitute_error *error)
 {
     const struct {

@@ -278,7 +278,7 @@ static void many_steps_are_single_steps(void **unused)
     restitute_contact_law_destroy(law);
 }
 
-/* In an array the size of the first is the distance to the next: it is not a matter of one contact. */
+/* In an array the size of the first is the distance to the next. So the whole call is refused. */
 static void structs_of_other_sizes_are_refused(void **unused)
 {
     static _Alignas(double) unsigned char place[guarded_bytes];

@@ -40,7 +40,8 @@ expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --dens
 near "$(value bem.csv ex)" "$(value out ex)" 0.01 || fail "polyisobutylene: ex $(value bem.csv ex), not $(value out ex)"
 near "$(value bem.csv ez)" "$(value out ez)" 0.01 || fail "polyisobutylene: ez $(value bem.csv ez), not $(value out ez)"
 
-# Columns of the times differ from run to run, and those of differences, formed again of nine digits by --join, in their last.
+# Columns of the times differ from run to run, and those of differences, formed again of nine digits
+# by --join, in their last.
 rows() {
     grep -v '^#' "$1" | cut -d, -f1-12,15,16,19-
 }

@@ -10,7 +10,7 @@ expect 0 bench --quick --budget 60 --output report
 has out 'paper-euler' 'Time for an error' 'not reached'
 has report-runs.csv.meta.json '"version"' '"command"' '"tolerances"' '"paper-verlet"'
 [ "$(head -1 report-runs.csv)" = "set,scene,chi,psi,delta1,gamma,method,tolerance,elements_asked,steps_asked,seconds,\
-repeats,ez,ex,error_ez,error_ex,estimate,reference_error,reference,elements,steps,updates,restarts,events,status" ] || fail "columns of the runs"
+repeats,ez,ex,error_ez,error_ex,estimate,reference_error,reference,elements,steps,work,restarts,events,status" ] || fail "columns of the runs"
 [ -s report-speed.csv ] && [ -s report-summary.csv ] || fail "a table is missing"
 
 # Every run is a pair within its bounds, took some time, and tells its errors; euler keeps what it

@@ -79,10 +79,10 @@ print(*e["event"], e["time_T"].attrs["unit"])' "$1"
     done
 fi
 
-# What max_updates allows is given with a remark, and nothing if that is nothing.
-expect 0 pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-updates 5000000 --format csv
+# What max_work allows is given with a remark, and nothing if that is nothing.
+expect 0 pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-work 0.05 --format csv
 has out 'the estimated error is above the requested tolerance'
-refused 'max_updates = 1000:' pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-updates 1000
+refused 'max_work = 1e-05:' pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-work 1e-5
 
 refused 'the method sync logs none' history $numbers --method sync --events e.csv
 refused 'no/such' history $numbers --events no/such/e.csv

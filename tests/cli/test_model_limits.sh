@@ -31,7 +31,7 @@ expect 0 pair $ball --velocity 10 --format csv
 has err 'restitute: remark: contact radius/R = 0.'
 
 # The slow method names the fast one where it misses its tolerance.
-expect 0 pair --psi 0.5 --delta1 1 --gamma 1 --tolerance 1e-6 --max-updates 1000000
+expect 0 pair --psi 0.5 --delta1 1 --gamma 1 --tolerance 1e-6 --max-work 1e-3
 has err 'remark: tolerance = 1e-06: ' 'the method sync'
 expect 0 pair --psi 0.5 --delta1 1 --gamma 1
 [ ! -s err ] || fail "a remark on an easy impact"

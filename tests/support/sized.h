@@ -10,10 +10,11 @@
 
 enum { guarded_bytes = 16384 };
 
-/* `call` of a struct restitute_NAME at `place`, of which `why` is the error: it refuses one that is shorter than in the
- * first release and one that is longer than the library's, says which, and touches nothing of them. Nor does the init
- * function write beyond the size that it is given; of a longer one it writes the size alone. No padding is behind the
- * last member: a later one must begin behind the struct of an old caller. */
+/* `call` of a struct restitute_NAME at `place`, of which `why` is the error: it refuses one that is
+ * shorter than in the first release and one that is longer than the library's, says which, and
+ * touches nothing of them. Nor does the init function write beyond the size that it is given. Of a
+ * longer one it writes the size alone. No padding is behind the last member, since a later one must
+ * begin behind the struct of an old caller. */
 #define CHECK_SIZES(NAME, last, place, why, call)                                                                      \
     do {                                                                                                               \
         _Static_assert(offsetof(restitute_##NAME, last) + sizeof((restitute_##NAME *)0)->last ==                       \

@@ -189,8 +189,7 @@ contains
       associate (r => record_room(j))
         r%from = sqrt(loaded)*real(j - 1, dp)/records
         r%to = sqrt(loaded)*real(j, dp)/records
-        r%end = r%to
-        do i = 0, stages
+                do i = 0, stages
           radius = r%from + (r%to - r%from)*point(i)
           r%touch(:, i) = [radius, radius**2, 2*radius, shear*2*radius]
           do k = 1, n

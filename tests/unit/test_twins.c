@@ -57,7 +57,7 @@ static const struct {
     [7] = {"sync_contact", {AT(sync_contact, chi), AT(sync_contact, psi), AT(sync_contact, roughness),
         AT(sync_contact, noise), AT(sync_contact, closeness), AT(sync_contact, stress), AT(sync_contact, mode),
         END(sync_contact)}},
-    [8] = {"sync_record", {AT(sync_record, from), AT(sync_record, to), AT(sync_record, end), AT(sync_record, touch),
+    [8] = {"sync_record", {AT(sync_record, from), AT(sync_record, to), AT(sync_record, touch),
         END(sync_record)}},
     [9] = {"sync_piece", {AT(sync_piece, panel), AT(sync_piece, rooted), AT(sync_piece, from), AT(sync_piece, to),
         AT(sync_piece, shear_velocity), AT(sync_piece, shear_force), AT(sync_piece, stick_radius), END(sync_piece)}},

@@ -98,7 +98,7 @@ contains
                 c_loc(sync_contact%roughness), c_loc(sync_contact%noise), c_loc(sync_contact%closeness), &
                 c_loc(sync_contact%stress), c_loc(sync_contact%mode)])
     case (8)
-      call put(c_sizeof(sync_record), [c_loc(sync_record%from), c_loc(sync_record%to), c_loc(sync_record%end), &
+      call put(c_sizeof(sync_record), [c_loc(sync_record%from), c_loc(sync_record%to), &
                 c_loc(sync_record%touch)])
     case (9)
       call put(c_sizeof(sync_piece), [c_loc(sync_piece%panel), c_loc(sync_piece%rooted), c_loc(sync_piece%from), &

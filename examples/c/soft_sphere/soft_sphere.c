@@ -58,6 +58,7 @@ static int touch(const restitute_contact_law *law, const restitute_contact_rates
     restitute_contact_energies e;
     restitute_error error;
     restitute_contact_motion_init(&m);
+    restitute_contact_energies_init(&e);
     m.overlap = overlap_of(i, j, m.normal);
     if (m.overlap <= 0 && memory[0] == 0) return 0;
     for (int k = 0; k < 3; k++)
