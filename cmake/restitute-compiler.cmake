@@ -44,8 +44,9 @@ restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextr
 restitute_accepted_flags(Fortran interposition_flags -fno-semantic-interposition)
 list(APPEND RESTITUTE_FORTRAN_FLAGS ${interposition_flags})
 
-# Programs in Fortran, which may use the system's intrinsic modules and the Fortran run-time library.
-# -fimplicit-none holds in interface bodies, too, which do not inherit the implicit none of their module.
+# Programs in Fortran, which may use the system's intrinsic modules and the Fortran run-time
+# library. -fimplicit-none holds in interface bodies, too, which do not inherit the implicit none of
+# their module.
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_PROGRAM_FLAGS -std=f2018 -Wall -Wextra -fimplicit-none)
 
 # gfortran reads a header of the C library that lets it take vector versions of exp and the like.

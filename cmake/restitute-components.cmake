@@ -124,7 +124,8 @@ endif()
 restitute_decide(RESTITUTE_FORTRAN "the Fortran modules" RESTITUTE_WITH_FORTRAN #
                  RESTITUTE_FORTRAN_PROGRAMS_LINK "the Fortran run-time library")
 
-# The components that have a Fortran module of their own here; table comes before table_files, which uses it.
+# The components that have a Fortran module of their own here; table comes before table_files, which
+# uses it.
 set(RESTITUTE_FORTRAN_COMPONENTS "")
 foreach(component IN ITEMS bem contact cvode files fit table table_files)
   string(TOUPPER "RESTITUTE_WITH_${component}" with)

@@ -22,7 +22,8 @@ function(restitute_install_component component)
   install(FILES ${ARGN} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/restitute")
 endfunction()
 
-# restitute_install_pkg_config(<file.pc> [<name.pc>]): from cmake/<file.pc>.in, under another name if one is given
+# restitute_install_pkg_config(<file.pc> [<name.pc>]): from cmake/<file.pc>.in, under another name
+# if one is given
 function(restitute_install_pkg_config file)
   set(name "${file}" ${ARGN})
   list(GET name -1 name)
@@ -78,7 +79,8 @@ if(RESTITUTE_WITH_FORTRAN)
   set(fortran_dir "${RESTITUTE_INSTALL_FORTRANDIR}")
   file(RELATIVE_PATH prefix_to_fortran "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_PREFIX}/${fortran_dir}")
 
-  # restitute_install_module(<target> <name> <module>...): the library restitute_<name> and what its sources define
+  # restitute_install_module(<target> <name> <module>...): the library restitute_<name> and what its
+  # sources define
   function(restitute_install_module target name)
     install(TARGETS ${target} EXPORT restitute-${name} ARCHIVE DESTINATION "${fortran_dir}")
     install(EXPORT restitute-${name} FILE restitute-${name}.cmake NAMESPACE restitute:: DESTINATION "${package_dir}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares the public headers with the Fortran modules: interface.py CC INCLUDE SOURCES COMPONENT...
+"""Compares public headers with Fortran modules: interface.py CC INCLUDE SOURCES COMPONENT...
 
 INCLUDE holds the headers, SOURCES the modules. It says what differs of names and arguments of
 functions, and of names of structs and constants. It writes layout.c and layout.f90, which print
@@ -63,7 +63,7 @@ def bindings(source):
 
 
 def expected(argument, structs):
-    """Possible Fortran types of an argument in C, and whether it is passed by value and is constant."""
+    """Possible Fortran types of an argument in C; is it passed by value, and is it constant?"""
     constant = argument.startswith("const ")
     kind = re.sub(r"\bconst\b ?", "", argument)
     stars = kind.count("*") + kind.count("[")

@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The Fortran modules declare what the headers do: functions with their arguments, constants, layouts of structs.
+# The Fortran modules declare what the headers do: functions with their arguments, constants,
+# layouts of structs.
 #   interface.sh agree       compares
-#   interface.sh disagree    compares with headers that are spoilt, each in one place, which has to show
-# From the environment: SOURCE_DIR CC FC, MODULES (where the compiled modules are), COMPONENTS (those that are built)
+#   interface.sh disagree    compares with spoilt headers, each in one place, which has to show
+# From the environment: SOURCE_DIR CC FC, MODULES (where the compiled modules are), COMPONENTS
+# (those that are built)
 set -eu
 if ! python3 -c ''; then
     echo "skipped: python3 is missing"

@@ -121,7 +121,8 @@ contains
     expected = 1e6_rk + 5e6_rk*exp(-10.0_rk) + 1e6_rk*exp(-0.1_rk)
     ! Rounding of three terms and two exponentials.
     good = good .and. abs(restitute_material_modulus(polymer, 1e-3_rk)/expected - 1) < 1e-14_rk
-    ! A solid in series with itself has half the modulus; the root finder of the series leaves a few digits of rounding.
+    ! A solid in series with itself has half the modulus. The root finder of the series leaves a few
+    ! digits of rounding.
     good = good .and. restitute_material_effective(polymer, polymer, pair) == RESTITUTE_OK
     good = good .and. abs(restitute_material_modulus(pair, 1e-3_rk)/expected - 0.5_rk) < 1e-10_rk
     good = good .and. abs(restitute_material_dundurs(pair)) < epsilon(1.0_rk)
