@@ -126,6 +126,6 @@ configure_package_config_file(cmake/restitute-config.cmake.in cmake/restitute-co
                               INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may change the interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/cmake/restitute-config-version.cmake"
-                                 COMPATIBILITY SameMinorVersion)
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/cmake/restitute-config.cmake"
               "${PROJECT_BINARY_DIR}/cmake/restitute-config-version.cmake" DESTINATION "${package_dir}")

@@ -1,4 +1,5 @@
-!> The factors of the equations of motion in the units of docs/theory.md, section 2, and how long an elastic impact lasts.
+!> The factors of the equations of motion in the units of docs/theory.md, section 2, and how long an
+!> elastic impact lasts.
 module rst_motion_factors
   use rst_precision, only: dp
   implicit none (type, external)

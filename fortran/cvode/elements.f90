@@ -183,9 +183,9 @@ contains
     end if
   end function shortfall
 
-  !> Mean of f - q between two elements. Where the inner one sticks and the outer one slips the front between them is where the
-  !> force without slip, linear in X, meets the limit; it moves on while the outer one slips, whose margin is still that of
-  !> the force that it would have had.
+  !> Mean of f - q between two elements. Where the inner one sticks and the outer one slips the
+  !> front between them is where the force without slip, linear in X, meets the limit; it moves on
+  !> while the outer one slips, whose margin is still that of the force that it would have had.
   pure function mean_shortfall(mode, motion, motion_out, d, d_out, f, f_out, m) result(mean)
     integer(ip), intent(in) :: mode, motion, motion_out
     real(dp), intent(in) :: d, d_out, f, f_out, m  !! m: shortfall of the inner one

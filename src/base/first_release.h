@@ -1,5 +1,6 @@
-/* The last member that each public struct had in the first release that had it (0.1 for all of these). What a caller's
- * struct has beyond it depends on the headers that he was compiled with; see base/sized.h.
+/* The last member that each public struct had in the first release that had it (0.1 for all of
+ * these). What a caller's struct has beyond it depends on the headers that he was compiled with;
+ * see base/sized.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_FIRST_RELEASE_H
 #define RST_FIRST_RELEASE_H

@@ -6,8 +6,8 @@
 
 #include <stdint.h>
 
-/* How friction acts: not at all; psi > 1, all slips at first; psi <= 1, the edge slips; all sticks. As in
- * fortran/common/friction_mode.f90. */
+/* How friction acts: not at all; psi > 1, all slips at first; psi <= 1, the edge slips; all sticks.
+ * As in fortran/common/friction_mode.f90. */
 enum rst_mode { RST_FRICTIONLESS = 0, RST_GROSS_SLIP = 1, RST_PARTIAL_SLIP = 2, RST_NO_SLIP = 3 };
 
 /* Twin of ledger_type. */
@@ -24,7 +24,8 @@ struct rst_chain {
 
 /* Force in units of m v/T over int_0^A f dX: 15/8. */
 double rst_mass_factor(void);
-/* Contact time of an elastic impact over its largest indentation, in units of docs/theory.md, section 2. */
+/* Contact time of an elastic impact over its largest indentation, in units of docs/theory.md,
+ * section 2. */
 double rst_elastic_contact_time(void);
 double rst_relaxation_modulus(double t, double g_inf, int64_t n_terms, const double *g, const double *tau);
 void rst_step_coefficients(double h, int64_t n_terms, const double *g, const double *tau, double *decay, double *gain);

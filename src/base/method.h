@@ -6,9 +6,9 @@
 #include "base/problem.h"
 #include "base/workspace.h"
 
-/* Of this struct and of all that the core and a method share through it: rst_problem, rst_workspace, rst_outcome,
- * rst_history, and the procedures of base. One more with every change of these, since a method may come from a library
- * of another version. */
+/* Of this struct and of all that the core and a method share through it: rst_problem,
+ * rst_workspace, rst_outcome, rst_history, and the procedures of base. One more with every change
+ * of these, since a method may come from a library of another version. */
 enum { RST_METHOD_NUMBER = 1 };
 
 struct restitute_method {
@@ -17,8 +17,8 @@ struct restitute_method {
     const char *name;
     double time_limit;         /* s, where the options have none */
     double updates_per_second; /* what the method counts in a nominal second, see restitute_options.max_work */
-    /* Memory for usual impacts at that tolerance, so that a solver does not allocate later. Optional; nonzero: none
-     * left. */
+    /* Memory for usual impacts at that tolerance, so that a solver does not allocate later.
+     * Optional; nonzero: none left. */
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
     int takes_time_step;       /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
     int takes_all_terms;       /* no merging: a fast term would become a dashpot, which this method cannot do */

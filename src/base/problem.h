@@ -94,7 +94,8 @@ struct rst_outcome {
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */
 };
 
-/* Receives samples of the history; see restitute_history. Forces are int_0^A f dX and int_0^A q dX, U' is over shear_speed. */
+/* Receives samples of the history; see restitute_history. Forces are int_0^A f dX and int_0^A q dX,
+ * U' is over shear_speed. */
 struct rst_sample {
     double time, indentation, contact_radius, stick_radius, normal_force, shear_force, velocity, shear_velocity;
 };
@@ -107,8 +108,8 @@ struct rst_history {
 /* How friction acts, by psi; 0: no slip, infinity: no friction. */
 void rst_set_sliding(double psi, struct rst_problem *problem);
 
-/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less at larger chi, not
- * proven (docs/accuracy.md). */
+/* e_x differs from that without slip by less than this times psi: elastic 0.4 at chi = 7/6 and less
+ * at larger chi, not proven (docs/records/accuracy.md). */
 static const double rst_change_by_slip = 2;
 
 /* Largest chi that is accepted. */

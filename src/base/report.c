@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read names and messages. */
+/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read
+ * names and messages. */
 int rst_vprint(char *text, size_t size, const char *format, va_list arguments)
 {
     const locale_t none = (locale_t)0, plain = newlocale(LC_ALL_MASK, "C", none);

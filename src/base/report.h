@@ -13,7 +13,8 @@
 #define RST_PRINTF(position, first)
 #endif
 
-/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read names and messages. */
+/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read
+ * names and messages. */
 int rst_vprint(char *text, size_t size, const char *format, va_list arguments) RST_PRINTF(3, 0);
 int rst_print(char *text, size_t size, const char *format, ...) RST_PRINTF(3, 4);
 

@@ -6,7 +6,8 @@
 
 #include "base/report.h"
 
-/* A longer one has members that we do not know: it gets its size alone, and every call refuses it. */
+/* A longer one has members that we do not know: it gets its size alone, and every call refuses
+ * it. */
 void rst_init(void *value, size_t size, const void *defaults, size_t size_of_defaults)
 {
     if (!value) return;

@@ -1,8 +1,10 @@
-/* Structs that grow at their end: a caller's is shorter than ours where it was compiled with older headers.
+/* Structs that grow at their end: a caller's is shorter than ours where it was compiled with older
+ * headers.
  *
- * RST_DEFAULTS defines the _init_sized function of a struct. An entry point checks what it is given (RST_CHECK), reads
- * an input through a copy of full length (RST_TAKE) and writes no more of an output than the caller has (RST_GIVE).
- * Hot calls read in place what every caller has: the members of the first release.
+ * RST_DEFAULTS defines the _init_sized function of a struct. An entry point checks what it is given
+ * (RST_CHECK), reads an input through a copy of full length (RST_TAKE) and writes no more of an
+ * output than the caller has (RST_GIVE). Hot calls read in place what every caller has: the members
+ * of the first release.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SIZED_H
 #define RST_SIZED_H
@@ -31,7 +33,8 @@ struct rst_layout {
         rst_init(value, size, &defaults, sizeof defaults);                                                             \
     }
 
-/* A status: `value`, a struct restitute_NAME of the caller, was prepared with headers that are not later than ours. */
+/* A status: `value`, a struct restitute_NAME of the caller, was prepared with headers that are not
+ * later than ours. */
 #define RST_CHECK(NAME, value, error) rst_check_layout(&(const struct rst_layout)RST_LAYOUT(NAME), value, error)
 
 /* The same in a hot call, in place: no function is called. */

@@ -1,4 +1,5 @@
-/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back (theory.md, 10).
+/* Two bodies in space: from positions, velocities and spins to the plane of the impact and back
+ * (theory.md, 10).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/two_bodies.h"
 

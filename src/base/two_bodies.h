@@ -13,7 +13,8 @@ typedef struct {
     double x[3];
 } rst_vector;
 
-/* Frame of the impact: n from `a` into `b`, t along the sliding of a's surface on b's. `a` can move. */
+/* Frame of the impact: n from `a` into `b`, t along the sliding of a's surface on b's. `a` can
+ * move. */
 struct rst_frame {
     rst_vector n, t;
     double gap, reach;     /* m: distance of the surfaces, and what it is compared with */

@@ -11,7 +11,8 @@
 
 #include "base/report.h"
 
-/* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its writer. */
+/* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its
+ * writer. */
 int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size, restitute_error *error)
 {
     struct stat status;

@@ -179,7 +179,8 @@ static void note_largest(struct bem_run *run, const struct bem_motion *q)
 static int unstable(const struct bem_stepper *s)
 {
     const struct bem_motion *q = &s->motion;
-    /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations leave */
+    /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations
+     * leave */
     const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
     return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }

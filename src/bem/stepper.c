@@ -11,7 +11,8 @@
 static const double closeness = 1e-6;
 enum { most_iterations = 200 };
 
-/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new. Nonzero: not settled. */
+/* K x = f->target with what is in f->low, f->high, f->p_new or f->tau_new; K x into f->f_new.
+ * Nonzero: not settled. */
 static int solve_target(struct bem_stepper *s, enum bem_kind kind, double residual, double *x)
 {
     struct bem_fields *f = &s->f;

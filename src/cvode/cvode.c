@@ -37,8 +37,9 @@ static int record(const struct rst_problem *problem, struct rst_workspace *works
     return rst_cvode_record(problem, (struct cvode_memory *)workspace->own, outcome, history, error);
 }
 
-/* What is counted are elements, and terms of each, at every evaluation of the rates and of the rootfunctions: 2 to 25 ns
- * each with elements, 10 in the mean of impacts to 1e-5 (measured, x86-64). */
+/* What is counted are elements, and terms of each, at every evaluation of the rates and of the
+ * rootfunctions: 2 to 25 ns each with elements, 10 in the mean of impacts to 1e-5 (measured,
+ * x86-64). */
 #define UPDATES_PER_SECOND 1e8
 
 #define BASE(word)                                                                                                     \

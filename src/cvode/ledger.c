@@ -95,8 +95,8 @@ static void add_gross_slip(const struct rst_problem *problem, double end, struct
         ledger->friction_x += rst_gross_slip_work(problem, end);
 }
 
-/* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in springs, which all
- * relax. */
+/* A sphere that has sunk in: nothing is left of its energy at the end of time, neither in it nor in
+ * springs, which all relax. */
 static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     struct rst_ledger *ledger = &outcome->ledger;

@@ -175,7 +175,8 @@ static int is_obstacle(int status)
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
 }
 
-/* Three runs, the last with n of the `wanted` elements, each with twice as many as the one before. */
+/* Three runs, the last with n of the `wanted` elements, each with twice as many as the one
+ * before. */
 struct ladder {
     struct run run[3];
     int64_t wanted, n;
@@ -310,8 +311,8 @@ static int stay(const struct rst_problem *problem, const struct run_setup *setup
             "chi = %g with psi = %g: a sphere that sinks in without turning needs the method euler or sync",
             problem->chi, problem->psi);
     outcome->shear_velocity = slides ? rst_slipping_velocity(problem, 0) : 0;
-    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|, and where all
-     * sticks, psi < 1, U' falls with D' in proportion */
+    /* that it stays is known to the speed below which it counts as at rest; |dU'| <= 2 chi |dD'|,
+     * and where all sticks, psi < 1, U' falls with D' in proportion */
     outcome->error_ez = setup->rest_speed;
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS ? 0 : 2 * problem->chi * setup->rest_speed / fmax(1, problem->shear_speed);

@@ -92,7 +92,8 @@ static void look_ahead(const struct rst_problem *problem, struct rst_workspace *
     const struct rst_solid *s = &problem->solid;
     rst_scout_compression(s->g_inf, s->eta, s->n_terms, s->g, s->tau, s->can_sink, rest_speed(problem),
                           array_of_terms(workspace, 4), &scout->depth, &scout->time, &scout->force, &scout->sinks);
-    /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi times that in x */
+    /* int f dX over a contact of radius A changes velocities at the rate (15/8) A in z and 2 chi
+     * times that in x */
     double coupling = rst_mass_factor() * sqrt(scout->depth);
     if (moves_tangentially(problem)) coupling *= fmax(1, 2 * problem->chi);
     scout->stable_step = rst_largest_stable_step(coupling, s->g_inf, s->eta, s->n_terms, s->g, s->tau);

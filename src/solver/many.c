@@ -119,7 +119,8 @@ static int report_first(const struct batch *batch, const struct worker *workers,
                       first.error.message);
 }
 
-/* The size that the first struct of an array names tells how far apart all are: where it is wrong, none can be found. */
+/* The size that the first struct of an array names tells how far apart all are: where it is wrong,
+ * none can be found. */
 static int check_batch(const struct batch *batch, restitute_error *error)
 {
     if (batch->n == 0) return RESTITUTE_OK;

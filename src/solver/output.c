@@ -29,7 +29,8 @@ struct rst_units rst_units_of(const struct rst_problem *problem, const restitute
     if (!scene) return own_units(problem);
     double nu = restitute_material_poisson_ratio(scene->material);
     double sliding = fabs(rst_sliding_speed(scene));
-    /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is no exception */
+    /* q of the kernel is in units of mu f; mu is eliminated by psi (22), so that mu = infinity is
+     * no exception */
     double shear_force = 2 * numbers->mass * (1 - nu) / (2 - nu) * sliding / problem->shear_speed / numbers->time;
     return (struct rst_units){.time = numbers->time,
                               .length_z = numbers->length_z,
@@ -45,7 +46,8 @@ static double clamp(double value, double low, double high)
     return fmin(high, fmax(low, value));
 }
 
-/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (theory.md, 8); the method's error may be on the wrong side. */
+/* e_z in [0, 1] and |e_x| <= 1 follow from the energy (theory.md, 8); the method's error may be on
+ * the wrong side. */
 void rst_write_result(const struct rst_problem *problem, const struct rst_outcome *outcome, int64_t terms_merged,
                       double merging_bound, restitute_result *result)
 {

@@ -25,8 +25,8 @@ struct restitute_solver {
 /* Share of the tolerance by which merged terms may change the pair. */
 static const double merging_share = 0.1;
 
-/* Slip is left out where it changes e_x by less than this part of the tolerance. The method gets the rest. Twice as much
- * would ask it for a third more accuracy. */
+/* Slip is left out where it changes e_x by less than this part of the tolerance. The method gets
+ * the rest. Twice as much would ask it for a third more accuracy. */
 static const double share_of_slip = 0.25;
 
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
@@ -53,7 +53,8 @@ const char *restitute_method_name(const restitute_method *method)
 RST_DEFAULTS(options, .method = &rst_method_euler, .tolerance = 1e-3, .threads = 1, .max_work = 10, .speed_limit = 0.1,
              .radius_limit = 0.1, .displacement_limit = 0.3, .dundurs_limit = 0.1)
 
-/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked for. */
+/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked
+ * for. */
 static const int most_threads = 1024;
 
 /* A method of another component may be of another version, with which we share no struct. */
@@ -166,7 +167,8 @@ static void leave_out_slip(struct rst_problem *problem)
     problem->units.shear_force *= problem->psi;
 }
 
-/* By the method. Where it follows slip with an error larger than what slip changes, slip is left out after all. */
+/* By the method. Where it follows slip with an error larger than what slip changes, slip is left
+ * out after all. */
 static int solve_problem(restitute_solver *solver, int keep_ledger, struct rst_problem *problem,
                          struct rst_outcome *outcome, restitute_error *error)
 {

@@ -21,7 +21,7 @@ static const double rst_share_of_change = 0.5;
 static const double rst_share_by_chance = 0.5, rst_regular = 0.5;
 
 /* Two runs may agree by chance, so that no estimate is below this part of the tolerance. With 0.003 two of 80 000 estimates were
- * low by 12 (docs/accuracy.md). Twice: no effect */
+ * low by 12 (docs/records/accuracy.md). Twice: no effect */
 static const double rst_least_estimate = 0.01;
 
 /* What pieces of U' may miss, as a part of the tolerance, and the part of that which an estimate gets, by sync-campaign.

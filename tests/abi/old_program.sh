@@ -3,9 +3,9 @@
 # Runs a program that was compiled with recorded headers, with the libraries of today and of a later
 # version:
 #   old_program.sh PROGRAM DIRECTORIES LONGER RECORDED HEADER...
-# DIRECTORIES, with colons between them, hold the libraries of the build. LONGER/lib holds those whose
-# structs are longer, LONGER/spoilt a core that ignores how long the caller's structs are.
-# CC and NM come from the environment.
+# DIRECTORIES, with colons between them, hold the libraries of the build. LONGER/lib holds those
+# whose structs are longer, LONGER/spoilt a core that ignores how long the caller's structs are. CC
+# and NM come from the environment.
 set -eu
 ulimit -c 0
 here=$(dirname -- "$0")

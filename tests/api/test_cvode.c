@@ -15,7 +15,8 @@ static restitute_solver *make(restitute_options options)
     return solver;
 }
 
-/* The call fails with this status and a message that holds `word`, and the result stays as it was. */
+/* The call fails with this status and a message that holds `word`, and the result stays as it
+ * was. */
 static void refused(restitute_solver *solver, restitute_impact impact, int status, const char *word)
 {
     restitute_result result, before;
@@ -73,8 +74,9 @@ static void status_follows_the_reported_estimate(void **state)
     CHECK(reached > 9 && missed > 9, "%d, %d", reached, missed);
 }
 
-/* What max_work allows is given, with an estimate that holds, and the message names the number that was set. 1e-6: the error of the
- * reference; elements are as many as fit, and no more than were asked for. */
+/* What max_work allows is given, with an estimate that holds, and the message names the number that
+ * was set. 1e-6: the error of the reference; elements are as many as fit, and no more than were
+ * asked for. */
 static void max_work_ends_with_the_best_result(void **state)
 {
     const restitute_impact impact = impact_of(8, 0.5, 0, 1);
@@ -146,7 +148,8 @@ static void arguments_are_checked(void **state)
     CHECK(strcmp(restitute_cvode_event_text(99), "unknown event") == 0, "text");
 }
 
-/* capacity 0 tells how many there are; a short array gets the first ones. Of an impact that failed there are none. */
+/* capacity 0 tells how many there are; a short array gets the first ones. Of an impact that failed
+ * there are none. */
 static void events_may_be_counted_first(void **state)
 {
     const struct recording r = record_with(cvode_to(1e-3));
@@ -236,7 +239,8 @@ static void an_infinite_psi_is_no_friction(void **state)
     CHECK(s.result.ex == -1 && s.result.error_ex == 0, "%g +- %g", s.result.ex, s.result.error_ex);
 }
 
-/* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2 chi > 1. */
+/* A Maxwell body with a short tau (docs/theory.md, section 6); nothing is left to slide with 2 chi
+ * > 1. */
 static void sinking_spheres_are_told(void **state)
 {
     const double tau[] = {0.2}, g[] = {1};

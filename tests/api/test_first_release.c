@@ -1,6 +1,6 @@
-/* A program that was compiled with the headers of the first release: its structs end where theirs did. Each struct here
- * ends at the end of a page, and the page behind it can be neither read nor written. A program that was compiled with
- * later headers is refused.
+/* A program that was compiled with the headers of the first release: its structs end where theirs
+ * did. Each struct here ends at the end of a page, and the page behind it can be neither read nor
+ * written. A program that was compiled with later headers is refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 

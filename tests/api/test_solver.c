@@ -463,7 +463,8 @@ static void defaults_add_nothing(void **state)
     CHECK(options.method == restitute_method_euler() && options.threads == 1 && options.max_work == 10, "options");
 }
 
-/* As a scene without friction: the sphere slides on as it came, and there is no tangential force. */
+/* As a scene without friction: the sphere slides on as it came, and there is no tangential
+ * force. */
 static void an_infinite_psi_is_no_friction(void **state)
 {
     const restitute_method *methods[] = {restitute_method_euler(), restitute_method_sync()};

@@ -126,7 +126,8 @@ static void estimates_of_thin_rings(void **state)
                thin.result.error_ex, none.result.error_ex);
 }
 
-/* The paper's steps find a box by themselves, and smaller steps where theirs would be unstable (the last two). */
+/* The paper's steps find a box by themselves, and smaller steps where theirs would be unstable (the
+ * last two). */
 static void explicit_steps(void **state)
 {
     const restitute_impact impacts[] = {impact_of(0.566, 0.19, 0.0144, 0.0116), impact_of(3.587, 0.35, 0.00373, 0.246),

@@ -1,11 +1,13 @@
-/* Slip that the solver leaves out: just below an eighth of the tolerance in psi (docs/theory.md, section 4).
+/* Slip that the solver leaves out: just below an eighth of the tolerance in psi (docs/theory.md,
+ * section 4).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_THIN_SLIP_H
 #define TEST_THIN_SLIP_H
 
 #include "sync.h"
 
-/* An impact, its ledger, and the largest tangential force and first tangential velocity of its history. */
+/* An impact, its ledger, and the largest tangential force and first tangential velocity of its
+ * history. */
 struct thin_slip {
     restitute_result result;
     restitute_ledger ledger;
@@ -39,8 +41,9 @@ static inline struct thin_slip solve_thin_slip(restitute_options options, const 
     return s;
 }
 
-/* The method without slip against sync, which follows it at a fiftieth of the tolerance. Forces: 65 samples and the
- * error of the method miss the peak by a part of it, `rough`; a forgotten unit is off by 1/psi. */
+/* The method without slip against sync, which follows it at a fiftieth of the tolerance. Forces: 65
+ * samples and the error of the method miss the peak by a part of it, `rough`; a forgotten unit is
+ * off by 1/psi. */
 static inline void compare_thin_slip(restitute_options options, const restitute_impact *impact,
                                      const restitute_scene *scene, double rough)
 {

@@ -11,8 +11,8 @@
 #     last digits depend on the processor; nor one of OpenMP, unless WITH_OPENMP is ON: then the
 #     library may, for batches by several threads; nor one whose name holds WITHOUT, if that is set
 # NM, READELF, CC, INCLUDE, HEADERS, WITH_OPENMP and WITHOUT come from the environment. Tools have
-# lines of their own: of a pipeline the shell sees the last status alone, and a tool that fails would
-# be taken for one that finds nothing.
+# lines of their own: of a pipeline the shell sees the last status alone, and a tool that fails
+# would be taken for one that finds nothing.
 set -eu
 library=$1
 wrong=0

@@ -170,8 +170,9 @@ contains
     end associate
   end subroutine probe_piece
 
-  !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time `loaded`, all of it in stick, has
-  !> the memories m of the arms in z and x now, and the velocity r of slip; recorded over A. out: radius, H, y at centre and edge.
+  !> The front in a contact that was loaded at the rates D' = 1 and U' = shear until the time
+  !> `loaded`, all of it in stick, has the memories m of the arms in z and x now, and the velocity r
+  !> of slip; recorded over A. out: radius, H, y at centre and edge.
   subroutine probe_front(n, g, rate, eta, shear, loaded, time, m, slip, sense, out) bind(c)
     integer(c_int64_t), value :: n
     integer(c_int), value :: sense

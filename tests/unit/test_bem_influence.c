@@ -101,7 +101,8 @@ static void convolution_is_the_sum(void **state)
     }
 }
 
-/* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from the side within a few percent. */
+/* The preconditioner returns what was convolved, but for images and the rim: a smooth bump far from
+ * the side within a few percent. */
 static void preconditioner_inverts(void **state)
 {
     enum { m = 32 };

@@ -93,7 +93,8 @@ static void sizes_are_checked_in_words(void **state)
     }
 }
 
-/* A method of another component is part of the core's inside: it must be of the core's own version. */
+/* A method of another component is part of the core's inside: it must be of the core's own
+ * version. */
 static void a_method_of_another_version_is_refused(void **state)
 {
     restitute_options options;

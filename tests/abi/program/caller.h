@@ -1,6 +1,6 @@
 /* A program that calls every public function, compiled with the headers of an earlier release. It
- * prints each call before it is made, and what came out. Behind its structs begins a page that nobody
- * may touch: a library that takes them for longer ones ends the program there.
+ * prints each call before it is made, and what came out. Behind its structs begins a page that
+ * nobody may touch: a library that takes them for longer ones ends the program there.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef CALLER_H
 #define CALLER_H

@@ -47,7 +47,8 @@ program consumer_table
   do k = 1, 3
     good = good .and. restitute_table_pair(table, normal_speed=speeds(k), tangential_speed=slides(k), ez=ez, ex=ex) == 0
     good = good .and. restitute_table_pair(table, small, speeds(k), slides(k), other(1), other(2)) == RESTITUTE_OK
-    ! The same bits of many, as table.h says; the factors of the other contact are 1 but for rounding
+    ! The same bits of many, as table.h says; the factors of the other contact are 1 but for
+    ! rounding
     good = good .and. .not. any(abs(many(:, k) - [ez, ex]) > 0) .and. all(abs(other - [ez, ex]) < 1e-12_rk)
   end do
   good = good .and. restitute_table_pair_many(table, small, speeds, slides, ez=many(1, :), error=error) == RESTITUTE_OK
