@@ -3,8 +3,8 @@
  * (docs/sync.md, section 7).
  *
  * "Twice" is what twice the value does to 200 random impacts at tolerances from 1e-3 to 1e-7: the largest error over the tolerance
- * against results at 1e-8 (now 0.75, one outlier apart), the mean one (now 0.0066), and the time, with max_updates = 1e7. What changes none of these
- * by more than a tenth has no effect.
+ * against results at 1e-8 (now 0.75, one outlier apart), the mean one (now 0.0066), and the time, with max_updates = 1e7. What
+ * changes none of these by more than a tenth has no effect.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_TUNING_H
 #define RST_SYNC_TUNING_H
