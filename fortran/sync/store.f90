@@ -25,8 +25,8 @@ module rst_store
   end type contact_type
 
   !> A range of the compression in which all elements stick, or all slip: what they were given when the edge reached them, here
-  !> and in `corrective` of store_type. The edge angle goes from `from` to `to`.
-  !> touch: X, t_X, and D' and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
+  !> and in `corrective` of store_type. The edge angle goes from `from` to `to`. touch: X, t_X, and D' and
+  !> U' times |ds/dtheta|. Twin of `struct sync_record` in C.
   type, bind(c) :: record_type
     real(dp) :: from, to
     real(dp) :: touch(of_touch, 0:stages)
