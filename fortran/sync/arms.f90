@@ -1,7 +1,8 @@
 !> The Maxwell arms of the solid on a panel of collocation.
 !>
-!> An arm of the modulus g that relaxes at the rate 1/tau has the stress y with y' = g v - rate y for the velocity v. The spring
-!> G_inf is an arm with the rate 0, so that the solid is a dashpot eta and arms, and no formula has a case for any of them.
+!> An arm of the modulus g that relaxes at the rate 1/tau has the stress y with y' = g v - rate y
+!> for the velocity v. The spring G_inf is an arm with the rate 0, so that the solid is a dashpot
+!> eta and arms, and no formula has a case for any of them.
 module rst_arms
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, integral, differential, shifted_inverse, applied
@@ -11,8 +12,9 @@ module rst_arms
 
 contains
 
-  !> The stress at the points of a panel is kernel(:, 0)*y_0 + matmul(kernel(:, 1:), g*span*v). span: time per x at the points, so
-  !> that time passes as int span dx. The arm is taken implicitly, at any rate.
+  !> The stress at the points of a panel is kernel(:, 0)*y_0 + matmul(kernel(:, 1:), g*span*v).
+  !> span: time per x at the points, so that time passes as int span dx. The arm is taken
+  !> implicitly, at any rate.
   pure subroutine respond(rate, span, kernel, fails)
     real(dp), intent(in) :: rate, span(stages)
     real(dp), intent(out) :: kernel(stages, 0:stages)
@@ -56,8 +58,8 @@ contains
     end do
   end subroutine answer_of
 
-  !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v. (Pointers, here and above,
-  !> since compilers would copy components of derived types.)
+  !> The stresses of all arms at the points, from those at the start, y(0, :), and the velocity v.
+  !> (Pointers, here and above, since compilers would copy components of derived types.)
   subroutine advance(g, span, kernel, v, y)
     real(dp), intent(in) :: span(stages), v(stages)
     real(dp), pointer, contiguous, intent(in) :: g(:), kernel(:, :, :), y(:, :)

@@ -1,8 +1,10 @@
-!> Collocation on one panel: Radau's points, integrals of the polynomials through them, interpolation, and small linear systems.
+!> Collocation on one panel: Radau's points, integrals of the polynomials through them,
+!> interpolation, and small linear systems.
 !>
-!> A panel is 0 <= x <= 1. A function of it is known by its value at x = 0 and at the `stages` points of Radau (docs/sync.md). An
-!> initial value problem y' = h f(y) is solved where y_i = y_0 + h sum_j integral(i, j) f_j: Radau IIA, which is of order
-!> 2 stages - 1 at the end of the panel and damps whatever decays within it (L-stable).
+!> A panel is 0 <= x <= 1. A function of it is known by its value at x = 0 and at the `stages`
+!> points of Radau (docs/sync.md). An initial value problem y' = h f(y) is solved where y_i = y_0 +
+!> h sum_j integral(i, j) f_j: Radau IIA, which is of order 2 stages - 1 at the end of the panel and
+!> damps whatever decays within it (L-stable).
 module rst_collocation
   use rst_precision, only: dp, ip
   use rst_tuning, only: most_trials, stagnates_below, stagnates_at
@@ -14,11 +16,13 @@ module rst_collocation
 
   integer(ip), parameter :: stages = 6
 
-  !> The start of the panel and Radau's points: zeros of P_6 - P_5, Legendre's polynomials in 2x - 1.
+  !> The start of the panel and Radau's points: zeros of P_6 - P_5, Legendre's polynomials in 2x -
+  !> 1.
   real(dp), parameter :: point(0:stages) = [0.0_dp, 3.98098570514687430e-02_dp, 1.98013417873608183e-01_dp, &
                          4.37974810247386159e-01_dp, 6.95464273353636142e-01_dp, 9.01464914201173584e-01_dp, 1.0_dp]
 
-  !> integral(i, j): int_0^x_i of the polynomial that is 1 at point j and 0 at the other points, without x = 0.
+  !> integral(i, j): int_0^x_i of the polynomial that is 1 at point j and 0 at the other points,
+  !> without x = 0.
   real(dp), parameter :: integral(stages, stages) = reshape([ &
     5.09500109946406099e-02_dp, 1.08221658919058661e-01_dp, 9.77796700926453488e-02_dp, &
     1.02122375612933844e-01_dp, 1.00331001384960802e-01_dp, 1.00794192626740414e-01_dp, &
@@ -33,8 +37,8 @@ module rst_collocation
     -2.90953645256171456e-03_dp, 4.51223712257675397e-03_dp, -6.00340261044787597e-03_dp, &
     7.83708405064264743e-03_dp, -1.09952368277285543e-02_dp, 2.77777777777777762e-02_dp], [stages, stages])
 
-  !> The inverse of `integral`: differential(i, j) is the slope at x_i of the polynomial that is 1 at point j and 0 at the others and
-  !> at x = 0.
+  !> The inverse of `integral`: differential(i, j) is the slope at x_i of the polynomial that is 1
+  !> at point j and 0 at the others and at x = 0.
   real(dp), parameter :: differential(stages, stages) = reshape([ &
     1.25597034762915083e+01_dp, -9.80283871256801653e+00_dp, 5.18215783855871859e+00_dp, &
     -4.10823909345880711e+00_dp, 4.38578506340093455e+00_dp, -9.94297742192881095e+00_dp, &
@@ -49,11 +53,13 @@ module rst_collocation
     1.09086010788007282e-01_dp, -2.02547698469053405e-01_dp, 3.84542362009172578e-01_dp, &
     -9.26443110403131875e-01_dp, 4.01713280695131214e+00_dp, 1.85000000000000000e+01_dp], [stages, stages])
 
-  !> 1/prod(point_j - point_k): the barycentric weights; sum_j weight_j y_j is the coefficient of x^stages.
+  !> 1/prod(point_j - point_k): the barycentric weights; sum_j weight_j y_j is the coefficient of
+  !> x^stages.
   real(dp), parameter :: barycentric(0:stages) = [4.62e2_dp, -7.35130466231380069e+02_dp, 4.74019611732518399e+02_dp, &
                          -3.56279434793616133e+02_dp, 2.72918967701194731e+02_dp, -1.94528678408716956e+02_dp, 7.7e1_dp]
 
-  !> Of a matrix: what elimination takes off its rows, what is left of them, and which row is exchanged for which.
+  !> Of a matrix: what elimination takes off its rows, what is left of them, and which row is
+  !> exchanged for which.
   type :: factors_type
     real(dp), dimension(stages, stages) :: lower, upper
     integer(ip) :: pivot(stages)
@@ -61,8 +67,9 @@ module rst_collocation
 
 contains
 
-  !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other points. At a point it is the
-  !> value there to the last bit: weights are scaled to the sum 1, which they have but for rounding.
+  !> The polynomial through y has the value sum(weight*y) at x: Lagrange's products over all other
+  !> points. At a point it is the value there to the last bit: weights are scaled to the sum 1,
+  !> which they have but for rounding.
   pure function weights_at(x) result(weight)
     real(dp), intent(in) :: x
     real(dp) :: weight(0:stages), a(0:stages), first, middle, last
@@ -82,7 +89,8 @@ contains
     value = sum(weights_at(x)*y)
   end function value_on
 
-  !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of one degree less misses.
+  !> The last coefficient of y in Chebyshev's polynomials on the panel: about what a polynomial of
+  !> one degree less misses.
   pure function last_coefficient(y) result(c)
     real(dp), intent(in) :: y(0:stages)
     real(dp) :: c
@@ -96,7 +104,8 @@ contains
     total = start + applied(integral, y)
   end function integrated
 
-  !> The matrix a of six columns, applied to y. (Compilers may call a library for matmul; a sum written out stays in registers.)
+  !> The matrix a of six columns, applied to y. (Compilers may call a library for matmul; a sum
+  !> written out stays in registers.)
   pure function applied(a, y) result(z)
     real(dp), intent(in) :: a(stages, stages), y(stages)
     real(dp) :: z(stages)
@@ -119,8 +128,9 @@ contains
     start = -sum(barycentric(1:)*y)/barycentric(0)
   end function start_of
 
-  !> (differential + diagonal)^-1 for a diagonal that is nowhere negative, by elimination in place. Without pivots: Radau's matrix
-  !> is positive definite but for a scale of its rows (diagonally stable, Hairer and Wanner), so that none is zero.
+  !> (differential + diagonal)^-1 for a diagonal that is nowhere negative, by elimination in place.
+  !> Without pivots: Radau's matrix is positive definite but for a scale of its rows (diagonally
+  !> stable, Hairer and Wanner), so that none is zero.
   pure function shifted_inverse(diagonal) result(a)
     real(dp), intent(in) :: diagonal(stages)
     real(dp) :: a(stages, stages), column(stages), row(stages)
@@ -142,8 +152,8 @@ contains
     end do
   end function shifted_inverse
 
-  !> A zero of the polynomial through y between the points i - 1 and i, where it changes its sign: the secant's, halved where that
-  !> hardly moves.
+  !> A zero of the polynomial through y between the points i - 1 and i, where it changes its sign:
+  !> the secant's, halved where that hardly moves.
   pure function root_between(i, y) result(x)
     integer(ip), intent(in) :: i
     real(dp), intent(in) :: y(0:stages)
@@ -168,8 +178,8 @@ contains
     end do
   end function root_between
 
-  !> Whether Newton's steps end: the next change, predicted from the last two, is below closeness, or
-  !> rounding keeps it from falling.
+  !> Whether Newton's steps end: the next change, predicted from the last two, is below closeness,
+  !> or rounding keeps it from falling.
   pure function has_converged(change, previous, closeness) result(yes)
     real(dp), intent(in) :: change, previous, closeness
     logical :: yes

@@ -1,10 +1,12 @@
-!> The compression on one panel (docs/sync.md): in the plane of A/r and D' the sphere is at the distance rho from the origin, at
-!> the edge angle theta,  A = r rho sin(theta), D' = rho cos(theta),  and with kappa = (15/4) r^2 F
+!> The compression on one panel (docs/sync.md): in the plane of A/r and D' the sphere is at the
+!> distance rho from the origin, at the edge angle theta,  A = r rho sin(theta), D' = rho
+!> cos(theta),  and with kappa = (15/4) r^2 F
 !>
 !>   drho/dtheta = rho sin cos (1 - kappa)/(cos^2 + kappa sin^2),  ds/dtheta = 2 r^2 rho sin/(cos^2 + kappa sin^2),
 !>   F = eta A D' + sum_k P_k,  P_k' = g_k A D' - P_k/tau_k.
 !>
-!> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2) too.
+!> All of it is smooth, at first touch (theta = 0, rho = 1) and at the turning point (theta = pi/2)
+!> too.
 module rst_compression_panel
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
@@ -22,7 +24,8 @@ module rst_compression_panel
     real(dp), dimension(stages) :: sine, cosine, rho, force, below
   end type motion_type
 
-  !> If it is wanted, or kept: how the force answers to A D' and to the time per x, and Newton's matrix.
+  !> If it is wanted, or kept: how the force answers to A D' and to the time per x, and Newton's
+  !> matrix.
   type :: slope_type
     logical :: wanted
     real(dp), dimension(stages, stages) :: by_sweep, by_span
@@ -31,7 +34,8 @@ module rst_compression_panel
 
 contains
 
-  !> The panel n from its values at its start, (0), and from those at its points as a guess. Unknown is F: rho follows from it.
+  !> The panel n from its values at its start, (0), and from those at its points as a guess. Unknown
+  !> is F: rho follows from it.
   subroutine compress(normal, n, fails)
     type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: n

@@ -1,7 +1,8 @@
 !> The front of slip (docs/sync.md): the stick radius c as the edge of the corrective contact.
 !>
-!> With the sense d = 1 or -1 of the slip, the stick margin y = f - d q of an element that has stuck since the edge reached it, at
-!> the time t_X, is that of a contact with the velocity v_d = D' - d U' in place of D':
+!> With the sense d = 1 or -1 of the slip, the stick margin y = f - d q of an element that has stuck
+!> since the edge reached it, at the time t_X, is that of a contact with the velocity v_d = D' - d
+!> U' in place of D':
 !>
 !>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta v_d,  m_k = M_k - d M_k^x,  E_k = exp(-(s - t_X)/tau_k)
 !>
@@ -16,23 +17,26 @@ module rst_front
   private
   public :: element_type, margin_type, element_at, find_front, memory_force_at
 
-  !> An element that has stuck since the edge was at an angle theta: its distance X from the centre; what its stick margin lacks of
-  !> that at the centre, sum_k E_k m_k(t_X); sum_k E_k p_k(t_X); the slope of y over theta; dX/dtheta.
+  !> An element that has stuck since the edge was at an angle theta: its distance X from the centre;
+  !> what its stick margin lacks of that at the centre, sum_k E_k m_k(t_X); sum_k E_k p_k(t_X); the
+  !> slope of y over theta; dX/dtheta.
   type :: element_type
     real(dp) :: distance, deficit, loading, slope, stretch
   end type element_type
 
-  !> At an instant: the angle of the front, its radius c, H, and y at the centre and in the outermost element. accuracy: part e of
-  !> y at the centre, or of what the outermost element lacks if that is less, at which a search may end. Near its end y is linear
-  !> in X: H is then off by about e^3, and the front by e^2.
+  !> At an instant: the angle of the front, its radius c, H, and y at the centre and in the
+  !> outermost element. accuracy: part e of y at the centre, or of what the outermost element lacks
+  !> if that is less, at which a search may end. Near its end y is linear in X: H is then off by
+  !> about e^3, and the front by e^2.
   type :: margin_type
     real(dp) :: accuracy, angle, stick_radius, force, at_centre, at_edge
   end type margin_type
 
 contains
 
-  !> The front among the elements up to the outermost one. margin%accuracy and margin%at_centre are given, and margin%angle, where
-  !> to begin the search. Where even the outermost element has y > 0, the front is there, and H is continued as if all stuck.
+  !> The front among the elements up to the outermost one. margin%accuracy and margin%at_centre are
+  !> given, and margin%angle, where to begin the search. Where even the outermost element has y > 0,
+  !> the front is there, and H is continued as if all stuck.
   subroutine find_front(normal, store, time, sense, outermost_angle, outermost, margin)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
@@ -90,7 +94,8 @@ contains
     margin%force = margin%force + 0.5_dp*y*further
   end subroutine extrapolate_front
 
-  !> Without slip, for an edge at the angle theta: S less A (sum_k M_k^x + eta U'): sum_k E_k (P_k^x - A M_k^x)(t_A).
+  !> Without slip, for an edge at the angle theta: S less A (sum_k M_k^x + eta U'): sum_k E_k (P_k^x
+  !> - A M_k^x)(t_A).
   function memory_force_at(normal, store, time, theta) result(memory_force)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
@@ -126,8 +131,8 @@ contains
     end associate
   end subroutine find_record
 
-  !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta = D' (ds/dtheta)/(2 X), and
-  !> dy/dtheta = -v_d ds/dtheta sum_k g_k E_k.
+  !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta =
+  !> D' (ds/dtheta)/(2 X), and dy/dtheta = -v_d ds/dtheta sum_k g_k E_k.
   subroutine element_at(normal, store, time, sense, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
@@ -158,8 +163,8 @@ contains
     if (element%distance > 0) element%stretch = touch(3)/(2*element%distance)
   end subroutine element_at
 
-  !> Values of an element or of an arm, known at the points of a record, in between. (Sums that are written out stay in
-  !> registers. There are as many values of both kinds.)
+  !> Values of an element or of an arm, known at the points of a record, in between. (Sums that are
+  !> written out stay in registers. There are as many values of both kinds.)
   pure function interpolated(weight, at) result(values)
     real(dp), intent(in) :: weight(0:stages), at(of_touch, 0:stages)
     real(dp) :: values(of_touch)
@@ -167,7 +172,8 @@ contains
              + weight(5)*at(:, 5) + weight(6)*at(:, 6)
   end function interpolated
 
-  !> m_k and p_k of an arm for d = 1 and for d = -1. (As a pointer, since compilers would copy parts of a component.)
+  !> m_k and p_k of an arm for d = 1 and for d = -1. (As a pointer, since compilers would copy parts
+  !> of a component.)
   function corrective_at(weight, corrective, arm, record) result(values)
     real(dp), intent(in) :: weight(0:stages)
     real(dp), pointer, contiguous, intent(in) :: corrective(:, :, :, :)

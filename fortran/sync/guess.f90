@@ -1,5 +1,5 @@
-!> Where Newton's steps begin on a panel of the normal motion: D', A, F and the pace at its points, by the coarser run, if there
-!> is one, or else by the panel before.
+!> Where Newton's steps begin on a panel of the normal motion: D', A, F and the pace at its points,
+!> by the coarser run, if there is one, or else by the panel before.
 module rst_guess
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
@@ -12,8 +12,8 @@ module rst_guess
 
 contains
 
-  !> At first touch D' and A go as without a force, and F is that of the dashpot and of a spring as strong as the scale r says
-  !> (kappa = 1 at the turning point).
+  !> At first touch D' and A go as without a force, and F is that of the dashpot and of a spring as
+  !> strong as the scale r says (kappa = 1 at the turning point).
   pure subroutine guess_compression(normal, known, panel)
     type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: known(:) !! panels of the coarser run or the one before; none at first touch
@@ -31,7 +31,8 @@ contains
     end if
   end subroutine guess_compression
 
-  !> After the turning point D' is linear in time. entered: when the edge passed the points in the compression.
+  !> After the turning point D' is linear in time. entered: when the edge passed the points in the
+  !> compression.
   pure subroutine guess_restitution(normal, known, entered, panel)
     type(normal_type), intent(in) :: normal
     real(dp), intent(in) :: entered(stages)
@@ -52,7 +53,8 @@ contains
     end if
   end subroutine guess_restitution
 
-  !> Values of the known panels, one after the other from `from` on, at the points of a panel; the last one is continued.
+  !> Values of the known panels, one after the other from `from` on, at the points of a panel; the
+  !> last one is continued.
   pure subroutine take_from(known, panel)
     type(panel_type), intent(in) :: known(:)
     type(panel_type), intent(inout) :: panel
@@ -74,9 +76,10 @@ contains
     end do
   end subroutine take_from
 
-  !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is linear in time: x with
-  !> (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k + (before + tau_k) E_k] = 0,
-  !> E_k = exp(-(x + before)/tau_k). It rises with x; x = before solves the elastic one.
+  !> When, after the turning point, the edge is back where it was `before` ahead of it while D' is
+  !> linear in time: x with (1/2) G_inf (x^2 - before^2) + eta x + sum_k g_k tau_k [x - tau_k +
+  !> (before + tau_k) E_k] = 0, E_k = exp(-(x + before)/tau_k). It rises with x; x = before solves
+  !> the elastic one.
   pure function first_return(eta, g, rate, before) result(x)
     real(dp), intent(in) :: eta, g(:), rate(:), before
     real(dp) :: x, low, high, excess, slope, z

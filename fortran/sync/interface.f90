@@ -1,4 +1,5 @@
-!> What C calls of the method `sync`, under its C names. Arrays come as addresses in two structs, which become views here.
+!> What C calls of the method `sync`, under its C names. Arrays come as addresses in two structs,
+!> which become views here.
 module rst_sync_interface
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer, c_double, c_int64_t
   use rst_collocation, only: stages, weights_at
@@ -18,8 +19,8 @@ module rst_sync_interface
     type(c_ptr) :: g, rate, panel, memory, loading, kernel, entry
   end type normal_arrays_type
 
-  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; room: for the
-  !> kernel_room, memory_z, memory_x and loading_x of store_type.
+  !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; room: for
+  !> the kernel_room, memory_z, memory_x and loading_x of store_type.
   type, bind(c) :: store_arrays_type
     integer(c_int64_t) :: capacity, n_records, n_pieces
     type(c_ptr) :: record, piece, corrective, room
@@ -40,7 +41,8 @@ contains
     normal%n_panels = n%n_panels
   end subroutine rst_follow_normal
 
-  !> The tangential motion on a normal one: U' at the end, and what module rst_tangential_motion found.
+  !> The tangential motion on a normal one: U' at the end, and what module rst_tangential_motion
+  !> found.
   subroutine rst_follow_contact(normal, contact, store, velocity, found) bind(c, name="rst_follow_contact")
     type(normal_arrays_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

@@ -1,7 +1,8 @@
 !> The normal motion of an impact, panel after panel (docs/sync.md).
 !>
-!> Panels are equal parts of the edge angle, halved while their polynomials miss too much or Newton's steps do not converge, and
-!> twice as wide again where halves are not needed. Their ends are at multiples of (pi/2)/2^deepest.
+!> Panels are equal parts of the edge angle, halved while their polynomials miss too much or
+!> Newton's steps do not converge, and twice as wide again where halves are not needed. Their ends
+!> are at multiples of (pi/2)/2^deepest.
 module rst_normal_motion
   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
   use rst_precision, only: dp, ip
@@ -16,8 +17,9 @@ module rst_normal_motion
   private
   public :: normal_control_type, follow_normal, rebounds, stops, lacks_room, does_not_converge
 
-  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that rounding cannot follow but that
-  !> will not be faster than normal%residual_speed; that the panels given are too few; nothing.
+  !> What follow_normal found: a rebound; a sphere that has stopped in the solid for good, or that
+  !> rounding cannot follow but that will not be faster than normal%residual_speed; that the panels
+  !> given are too few; nothing.
   integer(ip), parameter :: rebounds = 0, stops = 1, lacks_room = 2, does_not_converge = 3
 
   integer(ip), parameter :: whole = 2_ip**deepest
@@ -29,8 +31,8 @@ module rst_normal_motion
     real(dp) :: stop_speed  !! a sphere that cannot come back faster has stopped
     integer(ip) :: halvings !! panels are at most (pi/2)/2^halvings wide
     integer(ip) :: capacity !! panels there is room for
-    !> The next coarser run, if there is one: its panels in each phase are twice as wide at least, so that no two runs agree
-    !> because their panels are the same.
+    !> The next coarser run, if there is one: its panels in each phase are twice as wide at least,
+    !> so that no two runs agree because their panels are the same.
     integer(ip) :: n_coarse, n_coarse_compression
     type(c_ptr) :: coarse
   end type normal_control_type
@@ -92,7 +94,8 @@ contains
       found = rebounds
     end subroutine go_through
 
-    !> Newton's steps begin where the coarser run was, or where the panel before leads if the last try did not converge.
+    !> Newton's steps begin where the coarser run was, or where the panel before leads if the last
+    !> try did not converge.
     subroutine solve_panel(back, n, fails)
       logical, intent(in) :: back
       integer(ip), intent(in) :: n
@@ -156,8 +159,8 @@ contains
     if (back) place = whole - place
   end function passed
 
-  !> The width of the panel of the compression that ends at a place, or in which it is: between panels the compression is
-  !> not smooth.
+  !> The width of the panel of the compression that ends at a place, or in which it is: between
+  !> panels the compression is not smooth.
   pure function width_at(place, n, panel) result(width)
     integer(ip), intent(in) :: place, n
     type(panel_type), intent(in) :: panel(n)
@@ -167,7 +170,8 @@ contains
     end associate
   end function width_at
 
-  !> The start of a panel is the end of the one before, and the first one starts at first touch. (Values at its points come later.)
+  !> The start of a panel is the end of the one before, and the first one starts at first touch.
+  !> (Values at its points come later.)
   subroutine begin(normal, n)
     type(normal_type), intent(in) :: normal
     integer(ip), intent(in) :: n
@@ -185,8 +189,8 @@ contains
     end if
   end subroutine begin
 
-  !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over its largest value, since the
-  !> restitution follows from slopes of what the compression left.
+  !> What the polynomials of a panel may miss: of D', A/r and, in the compression, of the pace over
+  !> its largest value, since the restitution follows from slopes of what the compression left.
   pure function missed(scale, panel, back) result(most)
     real(dp), intent(in) :: scale
     type(panel_type), intent(in) :: panel
@@ -197,8 +201,9 @@ contains
     if (.not. back) most = max(most, last_coefficient(panel%pace)/maxval(panel%pace))
   end function missed
 
-  !> Whether the sphere is slower than stop_speed and will not come back faster: because springs hold less energy, with stresses
-  !> up to twice their mean, or because the dashpot keeps them from letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
+  !> Whether the sphere is slower than stop_speed and will not come back faster: because springs
+  !> hold less energy, with stresses up to twice their mean, or because the dashpot keeps them from
+  !> letting it go: f >= 0 at the centre means |D'| <= sum M_k/eta.
   function has_stopped(normal, stop_speed) result(yes)
     type(normal_type), intent(in) :: normal
     real(dp), intent(in) :: stop_speed
@@ -210,8 +215,8 @@ contains
     yes = stored(normal) < stop_speed**2 .or. sum(normal%memory(stages, :, normal%n_compression)) < stop_speed*normal%eta
   end function has_stopped
 
-  !> The square of the speed that springs could give the sphere after the last panel of the compression, with stresses up to twice
-  !> their mean.
+  !> The square of the speed that springs could give the sphere after the last panel of the
+  !> compression, with stresses up to twice their mean.
   function stored(normal) result(energy)
     type(normal_type), intent(in) :: normal
     real(dp) :: energy
@@ -220,7 +225,8 @@ contains
     energy = 2*mass_factor*sum(normal%loading(stages, :, last)**2/normal%g)/normal%panel(last)%radius(stages)
   end function stored
 
-  !> The speed that the sphere will not exceed after the last panel of the compression, by its energy.
+  !> The speed that the sphere will not exceed after the last panel of the compression, by its
+  !> energy.
   function fastest_later(normal) result(speed)
     type(normal_type), intent(in) :: normal
     real(dp) :: speed

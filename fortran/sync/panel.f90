@@ -6,15 +6,16 @@ module rst_panel
   private
   public :: panel_type, normal_type, place_on, find_angle, range_at
 
-  !> The motion at the start of the panel and at its points. The edge angle theta goes from `from` to `to`, upward in compression
-  !> and downward in restitution; pace: |ds/dtheta|. Twin of `struct sync_panel` in C.
+  !> The motion at the start of the panel and at its points. The edge angle theta goes from `from`
+  !> to `to`, upward in compression and downward in restitution; pace: |ds/dtheta|. Twin of `struct
+  !> sync_panel` in C.
   type, bind(c) :: panel_type
     real(dp) :: from, to
     real(dp), dimension(0:stages) :: radius, time, depth, velocity, force, pace
   end type panel_type
 
-  !> The normal motion of a solid, views of the caller's arrays. scale: r of A in theta; closeness: when iterations end;
-  !> residual_speed: the speed that a sphere that has stopped will not exceed.
+  !> The normal motion of a solid, views of the caller's arrays. scale: r of A in theta; closeness:
+  !> when iterations end; residual_speed: the speed that a sphere that has stopped will not exceed.
   type :: normal_type
     real(dp) :: eta, scale, closeness, residual_speed
     integer(ip) :: n_arms, n_compression, n_panels
@@ -38,8 +39,9 @@ contains
     weight = weights_at(place_on(panel(p), theta))
   end subroutine find_angle
 
-  !> The last panel that begins at theta or before, or else the first one, of panels whose angles rise, or fall if that is said.
-  !> (Of the angles alone, one component of the panels, the compiler would make a copy.)
+  !> The last panel that begins at theta or before, or else the first one, of panels whose angles
+  !> rise, or fall if that is said. (Of the angles alone, one component of the panels, the compiler
+  !> would make a copy.)
   pure function range_at(theta, panel, descends) result(i)
     real(dp), intent(in) :: theta
     type(panel_type), intent(in) :: panel(:)

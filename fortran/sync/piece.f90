@@ -1,4 +1,5 @@
-!> A piece of a panel on which the tangential motion is smooth, and what is known there of the normal one.
+!> A piece of a panel on which the tangential motion is smooth, and what is known there of the
+!> normal one.
 module rst_piece
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: shear_factor
@@ -11,8 +12,9 @@ module rst_piece
   private
   public :: interval_type, set_interval, stick, advance_memory
 
-  !> A piece: its panel, the part of it, whether in the root of what is left; the normal motion at its start and at its points;
-  !> span: time per x of the piece; answer: of the stress of an element in stick to U'.
+  !> A piece: its panel, the part of it, whether in the root of what is left; the normal motion at
+  !> its start and at its points; span: time per x of the piece; answer: of the stress of an element
+  !> in stick to U'.
   type :: interval_type
     integer(ip) :: panel
     real(dp) :: from, to
@@ -23,8 +25,8 @@ module rst_piece
 
 contains
 
-  !> The interval of the piece from x = interval%from to x = interval%to of a panel, which are given. In a rooted piece x is
-  !> to - (to - from) (1 - y)^2 with y from 0 to 1.
+  !> The interval of the piece from x = interval%from to x = interval%to of a panel, which are
+  !> given. In a rooted piece x is to - (to - from) (1 - y)^2 with y from 0 to 1.
   subroutine set_interval(normal, store, interval, fails)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(inout) :: store
@@ -104,9 +106,10 @@ contains
     call advance(normal%g, interval%span, store%kernel, shear_velocity, store%memory_x)
   end subroutine advance_memory
 
-  !> All sticks: S at the points is linear in U', S = known_force + response U'. While the contact grows
-  !> P_k' = g_k A U' - P_k/tau_k in x and S = eta A U' + sum_k P_k; while it shrinks without slip,
-  !> S = A q(A) + sum_k E_k P_k(t_A) with the stress q of an element at the edge (memory_force: its part of memory and the sum).
+  !> All sticks: S at the points is linear in U', S = known_force + response U'. While the contact
+  !> grows P_k' = g_k A U' - P_k/tau_k in x and S = eta A U' + sum_k P_k; while it shrinks without
+  !> slip, S = A q(A) + sum_k E_k P_k(t_A) with the stress q of an element at the edge
+  !> (memory_force: its part of memory and the sum).
   subroutine stick(normal, contact, interval, memory_force, shear_velocity, shear_force, store, fails)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

@@ -1,9 +1,11 @@
-!> The restitution on one panel (docs/sync.md): the edge goes back over the angles of the compression. When it is again at the
-!> radius that it had at the time t_A of the compression it is free,
+!> The restitution on one panel (docs/sync.md): the edge goes back over the angles of the
+!> compression. When it is again at the radius that it had at the time t_A of the compression it is
+!> free,
 !>
 !>   sum_k [M_k - E_k M_k(t_A)] + eta D' = 0,  E_k = exp(-(s - t_A)/tau_k),
 !>
-!> and the force is what is fade of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the pace -ds/dtheta.
+!> and the force is what is fade of that at t_A,  F = sum_k E_k P_k(t_A).  Unknown are D' and the
+!> pace -ds/dtheta.
 module rst_restitution_panel
   use rst_precision, only: dp, ip
   use rst_motion_factors, only: mass_factor
@@ -17,14 +19,15 @@ module rst_restitution_panel
   private
   public :: rebound
 
-  !> The time at the start of the panel. At the points: t_A, A, D', pace, f(A), F, and how fast both would
-  !> fade, the sums of rate_k times what E_k multiplies in them.
+  !> The time at the start of the panel. At the points: t_A, A, D', pace, f(A), F, and how fast both
+  !> would fade, the sums of rate_k times what E_k multiplies in them.
   type :: motion_type
     real(dp) :: start
     real(dp), dimension(stages) :: entered, radius, v, pace, edge_stress, force, fading_stress, fading_force
   end type motion_type
 
-  !> If it is wanted, or kept: how the sum that is zero answers to D' and the pace, D' to the pace, Newton's matrix for the pace.
+  !> If it is wanted, or kept: how the sum that is zero answers to D' and the pace, D' to the pace,
+  !> Newton's matrix for the pace.
   type :: slope_type
     logical :: wanted
     real(dp), dimension(stages, stages) :: by_v, by_pace, v_by_pace
@@ -33,7 +36,8 @@ module rst_restitution_panel
 
 contains
 
-  !> The panel after those there are, from its values at its start, (0), and from known panels as a guess.
+  !> The panel after those there are, from its values at its start, (0), and from known panels as a
+  !> guess.
   subroutine rebound(normal, known, fails)
     type(normal_type), intent(in) :: normal
     type(panel_type), intent(in) :: known(:)
@@ -102,7 +106,8 @@ contains
     end do
   end subroutine recall
 
-  !> The sums at the points for D' and the pace, with memory and, if wanted, how the sum that is zero answers to both.
+  !> The sums at the points for D' and the pace, with memory and, if wanted, how the sum that is
+  !> zero answers to both.
   pure subroutine balance(eta, g, rate, width, memory, kernel, entry, m, slope, fails)
     real(dp), intent(in) :: eta, g(:), rate(:), width
     real(dp), intent(inout) :: memory(0:stages, size(g)), kernel(stages, 0:stages, size(g))

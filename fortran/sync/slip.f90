@@ -16,20 +16,21 @@ module rst_slip
 
   integer(ip), parameter :: solved = 0, sticks_again = 1
 
-  !> Events that end a piece: slip sets in at the edge of a growing contact; the last element sticks no more; the edge of the
-  !> shrinking contact is at the front, so that no element slips, and slip the other way begins.
+  !> Events that end a piece: slip sets in at the edge of a growing contact; the last element sticks
+  !> no more; the edge of the shrinking contact is at the front, so that no element slips, and slip
+  !> the other way begins.
   enum, bind(c)
     enumerator :: no_event, slip_begins, stick_ends, slip_reverses
   end enum
 
-  !> What became of a try to solve a piece: Newton's steps do not converge, or polynomials miss too much; elements that slipped
-  !> would stick again; the piece is solved.
+  !> What became of a try to solve a piece: Newton's steps do not converge, or polynomials miss too
+  !> much; elements that slipped would stick again; the piece is solved.
   enum, bind(c)
     enumerator :: too_wide, turns_back, good
   end enum
 
-  !> U', S, stick radius and angle of the front at the points; what is zero at the events: lead = D' - |U'| in stick, else the
-  !> stick margin at the centre and at the edge.
+  !> U', S, stick radius and angle of the front at the points; what is zero at the events: lead = D'
+  !> - |U'| in stick, else the stick margin at the centre and at the edge.
   type :: solution_type
     real(dp), dimension(0:stages) :: shear_velocity, shear_force, stick_radius, front, lead, centre_margin, edge_margin
     integer(kind(good)) :: quality
@@ -37,8 +38,8 @@ module rst_slip
 
 contains
 
-  !> The next piece from x on: the rest of the panel, or less where its polynomial misses too much or an event ends it.
-  !> s%shear_velocity(0) and the starts of memory_x and loading_x are given.
+  !> The next piece from x on: the rest of the panel, or less where its polynomial misses too much
+  !> or an event ends it. s%shear_velocity(0) and the starts of memory_x and loading_x are given.
   subroutine take_piece(normal, contact, store, panel, x, sense, interval, s, event, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -119,7 +120,8 @@ contains
     s%quality = good
   end subroutine stick_all
 
-  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements that stick do.
+  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements
+  !> that stick do.
   subroutine slip_behind(normal, contact, store, interval, sense, warm, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -245,7 +247,8 @@ contains
     end do
   end subroutine next_event
 
-  !> U' and front of the piece on `interval` at the points of one that starts where it does and ends at `to`, as a guess.
+  !> U' and front of the piece on `interval` at the points of one that starts where it does and ends
+  !> at `to`, as a guess.
   pure subroutine shorten(interval, to, rooted, s)
     type(interval_type), intent(in) :: interval
     real(dp), intent(in) :: to
@@ -279,7 +282,8 @@ contains
     if (y(j - 1) < 0) place = root_between(j, y)
   end function first_rise
 
-  !> The piece that ends at an event, about at x = guess: its end is moved by secants until what is zero at the event is.
+  !> The piece that ends at an event, about at x = guess: its end is moved by secants until what is
+  !> zero at the event is.
   subroutine end_at(normal, contact, store, guess, sense, event, interval, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

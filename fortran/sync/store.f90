@@ -1,4 +1,5 @@
-!> What the tangential problem of the method `sync` works on: views of the caller's arrays, set by the interface to C.
+!> What the tangential problem of the method `sync` works on: views of the caller's arrays, set by
+!> the interface to C.
 module rst_store
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages
@@ -11,7 +12,8 @@ module rst_store
     enumerator :: backward = -1, sticks = 0, forward = 1
   end enum
 
-  !> Kinds of values of an element and of each of its arms, beside each other since one needs all of them at an angle.
+  !> Kinds of values of an element and of each of its arms, beside each other since one needs all of
+  !> them at an angle.
   integer(ip), parameter :: of_touch = 4, of_arm = 4
 
   !> The tangential problem. Twin of `struct sync_contact` in C.
@@ -24,16 +26,16 @@ module rst_store
     integer(ip) :: mode     !! how friction acts
   end type contact_type
 
-  !> A range of the compression in which all elements stick, or all slip: what they were given when the edge reached them, here
-  !> and in `corrective` of store_type. The edge angle goes from `from` to `to`. touch: X, t_X, and D' and
-  !> U' times |ds/dtheta|. Twin of `struct sync_record` in C.
+  !> A range of the compression in which all elements stick, or all slip: what they were given when
+  !> the edge reached them, here and in `corrective` of store_type. The edge angle goes from `from`
+  !> to `to`. touch: X, t_X, and D' and U' times |ds/dtheta|. Twin of `struct sync_record` in C.
   type, bind(c) :: record_type
     real(dp) :: from, to
     real(dp) :: touch(of_touch, 0:stages)
   end type record_type
 
-  !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is left of it. U', S and the
-  !> stick radius at its points. Twin of `struct sync_piece` in C.
+  !> A solved piece of a panel, for histories: x from `from` to `to`; rooted: in the root of what is
+  !> left of it. U', S and the stick radius at its points. Twin of `struct sync_piece` in C.
   type, bind(c) :: piece_type
     integer(ip) :: panel, rooted
     real(dp) :: from, to

@@ -1,5 +1,5 @@
-! The method sync as one unit: compilers inline across the modules of one file, and its small functions are called so often
-! that calls would cost as much as what they compute.
+! The method sync as one unit: compilers inline across the modules of one file, and its small
+! functions are called so often that calls would cost as much as what they compute.
 #include "tuning.f90"
 #include "collocation.f90"
 #include "arms.f90"

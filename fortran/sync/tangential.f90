@@ -1,4 +1,5 @@
-!> The tangential motion of an impact, piece after piece (docs/sync.md): stick, partial slip behind a front, gross slip.
+!> The tangential motion of an impact, piece after piece (docs/sync.md): stick, partial slip behind
+!> a front, gross slip.
 module rst_tangential_motion
   use rst_friction_mode, only: mode_gross_slip, mode_no_slip
   use rst_precision, only: dp, ip
@@ -17,8 +18,8 @@ module rst_tangential_motion
 
 contains
 
-  !> U' at the end of the impact. found: solved; sticks_again, where slipping elements do, which a front cannot
-  !> describe; lacks_pieces.
+  !> U' at the end of the impact. found: solved; sticks_again, where slipping elements do, which a
+  !> front cannot describe; lacks_pieces.
   subroutine follow_contact(normal, contact, store, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -75,7 +76,8 @@ contains
     sense = merge(backward, forward, velocity < 0)
   end function sense_of
 
-  !> Whether elements stick at the end of a piece in stick, and not in rounding alone: the one at the centre has a margin.
+  !> Whether elements stick at the end of a piece in stick, and not in rounding alone: the one at
+  !> the centre has a margin.
   pure function has_stuck(contact, sense, store) result(yes)
     type(contact_type), intent(in) :: contact
     integer(kind(sticks)), intent(in) :: sense
@@ -84,8 +86,8 @@ contains
     yes = store%n_records > 0 .and. sum(store%memory_z(stages, :) - sense*store%memory_x(0, :)) >= weightless*contact%stress
   end function has_stuck
 
-  !> First touch, or the end of gross slip, at which D' = U': until then an element has the same stress in x as in z. panel is 0 if
-  !> there is no room for the records of it.
+  !> First touch, or the end of gross slip, at which D' = U': until then an element has the same
+  !> stress in x as in z. panel is 0 if there is no room for the records of it.
   subroutine start(normal, contact, store, panel, x, velocity)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact
@@ -146,7 +148,8 @@ contains
     x = root_between(i, above)
   end subroutine find_velocity
 
-  !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its end starts the next one.
+  !> A solved piece: for the history, and, while all sticks in a growing contact, as a record. Its
+  !> end starts the next one.
   subroutine keep(normal, sense, interval, s, store)
     type(normal_type), intent(in) :: normal
     integer(kind(sticks)), intent(in) :: sense
@@ -161,7 +164,8 @@ contains
     store%loading_x(0, :) = store%loading_x(stages, :)
   end subroutine keep
 
-  !> An interval of the compression in which all sticks, or all slips: then elements have the same stress in x as in z.
+  !> An interval of the compression in which all sticks, or all slips: then elements have the same
+  !> stress in x as in z.
   subroutine add_record(normal, interval, shear_velocity, slips, store)
     type(normal_type), intent(in) :: normal
     type(interval_type), intent(in) :: interval
@@ -186,8 +190,9 @@ contains
     end do
   end subroutine add_record
 
-  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the centre, goes on: its stick
-  !> margin y stays 0, which asks for the velocity v, and it slips with v - v_d.
+  !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the
+  !> centre, goes on: its stick margin y stays 0, which asks for the velocity v, and it slips with v
+  !> - v_d.
   subroutine slide(normal, contact, store, panel, x, sense, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

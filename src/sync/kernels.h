@@ -1,5 +1,5 @@
-/* The Fortran procedures of the method `sync`, and the twins of their derived types; see fortran/sync/interface.f90
- * and fortran/sync/walk/elements.f90.
+/* The Fortran procedures of the method `sync`, and the twins of their derived types; see
+ * fortran/sync/interface.f90 and fortran/sync/walk/elements.f90.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_KERNELS_H
 #define RST_SYNC_KERNELS_H
@@ -95,8 +95,8 @@ struct walk_term {
 
 enum { walk_columns = 6, walk_lanes = 8 };
 
-/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity walk_columns,
- * stress 2 capacity (n_terms + 1). */
+/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity
+ * walk_columns, stress 2 capacity (n_terms + 1). */
 void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
                          const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,
                          double *stress, struct rst_ledger *ledger);

@@ -1,4 +1,5 @@
-/* The energy ledger of the method `sync` (docs/theory.md, section 8): a walk over elements keeps it.
+/* The energy ledger of the method `sync` (docs/theory.md, section 8): a walk over elements keeps
+ * it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -8,9 +9,10 @@
 #include "sync/tuning.h"
 #include "sync/walk.h"
 
-/* A sphere that has sunk in is not followed. Of its energy nothing is left at the end of time, neither in it nor in
- * springs, which all relax: what friction did not take is viscous work. Friction is that of gross slip, to its end if
- * it ends; slip at the edge after that is counted as viscous. */
+/* A sphere that has sunk in is not followed. Of its energy nothing is left at the end of time,
+ * neither in it nor in springs, which all relax: what friction did not take is viscous work.
+ * Friction is that of gross slip, to its end if it ends; slip at the edge after that is counted as
+ * viscous. */
 static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
 {
     const double before = problem->shear_speed, after = outcome->shear_velocity;

@@ -129,8 +129,9 @@ static int lay_out(const struct rst_motion *motion, struct rst_run *run, int64_t
     return 0;
 }
 
-/* A sphere that comes back would come back with any lower stop speed, and with a higher one as long as it is faster than
- * that in its rebound and up to its last panel before the turning point (docs/sync.md, section 9). */
+/* A sphere that comes back would come back with any lower stop speed, and with a higher one as long
+ * as it is faster than that in its rebound and up to its last panel before the turning point
+ * (docs/sync.md, section 9). */
 static double same_up_to(const struct rst_run *run, double stop_speed)
 {
     const struct sync_normal *n = &run->normal;

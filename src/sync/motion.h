@@ -1,5 +1,6 @@
-/* The normal motion of a solid at several resolutions, and room for the tangential motions on it. One object of the caller
- * (docs/sync.md): it is filled for the solid of a problem, and serves every impact on that solid.
+/* The normal motion of a solid at several resolutions, and room for the tangential motions on it.
+ * One object of the caller (docs/sync.md): it is filled for the solid of a problem, and serves
+ * every impact on that solid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_SYNC_MOTION_H
 #define RST_SYNC_MOTION_H
@@ -40,14 +41,16 @@ int rst_make_room(double **room, size_t *size, size_t count);
 /* The motion that a workspace keeps; NULL: out of memory. */
 struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
 
-/* Take the solid of the problem. keep: runs stay if they were for the same solid, bit by bit. Nonzero: out of memory. */
+/* Take the solid of the problem. keep: runs stay if they were for the same solid, bit by bit.
+ * Nonzero: out of memory. */
 int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep);
 
-/* Room for runs with `from` to `to` halvings on solids of up to that many arms. Nonzero: out of memory. */
+/* Room for runs with `from` to `to` halvings on solids of up to that many arms. Nonzero: out of
+ * memory. */
 int rst_motion_reserve(struct rst_motion *motion, int from, int to, int64_t arms);
 
-/* The normal motion with panels of at most (pi/2)/2^halvings; RST_LACKS_ROOM: it wants more than `most` of them.
- * NULL: out of memory. */
+/* The normal motion with panels of at most (pi/2)/2^halvings; RST_LACKS_ROOM: it wants more than
+ * `most` of them. NULL: out of memory. */
 const struct rst_run *rst_motion_run(struct rst_motion *motion, int halvings, int64_t most);
 
 /* Of a run that was solved. */
@@ -56,7 +59,8 @@ static inline const struct sync_panel *rst_last_panel(const struct rst_run *run)
     return &run->normal.panel[run->normal.n_panels - 1];
 }
 
-/* What the polynomials of a run may miss: not below rounding, which narrower panels do not lessen. */
+/* What the polynomials of a run may miss: not below rounding, which narrower panels do not
+ * lessen. */
 double rst_roughness(int halvings);
 
 /* What pieces of U' over psi may miss: not more than a part of the tolerance. */

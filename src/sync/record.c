@@ -1,4 +1,5 @@
-/* The history of an impact by the method `sync`: the polynomials of the run that gave the pair, sampled.
+/* The history of an impact by the method `sync`: the polynomials of the run that gave the pair,
+ * sampled.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sync/record.h"
 
@@ -61,7 +62,8 @@ static void follow_pieces(const struct trace *trace, int64_t panel, double x, in
     sample->stick_radius = fmin(sample->contact_radius, fmax(0, rst_value_of(weight, piece->stick_radius)));
 }
 
-/* Between levels U' is a line. The walk does not say where the front is: the stick radius is 0 where all slips. */
+/* Between levels U' is a line. The walk does not say where the front is: the stick radius is 0
+ * where all slips. */
 static void follow_walk(const struct trace *trace, int64_t *at, struct rst_sample *sample)
 {
     const struct rst_walk *walk = trace->walk;

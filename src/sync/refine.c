@@ -15,8 +15,8 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     return RESTITUTE_OK;
 }
 
-/* A walk has the ends of all panels among its levels: it is over the finest run that is not too fine for four walks. Returned
- * are its halvings. */
+/* A walk has the ends of all panels among its levels: it is over the finest run that is not too
+ * fine for four walks. Returned are its halvings. */
 static int run_to_walk(const struct rst_motion *motion, int finest)
 {
     int halvings = finest;
@@ -36,8 +36,8 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
     outcome->walked = parts;
 }
 
-/* Whether twice the elements, which take four times as long, are worth it: rounding adds twice as much to the error. `left`:
- * seconds before the last walk. */
+/* Whether twice the elements, which take four times as long, are worth it: rounding adds twice as
+ * much to the error. `left`: seconds before the last walk. */
 static int can_double(const struct rst_problem *problem, int64_t n, double left, struct rst_outcome *outcome)
 {
     if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
@@ -46,9 +46,10 @@ static int can_double(const struct rst_problem *problem, int64_t n, double left,
     return !outcome->late;
 }
 
-/* U' by elements, half as many and all of them: of second order, so extrapolated, until two extrapolations agree. Two may
- * agree by chance, so that a part of the change before extrapolation counts, too: half of that if twice in a row it fell
- * to a quarter, as it does where all is regular. */
+/* U' by elements, half as many and all of them: of second order, so extrapolated, until two
+ * extrapolations agree. Two may agree by chance, so that a part of the change before extrapolation
+ * counts, too: half of that if twice in a row it fell to a quarter, as it does where all is
+ * regular. */
 int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *problem, int halvings,
                       struct rst_outcome *outcome, restitute_error *error)
 {

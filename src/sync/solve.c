@@ -1,5 +1,5 @@
-/* The method `sync` (docs/sync.md): the normal motion, then the tangential one on it, each at two resolutions that are compared,
- * and at finer ones until the estimate meets the tolerance.
+/* The method `sync` (docs/sync.md): the normal motion, then the tangential one on it, each at two
+ * resolutions that are compared, and at finer ones until the estimate meets the tolerance.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <fenv.h>
 #include <math.h>
@@ -11,8 +11,8 @@
 #include "sync/verdict.h"
 #include "sync/walk.h"
 
-/* Work is counted in updates of an element in a walk. A point of a panel or piece takes as long as so many: 60 to 190 ns,
- * and 1.2 to 2.7 ns (measured, x86-64). */
+/* Work is counted in updates of an element in a walk. A point of a panel or piece takes as long as
+ * so many: 60 to 190 ns, and 1.2 to 2.7 ns (measured, x86-64). */
 static const int64_t updates_of_point = 100;
 
 /* One resolution. */
@@ -146,7 +146,8 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);
 }
 
-/* Where rounding makes finer runs worse, the best pair is the result. Its pieces are made again, for the history. */
+/* Where rounding makes finer runs worse, the best pair is the result. Its pieces are made again,
+ * for the history. */
 static int return_best(struct rst_motion *motion, const struct rst_problem *problem, const struct rst_outcome *best,
                        struct attempt *fine, struct rst_outcome *outcome, restitute_error *error)
 {
@@ -158,9 +159,9 @@ static int return_best(struct rst_motion *motion, const struct rst_problem *prob
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
 }
 
-/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip may stick again
- * because panels are too coarse for it: finer ones cost less than elements. The status may be TOLERANCE_NOT_REACHED if
- * a limit is spent and there is a result. */
+/* Attempts until two on end agree; a resolution that is too coarse to converge is passed over. Slip
+ * may stick again because panels are too coarse for it: finer ones cost less than elements. The
+ * status may be TOLERANCE_NOT_REACHED if a limit is spent and there is a result. */
 static int refine_from(struct rst_motion *motion, const struct rst_problem *problem, int first, struct attempt *fine,
                        struct rst_outcome *outcome, restitute_error *error)
 {
@@ -195,7 +196,8 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     return return_best(motion, problem, &best, fine, outcome, error);
 }
 
-/* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says what they are worth. */
+/* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says
+ * what they are worth. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {

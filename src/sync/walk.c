@@ -1,4 +1,5 @@
-/* The walk over elements (walk.h): levels at which the edge is on a node, from the panels of the normal motion.
+/* The walk over elements (walk.h): levels at which the edge is on a node, from the panels of the
+ * normal motion.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sync/walk.h"
 
@@ -7,7 +8,8 @@
 #include "base/gross_slip.h"
 #include "sync/tuning.h"
 
-/* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of the edge then. */
+/* Where the levels are: ends of the panels of the compression and, if gross slip ends, the angle of
+ * the edge then. */
 struct ladder {
     int64_t n_marks, parts, start; /* start: level at which gross slip ends, 0: none */
     double *mark;                  /* n_marks + 1 */
@@ -44,7 +46,8 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     return 0;
 }
 
-/* The angle at which gross slip ends splits the panel that it is in, unless it is at an end of it. */
+/* The angle at which gross slip ends splits the panel that it is in, unless it is at an end of
+ * it. */
 static void set_marks(const struct sync_normal *normal, const struct rst_problem *problem, int sticks,
                       struct ladder *ladder)
 {
@@ -82,9 +85,10 @@ static const double *fading_on(const struct sync_normal *normal, int64_t p, size
     return normal->kernel + rst_stages * rst_points * ((size_t)normal->n_arms * (size_t)p + k);
 }
 
-/* What the polynomial of M_k lacks on the panel p. M_k starts from 0, and that of a fast arm is soon g tau D': smooth but for
- * -g tau exp(-s/tau), of which the panels have what collocation makes of it, kernel(:, 0) of rst_arms times what it left of it
- * at the start of the panel. For an arm that is slow on the first panel both are the same but for rounding. */
+/* What the polynomial of M_k lacks on the panel p. M_k starts from 0, and that of a fast arm is
+ * soon g tau D': smooth but for -g tau exp(-s/tau), of which the panels have what collocation makes
+ * of it, kernel(:, 0) of rst_arms times what it left of it at the start of the panel. For an arm
+ * that is slow on the first panel both are the same but for rounding. */
 static double first_layer(const struct sync_normal *normal, int64_t p, size_t k, double left, const double *weight,
                           double time)
 {
@@ -97,7 +101,8 @@ static double first_layer(const struct sync_normal *normal, int64_t p, size_t k,
     return normal->g[k] * tau * (left * collocated - exp(-time / tau));
 }
 
-/* The level at an angle on a panel, without its step. The first arms may be a spring, which the walk has apart. */
+/* The level at an angle on a panel, without its step. The first arms may be a spring, which the
+ * walk has apart. */
 static void set_level(const struct sync_normal *normal, int64_t p, double angle, size_t terms, const double *left,
                       struct walk_level *level, double *time, double *memory)
 {

@@ -1,17 +1,19 @@
-!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section 8).
+!> One time step of the elements of the foundation in the tangential problem (docs/sync.md, section
+!> 8).
 !>
-!> An element holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip velocity
-!> kappa = U' - v. The spring G_inf is the arm 0, whose relaxation time is infinite. The force is
-!> q = sum_k y_k + eta v; friction limits it to f.
+!> An element holds the stresses y_k of its spring and arms, y_k' = g_k v - y_k/tau_k, and its slip
+!> velocity kappa = U' - v. The spring G_inf is the arm 0, whose relaxation time is infinite. The
+!> force is q = sum_k y_k + eta v; friction limits it to f.
 !>
-!> In a step v is linear, from v0 to v1, so y_k becomes decay y_k + from_start v0 + from_end v1, for any tau.
-!> In stick v1 = U'. Where that needs more force than f, v1 is what brings q to the limit.
+!> In a step v is linear, from v0 to v1, so y_k becomes decay y_k + from_start v0 + from_end v1, for
+!> any tau. In stick v1 = U'. Where that needs more force than f, v1 is what brings q to the limit.
 !>
-!> Where springs rule, kappa jumps as slip begins, and v0 must jump with it: v1 alone would swing from step to step
-!> about the velocity that gives the displacement. Where dashpots rule, kappa is continuous. So the share `drop` of the
-!> old kappa is replaced by the new one: the stiffness that v0 meets over that of v1, 1 for springs, 0 for dashpots.
-!> This is second order: in a short step 1 - drop is O(h/tau) without a dashpot, so that v is constant but for O(h);
-!> with a dashpot drop is O(h), and kappa changes by O(h).
+!> Where springs rule, kappa jumps as slip begins, and v0 must jump with it: v1 alone would swing
+!> from step to step about the velocity that gives the displacement. Where dashpots rule, kappa is
+!> continuous. So the share `drop` of the old kappa is replaced by the new one: the stiffness that
+!> v0 meets over that of v1, 1 for springs, 0 for dashpots. This is second order: in a short step 1
+!> - drop is O(h/tau) without a dashpot, so that v is constant but for O(h); with a dashpot drop is
+!> O(h), and kappa changes by O(h).
 module rst_sync_element_step
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
@@ -43,7 +45,8 @@ module rst_sync_element_step
     real(dp) :: g, decay, from_start, from_end, normal
   end type walk_term_type
 
-  !> A step as all elements meet it: response of q to v0, to v1, and their difference, the viscous part.
+  !> A step as all elements meet it: response of q to v0, to v1, and their difference, the viscous
+  !> part.
   type :: step_type
     real(dp) :: h, start_response, end_response, viscous, drop
     real(dp) :: swing  !! what replaces h in the tangential motion
@@ -55,9 +58,10 @@ contains
 
   !> The step after level l, of length h, in which elements of total weight `stuck` stick.
   !>
-  !> Their springs make U' swing at a rate omega. The trapezoidal rule lags behind by the share (omega h)^2/12 of a swing;
-  !> at large chi that would be nearly all of the error. It is exact for the step 2 tan(omega h/2)/omega, which therefore
-  !> replaces h. Arms that relax within a step are no springs: each counts by its decay.
+  !> Their springs make U' swing at a rate omega. The trapezoidal rule lags behind by the share
+  !> (omega h)^2/12 of a swing; at large chi that would be nearly all of the error. It is exact for
+  !> the step 2 tan(omega h/2)/omega, which therefore replaces h. Arms that relax within a step are
+  !> no springs: each counts by its decay.
   pure subroutine measure_step(walk, g, tau, l, h, stuck, term, step)
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms), h, stuck
@@ -90,8 +94,9 @@ contains
     step%drop = 1 - step%viscous/step%end_response
   end subroutine measure_step
 
-  !> Fade what elements keep of M_k at entry, and find their friction limit at the end of the step, where the sphere
-  !> has `velocity`. Relax their stresses, and add them up in `trial`. In gross slip they are those in z.
+  !> Fade what elements keep of M_k at entry, and find their friction limit at the end of the step,
+  !> where the sphere has `velocity`. Relax their stresses, and add them up in `trial`. In gross
+  !> slip they are those in z.
   pure subroutine relax(walk, gross, velocity, term, step, body, stress, faded)
     type(walk_type), intent(in) :: walk
     logical, intent(in) :: gross
@@ -143,8 +148,8 @@ contains
     slope = step%end_response*sum(stuck)
   end subroutine friction_force
 
-  !> Move the elements while U' goes from velocity(0) to velocity(1). Work of friction, and what the elements take up:
-  !> mean forces on mean velocities, by which springs dissipate nothing.
+  !> Move the elements while U' goes from velocity(0) to velocity(1). Work of friction, and what the
+  !> elements take up: mean forces on mean velocities, by which springs dissipate nothing.
   pure subroutine move_elements(walk, term, step, velocity, body, stress, friction, work)
     type(walk_type), intent(in) :: walk
     type(walk_term_type), intent(in) :: term(0:walk%n_terms)

@@ -1,15 +1,19 @@
-!> The tangential motion of an impact by elements (docs/sync.md, section 8): for slip that sticks again, and for
-!> the energy ledger. Module rst_sync_element_step has the step of the elements; here are contact and sphere.
+!> The tangential motion of an impact by elements (docs/sync.md, section 8): for slip that sticks
+!> again, and for the energy ledger. Module rst_sync_element_step has the step of the elements; here
+!> are contact and sphere.
 !>
-!> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at which the edge of the
-!> contact is at X_j, level 2n - j that of the restitution. So elements enter and leave exactly at a level.
+!> Elements sit at the radii X_j of the levels. Level j <= n is the instant of the compression at
+!> which the edge of the contact is at X_j, level 2n - j that of the restitution. So elements enter
+!> and leave exactly at a level.
 !>
-!> The sums over elements and over time lean on the normal problem, whose force N and impulse are known: each is
-!> the share of friction that is used, by the trapezoidal rule, times the known one. So full slip is exact.
+!> The sums over elements and over time lean on the normal problem, whose force N and impulse are
+!> known: each is the share of friction that is used, by the trapezoidal rule, times the known one.
+!> So full slip is exact.
 !>
-!> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with walk%prescribed,
-!> shear(start:end)%velocity. Steps are positive and psi is not negative. term, body and stress are room, whatever they
-!> contain. Results: shear(0:end) and the accounts of module rst_ledger. Without friction start = 2n.
+!> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with
+!> walk%prescribed, shear(start:end)%velocity. Steps are positive and psi is not negative. term,
+!> body and stress are room, whatever they contain. Results: shear(0:end) and the accounts of module
+!> rst_ledger. Without friction start = 2n.
 module rst_sync_walk
   use rst_friction_mode, only: mode_frictionless, mode_no_slip
   use rst_motion_factors, only: mass_factor
@@ -23,7 +27,8 @@ module rst_sync_walk
   private
   public :: walk_type, walk_term_type, walk_level_type, walk_shear_type, columns, follow_elements
 
-  !> The normal motion at a level; step: time since the level before. Twin of `struct walk_level` in C.
+  !> The normal motion at a level; step: time since the level before. Twin of `struct walk_level` in
+  !> C.
   type, bind(c) :: walk_level_type
     real(dp) :: step, radius, depth, velocity, force
   end type walk_level_type
@@ -38,7 +43,8 @@ module rst_sync_walk
     real(dp) :: work_z = 0, left_z = 0, work_x = 0, left_x = 0, friction = 0, force_z = 0
   end type account_type
 
-  !> The element at the edge, of whose cell the contact has only a part: what corrects the sum over the others.
+  !> The element at the edge, of whose cell the contact has only a part: what corrects the sum over
+  !> the others.
   type :: rim_type
     real(dp) :: weight, trial, response, limit
   end type rim_type
@@ -85,8 +91,8 @@ contains
     call close_accounts(walk, level(min(walk%start, walk%end))%velocity, account, ledger)
   end subroutine follow_elements
 
-  !> Element j is touched. It moves with the contact point unless that is faster than the sphere: then it slips at
-  !> once. Arms that relax within the step are dashpots to it.
+  !> Element j is touched. It moves with the contact point unless that is faster than the sphere:
+  !> then it slips at once. Arms that relax within the step are dashpots to it.
   pure subroutine enter_contact(walk, j, level, velocity, term, step, body, stress, account)
     type(walk_type), intent(in) :: walk
     integer(ip), intent(in) :: j
@@ -158,8 +164,9 @@ contains
     real(dp) :: share, friction, work
     body(0:step%top, c_trial) = body(0:step%top, c_trial) &
                                 + step%start_response*(shear(0)%velocity - (1 - step%drop)*body(0:step%top, c_slip))
-    ! in the compression the rim enters with half a cell at the end of the step; in the restitution it leaves,
-    ! with all of its cell in the sum, of which half a cell is still in contact: that counts only without slip
+    ! in the compression the rim enters with half a cell at the end of the step; in the restitution
+    ! it leaves, with all of its cell in the sum, of which half a cell is still in contact: that
+    ! counts only without slip
     associate (edge => level(step%last:step%last + 1)%radius)
       rim = rim_type((edge(2) - edge(1))/2, 0.0_dp, step%viscous, step%viscous*max(level(l + 1)%velocity, 0.0_dp))
       if (l >= walk%n) rim = rim_type((edge(1) - edge(2))/2, body(step%last, c_trial), step%end_response, 0.0_dp)
@@ -174,10 +181,12 @@ contains
     account%work_x = account%work_x + work
   end subroutine step_shear
 
-  !> Find U' at the end of the step, by Newton's method within a bracket, or take what is prescribed; and S.
+  !> Find U' at the end of the step, by Newton's method within a bracket, or take what is
+  !> prescribed; and S.
   !>
-  !> U'(1) = U'(0) - push ((1 - w) S(0) + w S(1)), where push makes the impulse of N exact. w = 1/2 + z/12 + ... is
-  !> exact for U'' = -z U'/h: with 1/2, U' would swing where dashpots hold the sphere within a step (large z).
+  !> U'(1) = U'(0) - push ((1 - w) S(0) + w S(1)), where push makes the impulse of N exact. w = 1/2
+  !> + z/12 + ... is exact for U'' = -z U'/h: with 1/2, U' would swing where dashpots hold the
+  !> sphere within a step (large z).
   pure subroutine find_velocity(walk, level, share, rim, step, body, shear, stuck)
     type(walk_type), intent(in) :: walk
     type(walk_level_type), intent(in) :: level(0:1)
@@ -217,8 +226,8 @@ contains
     stuck = slope/step%end_response
   end subroutine find_velocity
 
-  !> What an element took up and does not hold when it leaves was dissipated in it. Gross slip, until the sphere had
-  !> `velocity`, added int N (U' - D') ds with N = -D''/mass_factor.
+  !> What an element took up and does not hold when it leaves was dissipated in it. Gross slip,
+  !> until the sphere had `velocity`, added int N (U' - D') ds with N = -D''/mass_factor.
   pure subroutine close_accounts(walk, velocity, account, ledger)
     type(walk_type), intent(in) :: walk
     real(dp), intent(in) :: velocity
