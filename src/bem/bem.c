@@ -251,7 +251,7 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
                           step * p->time_unit, p->unit_name);
     if (end == BEM_REBOUND || end == BEM_SUNK) /* one run only, nothing to compare it with */
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_work = %g: spent before there was a result; raise it", p->max_work);
+                          "max_work = %g: reached before there was a result; raise it", p->max_work);
     return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                       "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
                       step * p->time_unit, p->unit_name);

@@ -650,11 +650,11 @@ static int check_work(struct run *run)
         snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
     } else if (spent(run) > s->budget) {
         status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        snprintf(run->text, size, "max_work = %g: spent in a run with elements = %lld; raise it", s->problem->max_work,
+        snprintf(run->text, size, "max_work = %g: reached in a run with elements = %lld; raise it", s->problem->max_work,
                  (long long)s->n_nodes);
     } else if (is_late(run)) {
         status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        snprintf(run->text, size, "time_limit = %g s: spent in a run with elements = %lld; raise it",
+        snprintf(run->text, size, "time_limit = %g s: reached in a run with elements = %lld; raise it",
                  s->problem->time_limit, (long long)s->n_nodes);
     }
     return status;
