@@ -59,8 +59,8 @@ module rst_tuning
   !> Panels end at multiples of (pi/2)/2^deepest: 1e-12, below which D' has no digits. 45: no effect
   integer(ip), parameter :: deepest = 40
 
-  !> Where rounding ends the panels, a rebound that is slower is taken as none; one that is faster is
-  !> refused. Twice: no effect
+  !> Where rounding ends the panels, a slower rebound is taken as none; a faster one is refused.
+  !> Twice: no effect
   real(dp), parameter :: largest_unresolved_rebound = 1.0e-2_dp
 
   ! ---- pieces of the tangential motion
