@@ -90,11 +90,8 @@ int main(int argc, char **argv)
                                  .loading = loading,
                                  .kernel = kernel,
                                  .entry = entry};
-    struct sync_store store = {.capacity = room,
-                               .record = record,
-                               .piece = piece,
-                               .corrective = corrective,
-                               .room = room_of_piece};
+    struct sync_store store = {
+        .capacity = room, .record = record, .piece = piece, .corrective = corrective, .room = room_of_piece};
     rst_follow_normal(&control, &normal, &found);
     if (found != RST_REBOUNDS) return 1;
     rst_follow_contact(&normal, &contact, &store, &velocity, &found);

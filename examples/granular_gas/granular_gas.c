@@ -16,7 +16,7 @@
 enum { MOST_RECORDS = 1000 };
 
 static const double RADIUS = 1e-3, DENSITY = 1000; /* m, kg/m^3, of all spheres */
-static const double ROUNDING = 1e-10; /* of energies: 1e8 impacts of 1e-16 each, random sign */
+static const double ROUNDING = 1e-10;              /* of energies: 1e8 impacts of 1e-16 each, random sign */
 
 struct experiment {
     const char *name;

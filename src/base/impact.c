@@ -67,10 +67,7 @@ void rst_set_sliding(double given, struct rst_problem *problem)
 {
     const double psi = fabs(given - 1) <= psi_rounding ? 1 : given <= psi_rounding ? 0 : given;
     problem->psi = psi;
-    problem->mode = isinf(psi) ? RST_FRICTIONLESS
-                    : psi > 1  ? RST_GROSS_SLIP
-                    : psi > 0  ? RST_PARTIAL_SLIP
-                               : RST_NO_SLIP;
+    problem->mode = isinf(psi) ? RST_FRICTIONLESS : psi > 1 ? RST_GROSS_SLIP : psi > 0 ? RST_PARTIAL_SLIP : RST_NO_SLIP;
     problem->shear_speed = problem->mode == RST_FRICTIONLESS || problem->mode == RST_NO_SLIP ? 1 : psi;
     problem->shear_scale = 1;
     problem->slip_bound = 0;

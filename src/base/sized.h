@@ -39,7 +39,8 @@ struct rst_layout {
 
 /* The same in a hot call, in place: no function is called. */
 #define RST_IS_SIZED(NAME, value)                                                                                      \
-    (RST_SIZE_UP_TO(restitute_##NAME, RST_LAST_##NAME) <= (value)->struct_size && (value)->struct_size <= sizeof *(value))
+    (RST_SIZE_UP_TO(restitute_##NAME, RST_LAST_##NAME) <= (value)->struct_size &&                                      \
+     (value)->struct_size <= sizeof *(value))
 
 /* Ours becomes theirs, which is checked, with defaults for what they have not. */
 #define RST_TAKE(NAME, ours, theirs) (restitute_##NAME##_init(ours), rst_copy(ours, sizeof *(ours), theirs))

@@ -224,7 +224,8 @@ static void compare(const struct impact *impact, const struct bem_run *coarse, c
     if (outcome->sunk) outcome->error_ez = rest_speed(impact->problem);
     outcome->velocity += change;
     if (impact->problem->mode == RST_FRICTIONLESS) return;
-    outcome->error_ex = fabs(shear_change) / impact->problem->shear_speed + grid_error_ex * tangential * harder + outcome->error_ez;
+    outcome->error_ex =
+        fabs(shear_change) / impact->problem->shear_speed + grid_error_ex * tangential * harder + outcome->error_ez;
     outcome->shear_velocity += shear_change;
 }
 

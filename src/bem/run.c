@@ -182,7 +182,8 @@ static int unstable(const struct bem_stepper *s)
     /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations
      * leave */
     const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
-    return lost || !(fabs(q->velocity) <= most_speed) || !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
+    return lost || !(fabs(q->velocity) <= most_speed) ||
+           !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }
 
 static int rests(const struct bem_stepper *s)

@@ -4,8 +4,8 @@
 
 #include "bench.h"
 
-#include <signal.h>
 #include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

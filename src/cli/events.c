@@ -63,7 +63,8 @@ bool events_begin(const struct settings *settings, restitute_options *options, s
     restitute_error error;
     *keeper = NULL;
     if (!settings->text[TEXT_EVENTS]) return true;
-    if (restitute_cvode_recorder_create(options->method, &recorder, &error) < 0) return refuse(why, "%s", error.message);
+    if (restitute_cvode_recorder_create(options->method, &recorder, &error) < 0)
+        return refuse(why, "%s", error.message);
     options->method = restitute_cvode_recorder_method(recorder);
     *keeper = (struct event_keeper *)recorder;
     return true;

@@ -75,8 +75,9 @@ static int finish(bool done, int flags, const char *remarks, const struct reason
     if (!done) return complain("%s", why->text);
     for (const char *line = remarks, *end; (end = strchr(line, '\n')); line = end + 1)
         complain("remark: %.*s", (int)(end - line), line);
-    return flags & (RESTITUTE_FIT_FLAG_UNDETERMINED | RESTITUTE_FIT_FLAG_MISFIT | RESTITUTE_FIT_FLAG_UNFINISHED) ? EXIT_SOME_FAILED
-                                                                                                  : EXIT_DONE;
+    return flags & (RESTITUTE_FIT_FLAG_UNDETERMINED | RESTITUTE_FIT_FLAG_MISFIT | RESTITUTE_FIT_FLAG_UNFINISHED)
+               ? EXIT_SOME_FAILED
+               : EXIT_DONE;
 }
 
 static int fit_points(const struct fit_settings *s, const struct fit_input *input)

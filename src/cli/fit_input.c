@@ -187,7 +187,8 @@ bool fit_input_read(struct fit_settings *s, struct fit_input *input, struct reas
     const bool impacts = s->text[FIT_INPUT];
     restitute_error error;
     *input = (struct fit_input){.source = impacts ? s->text[FIT_INPUT] : s->text[FIT_DMA]};
-    if (rst_csv_read(input->source, RST_BYTES_OF_TABLE, &input->csv, &error) < 0) return refuse(why, "%s", error.message);
+    if (rst_csv_read(input->source, RST_BYTES_OF_TABLE, &input->csv, &error) < 0)
+        return refuse(why, "%s", error.message);
     input->n = rst_csv_rows(input->csv);
     if (input->n == 0) return refuse(why, "%.200s: has column names but no rows", input->source);
     if ((s->text[FIT_WLF] || s->text[FIT_REFERENCE]) && !has(input, "temperature_C"))

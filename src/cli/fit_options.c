@@ -116,8 +116,8 @@ static bool read_known(struct fit_settings *s, struct reason *why)
         else if (!isnan(s->known[place]))
             good = refuse(why, "--known: %s is given twice", item);
         else
-            good = option_number("known", equals + 1, s->options.model == RESTITUTE_FIT_MODEL_PRONY ? 0 : 1e-30, 1e30, false,
-                                 &s->known[place], why);
+            good = option_number("known", equals + 1, s->options.model == RESTITUTE_FIT_MODEL_PRONY ? 0 : 1e-30, 1e30,
+                                 false, &s->known[place], why);
     }
     free(list);
     s->options.known = s->known;
@@ -164,17 +164,16 @@ static bool take_texts(struct fit_settings *s, struct reason *why)
     static const char *const losses[] = {"squares", "huber", "cauchy", NULL};
     restitute_fit_options *o = &s->options;
     double starts = o->starts, seed = (double)o->seed, threads = -1;
-    const bool good =
-        word("model", s->text[FIT_MODEL], fit_models, RESTITUTE_FIT_MODEL_ELASTIC, &o->model, why) &&
-        word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_LOSS_SQUARES, &o->loss, why) &&
-        read_terms(s, why) && read_known(s, why) && read_wlf(s, why) &&
-        option_number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, false, &o->confidence, why) &&
-        option_number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, false, &o->reference_temperature,
-                      why) &&
-        option_number("noise", s->text[FIT_NOISE], 1e-4, 0.5, false, &s->dma.noise, why) &&
-        option_number("starts", s->text[FIT_STARTS], 1, 100, true, &starts, why) &&
-        option_number("seed", s->text[FIT_SEED], 0, 4294967295.0, true, &seed, why) &&
-        option_number("threads", s->text[FIT_THREADS], 1, 1024, true, &threads, why);
+    const bool good = word("model", s->text[FIT_MODEL], fit_models, RESTITUTE_FIT_MODEL_ELASTIC, &o->model, why) &&
+                      word("loss", s->text[FIT_LOSS], losses, RESTITUTE_FIT_LOSS_SQUARES, &o->loss, why) &&
+                      read_terms(s, why) && read_known(s, why) && read_wlf(s, why) &&
+                      option_number("confidence", s->text[FIT_CONFIDENCE], 0.5, 0.999, false, &o->confidence, why) &&
+                      option_number("reference-temperature", s->text[FIT_REFERENCE], -273.15, 1e4, false,
+                                    &o->reference_temperature, why) &&
+                      option_number("noise", s->text[FIT_NOISE], 1e-4, 0.5, false, &s->dma.noise, why) &&
+                      option_number("starts", s->text[FIT_STARTS], 1, 100, true, &starts, why) &&
+                      option_number("seed", s->text[FIT_SEED], 0, 4294967295.0, true, &seed, why) &&
+                      option_number("threads", s->text[FIT_THREADS], 1, 1024, true, &threads, why);
     if (!good) return false;
     o->relaxation_time = s->terms, o->starts = (int)starts, o->seed = (uint64_t)seed, o->threads = (int)threads;
     if (s->values.given[FIELD_POISSON]) o->poisson_ratio = s->dma.poisson_ratio = s->values.number[FIELD_POISSON];

@@ -58,7 +58,7 @@ struct fit_input {
     size_t n;
     double *numbers; /* of the columns */
     restitute_fit_point *points;
-    restitute_scene *scenes; /* of the points */
+    restitute_scene *scenes;                                /* of the points */
     const double *frequency, *storage, *loss, *temperature; /* of --dma; temperature NULL: no such column */
 };
 

@@ -56,8 +56,8 @@ static bool same_columns(const struct rst_csv *csv, const char *path, const stru
     if (found != wanted) return refuse(why, "%.200s: has %zu columns: must be %zu", path, found, wanted);
     for (size_t k = 0; k < wanted; k++)
         if (strcmp(rst_csv_name(csv, k), row_column_name(cases, k)) != 0)
-            return refuse(why, "%.200s: column %zu is \"%.64s\": must be %.64s", path, k + 1,
-                          rst_csv_name(csv, k), row_column_name(cases, k));
+            return refuse(why, "%.200s: column %zu is \"%.64s\": must be %.64s", path, k + 1, rst_csv_name(csv, k),
+                          row_column_name(cases, k));
     return true;
 }
 

@@ -230,8 +230,7 @@ json_t *row_json(const struct cases *cases, size_t index, const struct row *row)
     for (size_t i = 0; i < cases->columns; i++) {
         const char *cell = cases_cell(cases, index, i);
         double number;
-        json_t *value =
-            rst_number_read(cell, &number) == RESTITUTE_OK ? json_of_number(number) : json_string(cell);
+        json_t *value = rst_number_read(cell, &number) == RESTITUTE_OK ? json_of_number(number) : json_string(cell);
         json_object_set_new(object, cases_name(cases, i), value ? value : json_null());
     }
     for (int i = 0; i < ROW_NUMBERS; i++)

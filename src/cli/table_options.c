@@ -30,8 +30,7 @@ static const struct poptOption build_options[] = {
     TEXT(TABLE_THREADS, "N", "number of threads, 1 to 1024; default all processors"),
     TEXT(TABLE_MAX_IMPACTS, "N", "limit of impacts for refinement; default 12000"),
     TEXT(TABLE_TIME_LIMIT, "SECONDS", "limit of time for refinement, s; default 20, inf: no limit"),
-    TEXT(TABLE_FIGURE, "FILE.svg|png|pdf",
-         "draw ez and ex too, shaded beyond the limits of the model; needs gnuplot"),
+    TEXT(TABLE_FIGURE, "FILE.svg|png|pdf", "draw ez and ex too, shaded beyond the limits of the model; needs gnuplot"),
     HELP};
 
 static const struct poptOption info_options[] = {TEXT(TABLE_FORMAT, "text|json", "default text"), HELP};

@@ -218,8 +218,7 @@ static bool answer_row(struct query *q, const struct rst_csv *csv, size_t row, c
     q->value[1] = 0;
     for (int k = 0; k < 2; k++)
         if (column[k] >= 0)
-            good &=
-                rst_number_read(rst_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
+            good &= rst_number_read(rst_csv_cell(csv, row, (size_t)column[k]), &q->value[k]) == RESTITUTE_OK;
     const bool done = good && look_up(q, &pair) == RESTITUTE_OK;
     for (size_t i = 0; i < rst_csv_columns(csv); i++) {
         cell_write(out, rst_csv_cell(csv, row, i));

@@ -14,7 +14,9 @@ struct recorder {
 static void keep(struct run *run, double t, const double *y)
 {
     struct rst_history *history = ((const struct recorder *)run->observer)->history;
-    const double force = run->setup->problem->mode == RST_FRICTIONLESS ? 0 : run->shears ? run->sums.force : run->contact.force;
+    const double force = run->setup->problem->mode == RST_FRICTIONLESS ? 0
+                         : run->shears                                 ? run->sums.force
+                                                                       : run->contact.force;
     history->samples[history->count++] =
         (struct rst_sample){.time = t,
                             .indentation = y[0],

@@ -258,8 +258,8 @@ static int prepare(struct run *run)
     }
     place_elements(run);
     struct recovery *r = &run->recovery;
-    rst_cvode_recovery_modes(k, run->scene.n_modes, solid->g_inf, solid->eta, solid->g, solid->tau,
-                             run->doubles + size, r->rate, r->u, r->v, r->from_u, r->from_v);
+    rst_cvode_recovery_modes(k, run->scene.n_modes, solid->g_inf, solid->eta, solid->g, solid->tau, run->doubles + size,
+                             r->rate, r->u, r->v, r->from_u, r->from_v);
     return RESTITUTE_OK;
 }
 
@@ -337,8 +337,8 @@ static int admit(struct run *run, double t)
             y = run->look;
         }
         run->scene.n_entered++;
-        rst_cvode_enter_element(&run->scene, run->setup->problem->solid.tau, i + 1, entry, e->past, y, e->motion, e->shift, e->c,
-                                e->b, e->amplitude);
+        rst_cvode_enter_element(&run->scene, run->setup->problem->solid.tau, i + 1, entry, e->past, y, e->motion,
+                                e->shift, e->c, e->b, e->amplitude);
     }
     return 0;
 }
@@ -418,7 +418,8 @@ static double suffered(struct run *run, double weight)
     const size_t v = position_of_shear(&run->scene) + 1;
     const double slip =
         fabs(then[v] - now[v]) + fabs(then[1] - now[1]); /* not less than the velocity of the wrong slip */
-    return 2 * rst_mass_factor() * run->setup->problem->chi * weight * late * slip * (s->eta / 2 + stiffness * late / 6);
+    return 2 * rst_mass_factor() * run->setup->problem->chi * weight * late * slip *
+           (s->eta / 2 + stiffness * late / 6);
 }
 
 /* The functions of the elements, of the margins last computed. */
@@ -650,8 +651,8 @@ static int check_work(struct run *run)
         snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
     } else if (spent(run) > s->budget) {
         status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        snprintf(run->text, size, "max_work = %g: reached in a run with elements = %lld; raise it", s->problem->max_work,
-                 (long long)s->n_nodes);
+        snprintf(run->text, size, "max_work = %g: reached in a run with elements = %lld; raise it",
+                 s->problem->max_work, (long long)s->n_nodes);
     } else if (is_late(run)) {
         status = RESTITUTE_ERROR_TOO_MUCH_WORK;
         snprintf(run->text, size, "time_limit = %g s: reached in a run with elements = %lld; raise it",

@@ -40,9 +40,9 @@ struct run {
     const struct run_setup *setup;
     struct trace *trace;   /* of the compression: written by a run without elements, read by all */
     struct event_log *log; /* NULL: not wanted */
-    void (*sample)(
-        struct run *run); /* after each part of a step, while run_look() can evaluate it; NULL: not called */
-    void (*observe)(struct run *run, double from, double to); /* then, with the memory at its end; again after an event */
+    void (*sample)(struct run *run); /* after each part of a step, while run_look() can evaluate it; NULL: not called */
+    void (*observe)(struct run *run, double from,
+                    double to); /* then, with the memory at its end; again after an event */
     void *observer;
 
     struct cvode_scene scene;

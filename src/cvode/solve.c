@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cvode/solve.h"
 #include "base/gross_slip.h"
 #include "base/report.h"
+#include "cvode/solve.h"
 
 /* Error of a step of CVODE as a share of the tolerance. The errors of some thousand steps, and of
  * the kinks in them, add up to the second value times as much (docs/cvode.md). */

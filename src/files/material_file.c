@@ -327,7 +327,8 @@ static int read_csv_material(const char *path, restitute_material **material, re
     if (status != RESTITUTE_OK) return status;
     status = restitute_material_prony(0.0, 0.0, terms.count, terms.relaxation_time, terms.modulus, 0.5, material, &why);
     rst_prony_terms_release(&terms);
-    if (status != RESTITUTE_OK) return rst_report(error, status, "%s: %s", rst_file_name_for_message(path), why.message);
+    if (status != RESTITUTE_OK)
+        return rst_report(error, status, "%s: %s", rst_file_name_for_message(path), why.message);
     const char *slash = strrchr(path, '/');
     snprintf(info->name, sizeof info->name, "%.127s", slash ? slash + 1 : path);
     snprintf(info->model, sizeof info->model, "prony");

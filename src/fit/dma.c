@@ -14,7 +14,8 @@
 #include "fit/least.h"
 #include "fit/model.h"
 
-RST_DEFAULTS(dma_options, .poisson_ratio = 0.5, .noise = 0.01, .reference_temperature = NAN, .wlf_c1 = NAN, .wlf_c2 = NAN)
+RST_DEFAULTS(dma_options, .poisson_ratio = 0.5, .noise = 0.01, .reference_temperature = NAN, .wlf_c1 = NAN,
+             .wlf_c2 = NAN)
 RST_DEFAULTS(dma_result, 0)
 
 static int check_rows(size_t n, const double *frequency, const double *storage, const double *loss,

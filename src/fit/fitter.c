@@ -34,7 +34,8 @@ static int try_rival(restitute_fitter *f, int kind, const double *known, const d
     rst_fit_constants(m, f->search.logs, ours);
     rst_fit_model_make(&f->data, kind, known, &model);
     if ((model.free == m->free && kind == m->kind) || model.free > f->data.rows) return RESTITUTE_OK;
-    if (model.free > m->free && f->intervals.judged > f->intervals.noise) return RESTITUTE_OK; /* nothing left to explain */
+    if (model.free > m->free && f->intervals.judged > f->intervals.noise)
+        return RESTITUTE_OK; /* nothing left to explain */
     for (size_t k = 0; k < 3 * model.free; k++) {
         const size_t i = model.index[k % model.free];
         logs[k] = log(i < model.solid ? from[i] : ours[i + m->solid - model.solid]); /* friction, shifts */

@@ -16,11 +16,11 @@ enum { BATCH = 200 };
  * the sphere sinks in. */
 static const double widest = 18.4; /* ln 1e8 */
 
-
 /* Impacts have T for 1 Pa and Poisson's ratio 1/2, and T^2.5 ~ (1 - nu)/modulus by (24). */
 double rst_fit_elastic_modulus(const struct rst_fit_data *d, size_t point, double contact_time)
 {
-    return 2 * (1 - d->options.poisson_ratio) * pow(rst_elastic_contact_time() * d->place[point].time / contact_time, 2.5);
+    return 2 * (1 - d->options.poisson_ratio) *
+           pow(rst_elastic_contact_time() * d->place[point].time / contact_time, 2.5);
 }
 
 /* Scale of the moduli: from contact times as of an elastic solid, else from a known modulus, else 1
@@ -30,7 +30,9 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
     const double softness = 2 * (1 - d->options.poisson_ratio);
     double logs = 0, times = 0;
     size_t n = 0;
-    const size_t moduli = m->kind == RESTITUTE_FIT_MODEL_PRONY ? m->solid : m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID ? 2 : 1;
+    const size_t moduli = m->kind == RESTITUTE_FIT_MODEL_PRONY            ? m->solid
+                          : m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID ? 2
+                                                                          : 1;
     for (size_t i = 0; i < d->n; i++) {
         const double contact_time = d->points[i].contact_time;
         times += log(d->place[i].time) / (double)d->n;
@@ -47,11 +49,11 @@ static void find_scales(const struct rst_fit_data *d, struct rst_fit_model *m, d
 
 int rst_fit_part(int kind, size_t i)
 {
-    static const signed char parts[][RST_FIT_PARTS] = {[RESTITUTE_FIT_MODEL_ELASTIC] = {RST_FIT_MODULUS1},
-                                                       [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
-                                                       [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2,
-                                                                                         RST_FIT_VISCOSITY},
-                                                       [RESTITUTE_FIT_MODEL_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
+    static const signed char parts[][RST_FIT_PARTS] = {
+        [RESTITUTE_FIT_MODEL_ELASTIC] = {RST_FIT_MODULUS1},
+        [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = {RST_FIT_MODULUS1, RST_FIT_VISCOSITY},
+        [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = {RST_FIT_MODULUS1, RST_FIT_MODULUS2, RST_FIT_VISCOSITY},
+        [RESTITUTE_FIT_MODEL_MAXWELL] = {RST_FIT_MODULUS2, RST_FIT_VISCOSITY}};
     return parts[kind][i];
 }
 
@@ -135,7 +137,8 @@ int rst_fit_solid(const struct rst_fit_data *d, const struct rst_fit_model *m, c
     if (m->kind == RESTITUTE_FIT_MODEL_ELASTIC) return restitute_material_elastic(c[0], nu, material, error);
     if (m->kind == RESTITUTE_FIT_MODEL_KELVIN_VOIGT)
         return restitute_material_kelvin_voigt(c[0], shift * c[1], nu, material, error);
-    if (m->kind == RESTITUTE_FIT_MODEL_MAXWELL) return restitute_material_maxwell(c[0], shift * c[1], nu, material, error);
+    if (m->kind == RESTITUTE_FIT_MODEL_MAXWELL)
+        return restitute_material_maxwell(c[0], shift * c[1], nu, material, error);
     if (m->kind == RESTITUTE_FIT_MODEL_STANDARD_SOLID)
         return restitute_material_standard_solid(c[0], c[1], shift * c[2], nu, material, error);
     for (size_t k = 1; k < m->solid; k++)

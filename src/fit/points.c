@@ -17,8 +17,10 @@ RST_DEFAULTS(fit_result, 0)
 
 size_t rst_fit_solid_constants(int kind, size_t terms)
 {
-    static const size_t counts[] = {[RESTITUTE_FIT_MODEL_ELASTIC] = 1, [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = 2,
-                                    [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = 3, [RESTITUTE_FIT_MODEL_MAXWELL] = 2};
+    static const size_t counts[] = {[RESTITUTE_FIT_MODEL_ELASTIC] = 1,
+                                    [RESTITUTE_FIT_MODEL_KELVIN_VOIGT] = 2,
+                                    [RESTITUTE_FIT_MODEL_STANDARD_SOLID] = 3,
+                                    [RESTITUTE_FIT_MODEL_MAXWELL] = 2};
     return kind == RESTITUTE_FIT_MODEL_PRONY ? 1 + terms : counts[kind];
 }
 
@@ -55,9 +57,11 @@ static int check_known(const restitute_fit_options *o, restitute_error *error)
 
 static int check_options(const restitute_fit_options *o, restitute_error *error)
 {
-    int status = rst_fit_outside("options.model", o->model, RESTITUTE_FIT_MODEL_ELASTIC, RESTITUTE_FIT_MODEL_PRONY, error);
+    int status =
+        rst_fit_outside("options.model", o->model, RESTITUTE_FIT_MODEL_ELASTIC, RESTITUTE_FIT_MODEL_PRONY, error);
     if (!status) status = rst_fit_outside("options.poisson_ratio", o->poisson_ratio, 0, 0.5, error);
-    if (!status) status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_LOSS_SQUARES, RESTITUTE_FIT_LOSS_CAUCHY, error);
+    if (!status)
+        status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_LOSS_SQUARES, RESTITUTE_FIT_LOSS_CAUCHY, error);
     if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
     if (!status) status = rst_fit_outside("options.starts", o->starts, 0, 100, error);
     if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
@@ -128,7 +132,8 @@ static int make_groups(struct rst_fit_data *d, restitute_error *error)
     free(temperature);
     for (size_t i = 0; i < d->n && !status; i++) {
         size_t g = 0;
-        while (g < d->groups && (d->scene[d->first[g]].material != d->scene[i].material || d->at[d->first[g]] != d->at[i]))
+        while (g < d->groups &&
+               (d->scene[d->first[g]].material != d->scene[i].material || d->at[d->first[g]] != d->at[i]))
             g++;
         if (g == d->groups) d->first[d->groups++] = i;
         d->group[i] = g;
@@ -142,8 +147,9 @@ static int copy_point(const restitute_fit_point *points, size_t i, struct rst_fi
     const restitute_fit_point *theirs = rst_at(points, i);
     restitute_error inner;
     if (theirs->struct_size != points->struct_size)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE, "points[%zu].struct_size = %zu: must be %zu, as of the first",
-                          i, theirs->struct_size, points->struct_size);
+        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
+                          "points[%zu].struct_size = %zu: must be %zu, as of the first", i, theirs->struct_size,
+                          points->struct_size);
     RST_TAKE(fit_point, &d->points[i], theirs);
     if (!theirs->scene) return rst_report(error, RESTITUTE_ERROR_NULL, "points[%zu].scene is NULL", i);
     const int status = RST_CHECK(scene, theirs->scene, &inner);

@@ -80,20 +80,26 @@ static void remark_directions(const struct rst_fit_search *s, const struct rst_f
     char text[600];
     if (isnan(c->noise))
         remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
-               "%zu measured values for %zu constants leave nothing to estimate the noise: no intervals", s->data->rows, p);
+               "%zu measured values for %zu constants leave nothing to estimate the noise: no intervals", s->data->rows,
+               p);
     memcpy(open, c->vector + c->rank * p, (p - c->rank) * p * sizeof *open);
     separate(p - c->rank, p, open);
     for (size_t k = 0; k < p - c->rank; k++)
         if (direction_text(s, open + k * p, text, sizeof text) == 1)
-            remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "), text,
-                   s->model.kind == RESTITUTE_FIT_MODEL_PRONY ? "; the intervals of the others hold for this value of it" : "");
+            remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "the data do not determine %.*s%s", (int)strcspn(text, " "),
+                   text,
+                   s->model.kind == RESTITUTE_FIT_MODEL_PRONY
+                       ? "; the intervals of the others hold for this value of it"
+                       : "");
         else
             remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
                    "the data do not tell these apart: %s for any factor f gives the same", text);
     if (c->rank < p && !s->model.scaled)
         remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED,
-               "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact time or name a "
-               "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths are not");
+               "e has no unit, so it gives no modulus, and contact times as of 1 MPa are assumed: measure a contact "
+               "time or name a "
+               "known constant. e_z and e_x of the fitted solid are right all the same; its forces, times and depths "
+               "are not");
 }
 
 /* Constants that have other values in another fit that is as good. */
@@ -107,8 +113,7 @@ static void remark_other(const struct rst_fit_search *s, const struct rst_fit_in
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
         rst_print(text + used, sizeof text - used, "%s%s = %.3g", used ? ", " : "", name, exp(s->other[i]));
     }
-    if (text[0])
-        remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "other constants fit as well: %s", text);
+    if (text[0]) remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "other constants fit as well: %s", text);
 }
 
 /* Constants that may be as large or as small as you like, with the others fitted to them. */
@@ -128,7 +133,8 @@ static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_i
 }
 
 /* Residuals that do not look like noise. A pattern below what can be measured is none. */
-static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_intervals *c, restitute_fit_result *result)
+static int remark_misfit(const struct rst_fit_search *s, const struct rst_fit_intervals *c,
+                         restitute_fit_result *result)
 {
     struct rst_fit_misfit m;
     const int status = rst_fit_misfit(s, c->dof, &m);
@@ -167,8 +173,9 @@ static int remark_limits(struct rst_fit_search *s, restitute_fit_result *result)
             if (results[i].flags & bits[b])
                 count++, worst = fmax(worst, b ? results[i].radius_ratio : results[i].speed_ratio);
         if (count)
-            remark(result, RESTITUTE_FIT_FLAG_LIMITS, "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s",
-                   count, s->data->n, ratios[b], worst, restitute_flag_text(bits[b]));
+            remark(result, RESTITUTE_FIT_FLAG_LIMITS,
+                   "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s", count, s->data->n, ratios[b],
+                   worst, restitute_flag_text(bits[b]));
     }
     free(results);
     return status;
@@ -216,9 +223,11 @@ void rst_fit_remark_rival(const struct rst_fit_search *s, const struct rst_fit_i
                "the data do not tell this model from %s, which has as many constants (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     else if (simpler && chance > SIMPLER_FROM)
-        remark(result, RESTITUTE_FIT_FLAG_SIMPLER, "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
+        remark(result, RESTITUTE_FIT_FLAG_SIMPLER,
+               "the data do not need this model: %s fits as well (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(worse / rows), sqrt(better / rows));
     if (!simpler && chance < WRONG_BELOW)
-        remark(result, RESTITUTE_FIT_FLAG_MISFIT, "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
+        remark(result, RESTITUTE_FIT_FLAG_MISFIT,
+               "the data do not follow the model: %s fits better (rms %.3g, here %.3g)",
                kind_text(&rival->model, s->model.kind), sqrt(better / rows), sqrt(worse / rows));
 }

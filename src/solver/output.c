@@ -55,7 +55,8 @@ void rst_write_result(const struct rst_problem *problem, const struct rst_outcom
     result->ez = clamp(-outcome->velocity, 0, 1) + 0.0; /* + 0.0: no negative zero */
     result->ex = clamp(-outcome->shear_velocity / problem->shear_speed, -1, 1) + 0.0;
     result->error_ez = outcome->error_ez + merging_bound;
-    result->error_ex = outcome->error_ex + problem->slip_bound + (problem->mode == RST_FRICTIONLESS ? 0 : merging_bound);
+    result->error_ex =
+        outcome->error_ex + problem->slip_bound + (problem->mode == RST_FRICTIONLESS ? 0 : merging_bound);
     result->contact_time = outcome->contact_time * units->time;
     result->max_indentation = outcome->max_indentation * units->length_z;
     result->max_contact_radius = outcome->max_contact_radius * units->length_x;
@@ -95,7 +96,8 @@ void rst_write_history(const struct rst_history *samples, const struct rst_units
         if (history->contact_radius) history->contact_radius[i] = s->contact_radius * units->length_x;
         if (history->stick_radius) history->stick_radius[i] = s->stick_radius * units->length_x;
         if (history->normal_force) history->normal_force[i] = rst_mass_factor() * s->normal_force * units->force;
-        if (history->tangential_force) history->tangential_force[i] = rst_mass_factor() * s->shear_force * units->shear_force;
+        if (history->tangential_force)
+            history->tangential_force[i] = rst_mass_factor() * s->shear_force * units->shear_force;
         if (history->normal_velocity) history->normal_velocity[i] = s->velocity * units->velocity;
         if (history->tangential_velocity) history->tangential_velocity[i] = s->shear_velocity * units->shear_velocity;
     }

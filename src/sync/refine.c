@@ -57,8 +57,9 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
     const struct rst_run *run = &motion->run[outcome->halvings];
     const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
-    const double rest = outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
-                        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
+    const double rest =
+        outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
+        (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
@@ -78,8 +79,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
             change = fmax(rst_share_by_chance / (regular > 1 ? 2 : 1) * change, fabs(extrapolated - last));
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
-        outcome->error_ex =
-            (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
+        outcome->error_ex = (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
         if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;

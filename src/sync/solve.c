@@ -26,11 +26,11 @@ struct attempt {
 static int did_not_converge(const struct rst_problem *problem, restitute_error *error)
 {
     if (problem->elements > 0)
-        return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
-                          "elements = %lld: sync did not converge for this solid; use the method euler or another number",
-                          (long long)problem->elements);
-    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE,
-                      "sync did not converge for this solid; use the method euler");
+        return rst_report(
+            error, RESTITUTE_ERROR_CONVERGENCE,
+            "elements = %lld: sync did not converge for this solid; use the method euler or another number",
+            (long long)problem->elements);
+    return rst_report(error, RESTITUTE_ERROR_CONVERGENCE, "sync did not converge for this solid; use the method euler");
 }
 
 static int attempt_contact(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *a,
@@ -101,7 +101,8 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
     outcome->error_ex =
         problem->mode == RST_FRICTIONLESS
             ? 0
-            : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) / problem->shear_speed +
+            : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) /
+                      problem->shear_speed +
                   rst_piece_part * rst_piece_roughness(problem, fine->halvings) + least +
                   2 * problem->chi * left / problem->shear_speed; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
@@ -188,7 +189,8 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     }
     if (known < 2) return did_not_converge(problem, error);
     if (walks && problem->mode == RST_PARTIAL_SLIP && problem->elements <= 0 &&
-        rst_rounding * rst_first_elements / problem->psi > rst_change_by_slip * problem->psi) { /* worse than no slip: left out */
+        rst_rounding * rst_first_elements / problem->psi >
+            rst_change_by_slip * problem->psi) { /* worse than no slip: left out */
         outcome->error_ex = INFINITY;
         return RESTITUTE_TOLERANCE_NOT_REACHED;
     }

@@ -56,8 +56,7 @@ static void set_marks(const struct sync_normal *normal, const struct rst_problem
     int64_t returning = 0, at = 0;
     ladder->n_marks = 0;
     ladder->mark[0] = 0;
-    if (split)
-        rst_sync_find_velocity(normal, rst_end_of_gross_slip(problem), &angle, &returning);
+    if (split) rst_sync_find_velocity(normal, rst_end_of_gross_slip(problem), &angle, &returning);
     for (int64_t p = 0; p < normal->n_compression; p++) {
         const struct sync_panel *panel = &normal->panel[p];
         const double margin = rst_same_angle * (panel->to - panel->from);
@@ -142,8 +141,8 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
     }
 }
 
-int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
-             int sticks, int64_t parts, struct rst_walk *walk)
+int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem, int sticks,
+             int64_t parts, struct rst_walk *walk)
 {
     const struct rst_solid *s = &problem->solid;
     const struct sync_normal *normal = &run->normal;

@@ -174,6 +174,7 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
               restitute_table **table, restitute_error *error);
 
 /* The caller's options, with defaults for what they have not (NULL: for all), and checked. */
-int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error);
+int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours,
+                           restitute_error *error);
 
 #endif

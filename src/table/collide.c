@@ -17,8 +17,8 @@ static int check_chi(const restitute_table *t, const restitute_table_contact *c,
 }
 
 /* `a` can move. T^5 goes with mass^2/radius, so that a size is a factor on the speed. */
-static int collide(const restitute_table *t, restitute_table_contact *c, restitute_body *a, restitute_body *b, double *ez,
-                   double *ex, restitute_error *error)
+static int collide(const restitute_table *t, restitute_table_contact *c, restitute_body *a, restitute_body *b,
+                   double *ez, double *ex, restitute_error *error)
 {
     const struct rst_frame f = rst_frame_of(a, b);
     int status = rst_check_approach(&f, c->touch_gap, error);
@@ -28,23 +28,25 @@ static int collide(const restitute_table *t, restitute_table_contact *c, restitu
     const double radius = 1 / (1 / a->radius + (rst_is_plane(b) ? 0 : 1 / b->radius)), ratio = c->mass / mass;
     c->speed_factor *= ratio * ratio * (radius / c->radius);
     if (!(c->speed_factor > 0 && c->speed_factor <= largest_factor))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "speed_factor = %g of the bodies: must be in (0, %g]; they are too far from the table's contact, "
-                          "or contact is not one of restitute_table_contact_set",
-                          c->speed_factor, largest_factor);
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "speed_factor = %g of the bodies: must be in (0, %g]; they are too far from the table's contact, "
+            "or contact is not one of restitute_table_contact_set",
+            c->speed_factor, largest_factor);
     status = restitute_table_pair(t, c, f.approach, f.sliding, ez, ex, error);
     if (status) return status;
     rst_part_with(*ez, *ex, &f, a, b);
     const double speed = f.approach * c->speed_factor;
     if (speed >= t->d.low && speed <= t->d.high) return rst_done(error);
-    return rst_report(error, RESTITUTE_OK,
-                      "normal speed in the table = %g m/s (speed_factor %g of the bodies): the table has %g to %g; its end "
-                      "is taken",
-                      speed, c->speed_factor, t->d.low, t->d.high);
+    return rst_report(
+        error, RESTITUTE_OK,
+        "normal speed in the table = %g m/s (speed_factor %g of the bodies): the table has %g to %g; its end "
+        "is taken",
+        speed, c->speed_factor, t->d.low, t->d.high);
 }
 
-int restitute_table_collide(const restitute_table *table, const restitute_table_contact *contact,
-                            restitute_body *first, restitute_body *second, double *ez, double *ex, restitute_error *error)
+int restitute_table_collide(const restitute_table *table, const restitute_table_contact *contact, restitute_body *first,
+                            restitute_body *second, double *ez, double *ex, restitute_error *error)
 {
     double own_ez, own_ex;
     if (!table || !first || !second)

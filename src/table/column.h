@@ -10,7 +10,7 @@
 struct rst_contact {
     restitute_scene scene;
     restitute_numbers numbers; /* of the scene, sliding at 1 m/s with friction 1 */
-    double friction; /* 0: none; infinity: no slip, at any speed */
+    double friction;           /* 0: none; infinity: no slip, at any speed */
     int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
 };
 

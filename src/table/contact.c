@@ -60,9 +60,10 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
                           c->friction, d->friction);
     const double ratio = c->timeless ? 1 : d->duration * shift.time / c->numbers.time;
     if (!(ratio <= largest_ratio && ratio >= 1 / largest_ratio))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "speed_factor = %g^5 of the scene: must be in [%g, %g]^5; it is too far from the table's contact",
-                          ratio, 1 / largest_ratio, largest_ratio);
+        return rst_report(
+            error, RESTITUTE_ERROR_DOMAIN,
+            "speed_factor = %g^5 of the scene: must be in [%g, %g]^5; it is too far from the table's contact", ratio,
+            1 / largest_ratio, largest_ratio);
     found->speed_factor = ratio * ratio * ratio * ratio * ratio;
     found->psi_factor = rst_psi_factor(c);
     found->radius = c->numbers.radius;

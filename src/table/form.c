@@ -48,7 +48,8 @@ static int check_numbers(const restitute_table_data *d, restitute_error *error)
     return status;
 }
 
-static int check_array(const double *value, int64_t n, double low, double high, const char *name, restitute_error *error)
+static int check_array(const double *value, int64_t n, double low, double high, const char *name,
+                       restitute_error *error)
 {
     char place[48];
     for (int64_t i = 0; i < n; i++) {
@@ -67,8 +68,9 @@ static int check_values(const restitute_table_data *d, restitute_error *error)
     int status = check_array(speed, n, rst_sizes.low, rst_largest_speed, "speed", error);
     for (int64_t i = 1; i < n && !status; i++)
         if (speed[i] < speed[i - 1])
-            status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed[%lld] = %.17g: must be >= %.17g, the one before it",
-                                (long long)i, speed[i], speed[i - 1]);
+            status =
+                rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed[%lld] = %.17g: must be >= %.17g, the one before it",
+                           (long long)i, speed[i], speed[i - 1]);
     if (!status && (speed[0] > d->low || speed[n - 1] < d->high || !(speed[0] < speed[n - 1])))
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise, and cover %g to %g",
                             speed[0], speed[n - 1], d->low, d->high);
@@ -195,7 +197,8 @@ int restitute_table_create(const restitute_table_data *data, restitute_table **t
     if (status) return status;
     const int bins = count_bins(&d);
     const size_t n = (size_t)d.speeds, places = (size_t)rst_places(&d);
-    const size_t bytes = sizeof **table + n * (4 * places * sizeof(double) + 6 * sizeof(double) + sizeof(struct rst_node)) +
+    const size_t bytes = sizeof **table +
+                         n * (4 * places * sizeof(double) + 6 * sizeof(double) + sizeof(struct rst_node)) +
                          2 * (size_t)d.terms * sizeof(double) + ((size_t)bins + 1) * sizeof(uint16_t) + 10 * 16;
     restitute_table *made = malloc(bytes);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");

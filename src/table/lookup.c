@@ -70,7 +70,8 @@ static inline struct at_psi find_psi(const restitute_table *t, double ez, double
 
 /* The lower left node of the cell of a place along psi. The place becomes the one in [0, 1] within
  * the cell. */
-static inline const double *find_cell(const restitute_table *t, const struct rst_node *node, int64_t slips, double *place)
+static inline const double *find_cell(const restitute_table *t, const struct rst_node *node, int64_t slips,
+                                      double *place)
 {
     const int64_t sticks = t->d.stick_cells;
     const int64_t last = sticks - 1 + slips * (t->d.slip_cells - sticks), found = (int64_t)*place;

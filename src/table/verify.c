@@ -57,7 +57,8 @@ static double doubt_of_node(const struct rst_builder *b, const restitute_table_d
 
 /* The midpoints of the most doubtful cells of psi between speeds i and i + 1; no two beside each
  * other. */
-static void find_doubtful(const struct rst_builder *b, const restitute_table_data *d, int64_t i, struct rst_place *place)
+static void find_doubtful(const struct rst_builder *b, const restitute_table_data *d, int64_t i,
+                          struct rst_place *place)
 {
     const int64_t places = rst_places(d);
     double doubt[2][2 * rst_most_cells + 2];

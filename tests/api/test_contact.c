@@ -293,7 +293,8 @@ static void structs_of_other_sizes_are_refused(void **unused)
     assert_null(none);
     CHECK_SIZES(contact_rates, values, place, &e, restitute_contact_rates_set(law, 1e-2, (void *)place, &e));
     CHECK_SIZES(contact_rates, values, place, &e, restitute_contact_step(law, given, &d.motion, d.state, &d.force, &e));
-    CHECK_SIZES(contact_motion, friction, place, &e, restitute_contact_step(law, &d.rates, given, d.state, &d.force, &e));
+    CHECK_SIZES(contact_motion, friction, place, &e,
+                restitute_contact_step(law, &d.rates, given, d.state, &d.force, &e));
     CHECK_SIZES(contact_motion, friction, place, &e,
                 restitute_contact_step_many(law, &d.rates, 2, given, d.state, 48, &d.force, statuses, &e));
     CHECK_SIZES(contact_energies, viscous, place, &e,

@@ -20,7 +20,8 @@ static int fit_with(size_t n, int model, int loss, struct given *given)
     int status;
     drops(n, 0.1, 0.4, scenes, points);
     for (size_t i = 0; i < n; i++)
-        points[i].contact_time = times[i], points[i].ez = model == RESTITUTE_FIT_MODEL_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
+        points[i].contact_time = times[i],
+        points[i].ez = model == RESTITUTE_FIT_MODEL_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
     restitute_fit_result_init(&r);
     options.starts = 1, options.loss = loss;
     r.rms = 77;

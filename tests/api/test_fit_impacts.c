@@ -509,7 +509,8 @@ static void structs_of_other_sizes_are_refused_and_not_touched(void **state)
     points[2].scene = NULL;
     refused(4, points, &options, RESTITUTE_ERROR_NULL, "points[2].scene is NULL");
     points[2].scene = &scenes[2], points[3].struct_size += 8;
-    refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE, "points[3].struct_size = 80: must be 72, as of the first");
+    refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE,
+            "points[3].struct_size = 80: must be 72, as of the first");
 }
 
 /* The scenes may go, as the points and the options may. */
@@ -795,8 +796,8 @@ int main(void)
                                        cmocka_unit_test(temperatures),
                                        cmocka_unit_test(temperatures_from_every_seed),
                                        cmocka_unit_test(refusals),
-        cmocka_unit_test(structs_of_other_sizes_are_refused_and_not_touched),
-        cmocka_unit_test(a_fitter_has_copies),
+                                       cmocka_unit_test(structs_of_other_sizes_are_refused_and_not_touched),
+                                       cmocka_unit_test(a_fitter_has_copies),
                                        cmocka_unit_test(names_have_a_point_in_every_locale),
                                        cmocka_unit_test(the_handle),
                                        cmocka_unit_test(residuals_in_order_are_a_misfit),

@@ -165,10 +165,19 @@ static void data_makes_the_same_table(void **state)
     const restitute_table_data good = data_of(table);
     CHECK(restitute_table_create(&good, &copy, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(same_bits(table, copy), "the copy");
-    static const char *const words[] = {"speeds = 1: must be in [2, 32768]", "stick_cells = 0", "slip_cells = 1048576",
-                                        "terms = -1", "chi = nan: must be in [0.3, 1000]", "psi_factor = -1", "low = 0",
-                                        "speed[1] = ", "ez[0] = nan", "to 10: must rise, and cover 0.01 to 11",
-                                        "data.ex is NULL", "data.modulus is NULL", "duration = 0: must be in [1e-120",
+    static const char *const words[] = {"speeds = 1: must be in [2, 32768]",
+                                        "stick_cells = 0",
+                                        "slip_cells = 1048576",
+                                        "terms = -1",
+                                        "chi = nan: must be in [0.3, 1000]",
+                                        "psi_factor = -1",
+                                        "low = 0",
+                                        "speed[1] = ",
+                                        "ez[0] = nan",
+                                        "to 10: must rise, and cover 0.01 to 11",
+                                        "data.ex is NULL",
+                                        "data.modulus is NULL",
+                                        "duration = 0: must be in [1e-120",
                                         "relaxation_time[0] = 0: must be in [1e-30"};
     for (int i = 0; i < 14; i++) {
         restitute_table_data d = good;

@@ -77,7 +77,8 @@ static void what_the_solver_does(void **state)
         struct pair pair;
         restitute_result result;
         restitute_result_init(&result);
-        CHECK(restitute_table_collide(table, NULL, &a, &b, &pair.ez, &pair.ex, &error) == RESTITUTE_OK, "%s", error.message);
+        CHECK(restitute_table_collide(table, NULL, &a, &b, &pair.ez, &pair.ex, &error) == RESTITUTE_OK, "%s",
+              error.message);
         CHECK(restitute_collide(solver, &contact, &c, &d, &result, &error) >= 0, "%s", error.message);
         CHECK_NEAR(pair.ez, result.ez, 1.2 * tolerance, "impact %d", i);
         CHECK_NEAR(pair.ex, result.ex, 1.2 * tolerance, "impact %d", i);
@@ -109,7 +110,8 @@ static void momentum_is_conserved(void **state)
                                   0.4 * b->mass * b->radius * b->radius * b->spin[x];
                 }
             if (!turn)
-                assert_int_equal(restitute_table_collide(table, NULL, &body[0], &body[1], NULL, NULL, NULL), RESTITUTE_OK);
+                assert_int_equal(restitute_table_collide(table, NULL, &body[0], &body[1], NULL, NULL, NULL),
+                                 RESTITUTE_OK);
         }
         for (int k = 0; k < 6; k++)
             CHECK_NEAR(after[k], before[k], k < 3 ? 1e-16 : 1e-18, "impact %d, component %d", i, k);
@@ -129,14 +131,16 @@ static void a_wall(void **state)
     floor.radius = INFINITY, floor.normal[2] = 1;
     ball.radius = 0.01, ball.mass = 0.03, ball.position[2] = 0.01, ball.velocity[0] = 1, ball.velocity[2] = -2;
     again = ball;
-    CHECK(restitute_table_collide(table, NULL, &ball, &floor, &pair.ez, &pair.ex, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_table_collide(table, NULL, &ball, &floor, &pair.ez, &pair.ex, &error) == RESTITUTE_OK, "%s",
+          error.message);
     CHECK_NEAR(ball.velocity[2], 2 * pair.ez, 1e-15, "the normal speed after");
     /* the same by the contact of that size */
     against_wall.radius1 = 0.01, against_wall.mass1 = 0.03, against_wall.radius2 = against_wall.mass2 = INFINITY;
     restitute_table_contact_init(&contact);
     CHECK(restitute_table_contact_set(table, &against_wall, &contact, &error) == RESTITUTE_OK, "%s", error.message);
     const struct pair direct = look_up_for(table, &contact, 2, 1);
-    assert_int_equal(restitute_table_collide(table, &contact, &floor, &again, &other.ez, &other.ex, &error), RESTITUTE_OK);
+    assert_int_equal(restitute_table_collide(table, &contact, &floor, &again, &other.ez, &other.ex, &error),
+                     RESTITUTE_OK);
     CHECK_NEAR(direct.ez, pair.ez, 1e-12, "the size by contact_set");
     CHECK_NEAR(direct.ex, pair.ex, 1e-12, "the size by contact_set");
     CHECK_NEAR(other.ex, pair.ex, 1e-12, "the wall first");

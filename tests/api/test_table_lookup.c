@@ -243,7 +243,8 @@ static void factors_out_of_range(void **state)
         double ez = 7;
         assert_int_equal(restitute_table_pair(table, &contact, v, v, &ez, NULL, &error), RESTITUTE_ERROR_DOMAIN);
         CHECK(strstr(error.message, i ? "speed_factor = nan" : "psi_factor = nan"), "%s", error.message);
-        assert_int_equal(restitute_table_pair_many(table, &contact, 1, &v, &v, &ez, NULL, NULL), RESTITUTE_ERROR_DOMAIN);
+        assert_int_equal(restitute_table_pair_many(table, &contact, 1, &v, &v, &ez, NULL, NULL),
+                         RESTITUTE_ERROR_DOMAIN);
         CHECK(ez == 7, "a refused call has written");
     }
 }
@@ -262,7 +263,8 @@ static void bad_speeds_are_refused(void **state)
               "%g, %g", bad[i][0], bad[i][1]);
         CHECK(ez == 5 && ex == 6, "a refused call has written");
         CHECK(strstr(error.message, name) && strstr(error.message, "1e+100"), "%s", error.message);
-        CHECK(restitute_table_flags(table, bad[i][0], bad[i][1], &flags, &error) == RESTITUTE_ERROR_DOMAIN && flags == 7,
+        CHECK(restitute_table_flags(table, bad[i][0], bad[i][1], &flags, &error) == RESTITUTE_ERROR_DOMAIN &&
+                  flags == 7,
               "%g, %g", bad[i][0], bad[i][1]);
     }
     assert_int_equal(restitute_table_pair(NULL, NULL, 1, 1, NULL, NULL, NULL), RESTITUTE_ERROR_NULL);
@@ -300,7 +302,8 @@ static void structs_of_other_sizes_are_refused(void **state)
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_contact_set(table, &scene, (void *)place, &e));
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair(table, given, v, v, &ez, &ex, &e));
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair_many(table, given, 1, &v, &v, &ez, &ex, &e));
-    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_collide(table, given, &ball, &floor, &ez, &ex, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e,
+                restitute_table_collide(table, given, &ball, &floor, &ez, &ex, &e));
     CHECK_SIZES(table_info, version, place, &e, restitute_table_describe(table, (void *)place, &e));
     CHECK_SIZES(table_data, ex, place, &e, restitute_table_data_get(table, (void *)place, &e));
     CHECK_SIZES(table_data, ex, place, &e, restitute_table_create(given, &none, &e));
@@ -341,19 +344,18 @@ static void axes_collapse(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(limits),
-        cmocka_unit_test(just_above_the_lowest),
-        cmocka_unit_test(continuous),
-        cmocka_unit_test(bounded),
-        cmocka_unit_test(many_at_once),
-        cmocka_unit_test(other_sizes),
-        cmocka_unit_test(other_contacts_are_refused),
-        cmocka_unit_test(shifted_times),
-        cmocka_unit_test(factors_out_of_range),
-        cmocka_unit_test(structs_of_other_sizes_are_refused),
-        cmocka_unit_test(bad_speeds_are_refused),
-        cmocka_unit_test(one_of_the_pair),
-        cmocka_unit_test(axes_collapse)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(limits),
+                                       cmocka_unit_test(just_above_the_lowest),
+                                       cmocka_unit_test(continuous),
+                                       cmocka_unit_test(bounded),
+                                       cmocka_unit_test(many_at_once),
+                                       cmocka_unit_test(other_sizes),
+                                       cmocka_unit_test(other_contacts_are_refused),
+                                       cmocka_unit_test(shifted_times),
+                                       cmocka_unit_test(factors_out_of_range),
+                                       cmocka_unit_test(structs_of_other_sizes_are_refused),
+                                       cmocka_unit_test(bad_speeds_are_refused),
+                                       cmocka_unit_test(one_of_the_pair),
+                                       cmocka_unit_test(axes_collapse)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

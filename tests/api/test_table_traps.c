@@ -14,8 +14,8 @@ static void look_up_speeds(const restitute_table *table, const restitute_table_c
         for (int j = 0; j < n_speeds; j++) {
             const double v_n[3] = {speeds[i], 1, speeds[i]}, v_t[3] = {speeds[j], -speeds[j], -1};
             double ez[3], ex[3];
-            WITHOUT_TRAPS(status, restitute_table_pair(table, contact, v_n[0], v_t[0], ez, ex, NULL), "%s: %g, %g", name,
-                          v_n[0], v_t[0]);
+            WITHOUT_TRAPS(status, restitute_table_pair(table, contact, v_n[0], v_t[0], ez, ex, NULL), "%s: %g, %g",
+                          name, v_n[0], v_t[0]);
             WITHOUT_TRAPS(status, restitute_table_pair_many(table, contact, 3, v_n, v_t, ez, ex, NULL), "%s: %g, %g",
                           name, v_n[0], v_t[0]);
         }

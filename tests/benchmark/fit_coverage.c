@@ -117,8 +117,8 @@ static void campaign(int model, double noise, int with_time, int draws, uint64_t
 
 int main(int count, char **arguments)
 {
-    static const int models[] = {RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_MODEL_STANDARD_SOLID, RESTITUTE_FIT_MODEL_MAXWELL,
-                                 RESTITUTE_FIT_MODEL_PRONY};
+    static const int models[] = {RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_MODEL_STANDARD_SOLID,
+                                 RESTITUTE_FIT_MODEL_MAXWELL, RESTITUTE_FIT_MODEL_PRONY};
     static const double levels[] = {0, 0.01, 0.03, 0.05};
     const int draws = count > 1 ? atoi(arguments[1]) : 200;
     const uint64_t seed = count > 2 ? (uint64_t)atoll(arguments[2]) : 2017;

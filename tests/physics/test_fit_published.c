@@ -213,7 +213,8 @@ static void few_rows(void **state)
     restitute_dma_result_init(&r);
     assert_int_equal(restitute_dma_fit(3, f, storage, loss, NULL, NULL, &r, NULL), RESTITUTE_OK);
     CHECK(2 * r.terms + (r.equilibrium_modulus > 0) <= 6, "%zu terms", r.terms);
-    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && strstr(r.remarks, "relaxation times"), "half a decade: %s", r.remarks);
+    CHECK(r.flags & RESTITUTE_FIT_FLAG_UNDETERMINED && strstr(r.remarks, "relaxation times"), "half a decade: %s",
+          r.remarks);
     CHECK(r.rms < 0.03, "rms %g", r.rms); /* slopes of 0.6 and 0.5 a decade of both: two terms come near */
     restitute_material_destroy(r.material);
 }

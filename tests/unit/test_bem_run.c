@@ -10,13 +10,12 @@ static double g = 2, tau = 0.5, room[8];
 
 static struct rst_problem problem_of(double psi, int standard_solid)
 {
-    struct rst_problem p = {
-        .chi = 7.0 / 6,
-        .psi = psi,
-        .shear_speed = psi,
-        .shear_scale = 1,
-        .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
-        .tolerance = 1e-3};
+    struct rst_problem p = {.chi = 7.0 / 6,
+                            .psi = psi,
+                            .shear_speed = psi,
+                            .shear_scale = 1,
+                            .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
+                            .tolerance = 1e-3};
     p.solid = (struct rst_solid){.g_inf = 1, .n_terms = standard_solid, .g = &g, .tau = &tau};
     return p;
 }

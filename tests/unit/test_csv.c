@@ -68,7 +68,8 @@ static void check_refused(const char *path, int expected, const char *const *wor
     for (; words && *words; words++)
         CHECK(strstr(error.message, *words) != NULL, "%s: no \"%s\" in \"%s\"", what, *words, error.message);
     csv = UNTOUCHED;
-    CHECK(rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, NULL) == expected && csv == UNTOUCHED, "%s: without an error struct", what);
+    CHECK(rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, NULL) == expected && csv == UNTOUCHED,
+          "%s: without an error struct", what);
 }
 
 /* ---- what is read */
@@ -149,7 +150,7 @@ static void byte_order_mark(void **state)
 {
     (void)state;
     struct rst_csv *csv = read_text("\xEF\xBB\xBF"
-                                   "a,b\n1,2\n");
+                                    "a,b\n1,2\n");
     assert_string_equal(rst_csv_name(csv, 0), "a");
     rst_csv_destroy(csv);
 }
@@ -299,8 +300,8 @@ static void nul_byte(void **state)
 static void unreadable_files(void **state)
 {
     (void)state;
-    check_refused("test_csv_nowhere.csv", RESTITUTE_ERROR_FILE,
-                  (const char *[]){"test_csv_nowhere.csv", NULL}, "missing file");
+    check_refused("test_csv_nowhere.csv", RESTITUTE_ERROR_FILE, (const char *[]){"test_csv_nowhere.csv", NULL},
+                  "missing file");
     check_refused(RESTITUTE_SOURCE_DIR, RESTITUTE_ERROR_FILE, NULL, "a directory");
     check_refused("", RESTITUTE_ERROR_FILE, NULL, "empty path");
     char path[5000]; /* longer than any file name and than the message: its end is named */
@@ -484,8 +485,7 @@ static void comma_locale(void **state)
     (void)state;
     set_comma_locale();
     double point = -99, comma = -99;
-    const int status_point = rst_number_read("1.5e-3", &point),
-              status_comma = rst_number_read("1,5", &comma);
+    const int status_point = rst_number_read("1.5e-3", &point), status_comma = rst_number_read("1,5", &comma);
     const char kept = localeconv()->decimal_point[0];
     setlocale(LC_ALL, "C"); /* before anything can fail */
     CHECK(status_point == RESTITUTE_OK && point == 1.5e-3, "status %d, %g", status_point, point);

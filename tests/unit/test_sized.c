@@ -37,7 +37,8 @@ static void init_writes_no_more_than_the_caller_has(void **state)
     rst_init(&x, sizeof(struct ours), &defaults, sizeof defaults);
     CHECK(x.struct_size == sizeof(struct ours) && x.b == 2 && x.c == 99, "ours: %zu", x.struct_size);
     x.a = 99;
-    rst_init(&x, sizeof x, &defaults, sizeof defaults); /* what is behind our members has defaults that we do not know */
+    rst_init(&x, sizeof x, &defaults,
+             sizeof defaults); /* what is behind our members has defaults that we do not know */
     CHECK(x.struct_size == sizeof x && x.a == 99 && x.c == 99, "later: %zu, %g", x.struct_size, x.a);
     rst_init(NULL, sizeof x, &defaults, sizeof defaults);
 }
@@ -76,19 +77,25 @@ static void arrays_step_by_the_size_that_the_first_names(void **state)
 
 static void sizes_are_checked_in_words(void **state)
 {
-    static const char *const unprepared = "prepare the struct with restitute_thing_init", *const newer = "later headers";
+    static const char *const unprepared = "prepare the struct with restitute_thing_init", *const newer =
+                                                                                              "later headers";
     const struct {
         size_t size;
         const char *words; /* NULL: accepted */
-    } cases[] = {{sizeof(struct older), NULL},       {sizeof(struct ours), NULL},        {0, unprepared},
-                 {sizeof(struct older) - 8, unprepared}, {sizeof(struct later), newer}, {sizeof(struct ours) + 1, unprepared},
+    } cases[] = {{sizeof(struct older), NULL},
+                 {sizeof(struct ours), NULL},
+                 {0, unprepared},
+                 {sizeof(struct older) - 8, unprepared},
+                 {sizeof(struct later), newer},
+                 {sizeof(struct ours) + 1, unprepared},
                  {(size_t)-1, unprepared}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct later x = {.struct_size = cases[i].size};
         restitute_error error = {0};
         const int status = rst_check_layout(&layout, &x, &error);
-        CHECK(status == (cases[i].words ? RESTITUTE_ERROR_STRUCT_SIZE : RESTITUTE_OK), "%zu: %d", cases[i].size, status);
+        CHECK(status == (cases[i].words ? RESTITUTE_ERROR_STRUCT_SIZE : RESTITUTE_OK), "%zu: %d", cases[i].size,
+              status);
         if (cases[i].words) CHECK(strstr(error.message, cases[i].words), "%zu: %s", cases[i].size, error.message);
     }
 }

@@ -12,12 +12,13 @@ static double modulus[2] = {1, 0.5}, relaxation[2] = {1, 0.1};
 
 static struct rst_problem problem_of(double g_inf, double eta, int n_terms, double tolerance, double psi)
 {
-    return (struct rst_problem){.chi = 7.0 / 6,
-                                .psi = psi,
-                                .shear_speed = psi,
-                                .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
-                                .solid = {.g_inf = g_inf, .eta = eta, .n_terms = n_terms, .g = modulus, .tau = relaxation},
-                                .tolerance = tolerance};
+    return (struct rst_problem){
+        .chi = 7.0 / 6,
+        .psi = psi,
+        .shear_speed = psi,
+        .mode = psi > 1 ? RST_GROSS_SLIP : RST_PARTIAL_SLIP,
+        .solid = {.g_inf = g_inf, .eta = eta, .n_terms = n_terms, .g = modulus, .tau = relaxation},
+        .tolerance = tolerance};
 }
 
 static const struct rst_run *begin(struct rst_motion *motion, struct rst_problem problem, int keep)

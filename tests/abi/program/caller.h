@@ -13,7 +13,8 @@
 /* n structs restitute_NAME, prepared. */
 #define MANY(NAME, variable, n)                                                                                        \
     restitute_##NAME *const variable = guarded(n, sizeof *variable);                                                   \
-    for (size_t i = 0; i < (n); i++) restitute_##NAME##_init(&variable[i])
+    for (size_t i = 0; i < (n); i++)                                                                                   \
+    restitute_##NAME##_init(&variable[i])
 #define ONE(NAME, variable) MANY(NAME, variable, 1)
 
 #define DONE(call) (puts(#call), done(call))

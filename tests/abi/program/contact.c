@@ -38,7 +38,8 @@ void call_contact(void)
         motions[i].displacement[0] = 0.05 * i * step, motions[i].friction = 0.3;
     }
     for (int s = 1; s <= STEPS; s++) {
-        for (int i = 0; i < CONTACTS; i++) motions[i].overlap = 0.2 * step * s;
+        for (int i = 0; i < CONTACTS; i++)
+            motions[i].overlap = 0.2 * step * s;
         if (s < STEPS)
             restitute_contact_step(law, rates, motions, states[0], forces, &error);
         else
@@ -46,7 +47,8 @@ void call_contact(void)
     }
     SHOW(forces[0].normal, forces[0].tangential[0]);
     for (int s = 1; s <= STEPS; s++) {
-        for (int i = 1; i < CONTACTS; i++) motions[i].overlap = 0.2 * step * s;
+        for (int i = 1; i < CONTACTS; i++)
+            motions[i].overlap = 0.2 * step * s;
         restitute_contact_step_many(law, rates, CONTACTS - 1, motions + 1, states[1], STATE, forces + 1, statuses,
                                     &error);
     }

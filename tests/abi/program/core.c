@@ -61,9 +61,11 @@ static void many(const restitute_options *options, const restitute_material *mat
         scenes[i].normal_speed = 0.1 + 0.1 * i;
     }
     DONE(restitute_solve_many(MANY_CASES, impacts, options, results, statuses, &error));
-    for (int i = 0; i < MANY_CASES; i++) SHOW(statuses[i], results[i].ez, results[i].ex);
+    for (int i = 0; i < MANY_CASES; i++)
+        SHOW(statuses[i], results[i].ez, results[i].ex);
     DONE(restitute_solve_scene_many(MANY_CASES, scenes, options, results, statuses, &error));
-    for (int i = 0; i < MANY_CASES; i++) SHOW(statuses[i], results[i].ez, results[i].ex);
+    for (int i = 0; i < MANY_CASES; i++)
+        SHOW(statuses[i], results[i].ez, results[i].ex);
 }
 
 static void plans(const restitute_options *options, const restitute_scene *scene)

@@ -40,7 +40,8 @@ static void impacts(void)
     printf("    %.2g %.2g\n", result->value[1], result->value[2]); /* within the error of the measured values */
     restitute_material_destroy(result->material);
     DONE(restitute_fitter_create(POINTS, points, options, &fitter, &error));
-    while (part < 1 && restitute_fitter_run(fitter, &part, &error) == RESTITUTE_OK) continue;
+    while (part < 1 && restitute_fitter_run(fitter, &part, &error) == RESTITUTE_OK)
+        continue;
     DONE(restitute_fitter_result(fitter, result, &error));
     DONE(restitute_fitter_values(fitter, ez, NULL, NULL, &error));
     printf("    %.2g %.2g\n", result->value[1], ez[1]);

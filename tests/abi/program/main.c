@@ -48,7 +48,8 @@ void done(int status)
 /* Nine digits: a constant that the compiler folds may differ from libm's in the last. */
 void show(size_t n, const double *values)
 {
-    for (size_t i = 0; i < n; i++) printf("    %.9g\n", values[i]);
+    for (size_t i = 0; i < n; i++)
+        printf("    %.9g\n", values[i]);
 }
 
 restitute_material *rubber(void)
