@@ -179,9 +179,10 @@ static void note_largest(struct bem_run *run, const struct bem_motion *q)
 static int unstable(const struct bem_stepper *s)
 {
     const struct bem_motion *q = &s->motion;
-    /* no force while it is pressed in; a sphere that has all but sunk is moved by what iterations
-     * leave */
-    const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > 1e-3;
+    /* no force while it is pressed in; one that has all but sunk is moved by what iterations leave,
+     * and may lose it, the earlier the coarser the grid is */
+    const double slow = s->setup->problem->solid.can_sink ? 1e-2 : 1e-3;
+    const int lost = s->run->max_force > 0 && q->force <= 0 && q->velocity > slow;
     return lost || !(fabs(q->velocity) <= most_speed) ||
            !(fabs(q->shear_velocity) <= most_speed * s->setup->problem->shear_speed);
 }
