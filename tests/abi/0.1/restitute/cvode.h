@@ -92,7 +92,8 @@ typedef struct restitute_cvode_events {
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, cvode_events)
 
-/** Work behind an impact, all its runs together: what a work-precision report wants. */
+/** Work behind an impact, all its runs together but the one that fills the log: what a
+ *  work-precision report wants. */
 typedef struct restitute_cvode_work {
     size_t struct_size; /**< set by @ref restitute_cvode_work_init */
     int64_t steps;      /**< of CVODE */
@@ -132,7 +133,8 @@ RESTITUTE_SINCE_0_1 const restitute_method *restitute_cvode_recorder_method(
     const restitute_cvode_recorder *recorder);
 
 /** Events of the last impact, those of the run that gave the pair, in the units of that impact. Of
- *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up.
+ *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up. Of an
+ *  impact that failed there are none.
  *
  *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder,

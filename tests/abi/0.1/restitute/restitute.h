@@ -324,11 +324,12 @@ typedef struct restitute_options {
                                          whose threads it cannot start, and hangs in a child (fork)
                                          of one that used them; 1 never enters it */
     double max_work;                /**< most work that a call may spend, in nominal seconds, > 0,
-                                         infinity allowed; default 10. It is counted (@ref restitute_result.work), not
-                                         measured: a nominal second takes about one second of a core
-                                         of the year 2020, and the same call ends at the same place
-                                         on every machine. A call that reaches it before the
-                                         tolerance returns its best with TOLERANCE_NOT_REACHED */
+                                         infinity allowed; default 10. It is counted (@ref
+                                         restitute_result.work), not measured: a nominal second
+                                         takes about one second of a core of the year 2020, and the
+                                         same call ends at the same place on every machine. A call
+                                         that reaches it before the tolerance returns its best with
+                                         TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
                                          0.1 s on it is kept within a factor of two; a history,
                                          events and a ledger come on top. 0 (default): 1 s, but no

@@ -22,7 +22,8 @@
     X(ERROR_FORMAT, -8, "a file does not have the expected form")                                                      \
     X(ERROR_INTERNAL, -9, "an internal check failed; please report it")                                                \
     X(ERROR_INTEGRATOR, -10, "the ODE integrator failed; see the message")                                             \
-    X(ERROR_INTERRUPTED, -11, "interrupted by the caller")
+    X(ERROR_INTERRUPTED, -11, "interrupted by the caller")                                                             \
+    X(ERROR_CONVERGENCE, -12, "an iteration did not converge")
 
 #define RESTITUTE_STATUS_ENUM(name, value, text) RESTITUTE_##name = (value),
 /** Status of a call; see @ref RESTITUTE_STATUS_LIST for the texts. */
