@@ -32,7 +32,7 @@ program table
 
   if (restitute_table_read("rubber.h5", lookup, error) < 0) call fail()
   ! All places in one call; the table's own contact is left out, so what follows it is named.
-  if (restitute_table_pair_many(lookup, normal_speeds=normal, tangential_speeds=slide, ez=ez, ex=ex, error=error) < 0) &
+  if (restitute_table_pair_many(lookup, normal_speeds=normal, sliding_speeds=slide, ez=ez, ex=ex, error=error) < 0) &
     call fail()
   scene%radius1 = 0.004_rk  ! the same table serves another solid ball of steel
   scene%mass1 = 2.048e-3_rk
