@@ -6,8 +6,8 @@
 !>
 !>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta v_sigma,  v_sigma = D' - sigma U'
 !>
-!> It is zero at c, and its integral is H = int_0^c y dX = sum_k E_k p_k(t_c) (s13), with p_k = P_k -
-!> sigma P_k^x. For sigma = 1 elements that were touched in gross slip have the same y.
+!> It is zero at c, and its integral is H = int_0^c y dX = sum_k E_k p_k(t_c) (s13), with p_k = P_k
+!> - sigma P_k^x. For sigma = 1 elements that were touched in gross slip have the same y.
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
