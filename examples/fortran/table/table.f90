@@ -18,7 +18,7 @@ program table
 
   ! G1, G2 (Pa), eta (Pa s), nu
   if (restitute_material_standard_solid(1e6_rk, 3e6_rk, 300.0_rk, 0.5_rk, rubber, error) < 0) call fail()
-  scene = restitute_scene() ! a rigid ball on a wall that deforms; its speeds are not used
+  scene = restitute_scene() ! ball on wall; one of them is rigid; its speeds are not used
   scene%material = rubber
   scene%radius1 = 0.005_rk  ! m
   scene%mass1 = 0.004_rk    ! kg
