@@ -398,7 +398,7 @@ typedef struct restitute_result {
     double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms
                                     included */
     double contact_time;       /**< T or s; infinity with NO_REBOUND, and of `sync` where ez is less
-                                    than 0.01 tolerance (with G_inf > 0 the status is then OK) */
+                                    than 0.01 tolerance (not NO_REBOUND if G_inf > 0) */
     double max_indentation;    /**< d0 or m; with NO_REBOUND where the sphere was given up */
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */
