@@ -160,8 +160,8 @@ typedef struct restitute_contact_force {
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of
  *          another law; a new contact of less than ten steps; a normal that has turned by 60
  *          degrees towards the stored axis, see @ref restitute_contact_turn. State and force are
- *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is not finite; it cannot
- *          be repaired */
+ *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is not finite; the state
+ *          is spoilt then, `force` is untouched */
 RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
     const restitute_contact_rates *rates, const restitute_contact_motion *motion, double *state,
     restitute_contact_force *force, restitute_error *error);
@@ -169,7 +169,10 @@ RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
 /** Advance n contacts of one law, the i-th with states + i stride.
  *
  *  @param statuses  optional: n statuses. A contact that fails stops no other
- *  @return OK, or the status of the first contact that failed, named in `error` */
+ *  @return OK, or the status of the first contact that failed, named in `error`, e.g. "motions[7]:
+ *          motion.friction = -1: must be in [0, 1e+06]". A call that is refused as a whole
+ *          (ERROR_NULL; ERROR_STRUCT_SIZE of rates or any motion; rates of another law; a stride
+ *          below the size of a state) touches nothing */
 RESTITUTE_SINCE_0_1 int restitute_contact_step_many(const restitute_contact_law *law,
     const restitute_contact_rates *rates, size_t n, const restitute_contact_motion *motions,
     double *states, size_t stride, restitute_contact_force *forces, int *statuses,

@@ -132,15 +132,16 @@ RESTITUTE_SINCE_0_1 void restitute_cvode_recorder_destroy(restitute_cvode_record
 RESTITUTE_SINCE_0_1 const restitute_method *restitute_cvode_recorder_method(
     const restitute_cvode_recorder *recorder);
 
-/** Events of the last impact, those of the run that gave the pair, in the units of that impact. Of
- *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up. Of an
- *  impact that failed there are none.
+/** Events of the last impact that the method began, those of the run that gave the pair, in the
+ *  units of that impact. A call whose input is refused begins none. Of a sphere that sinks in
+ *  (NO_REBOUND) there are the events up to where it is given up. Of an impact that failed there are
+ *  none.
  *
  *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder,
     restitute_cvode_events *events, restitute_error *error);
 
-/** Work of the last impact. @return OK; ERROR_DOMAIN before an impact; ERROR_NULL,
+/** Work of the last impact that the method began. @return OK; ERROR_DOMAIN before an impact; ERROR_NULL,
  *  ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_work(const restitute_cvode_recorder *recorder,
     restitute_cvode_work *work, restitute_error *error);

@@ -166,7 +166,7 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
 {
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
+                      problem->asked, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
 }
 
 /* What ends a finer run leaves the coarser ones as they are. */
