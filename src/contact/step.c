@@ -165,7 +165,10 @@ static int check_places(const void *motion, const void *state, const void *force
                         restitute_error *error)
 {
     if (motion && state && force) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_NULL, "%s%s is NULL", !motion ? "motion" : !state ? "state" : "force",
+    return rst_report(error, RESTITUTE_ERROR_NULL, "%s%s is NULL",
+                      !motion  ? "motion"
+                      : !state ? "state"
+                               : "force",
                       plural);
 }
 

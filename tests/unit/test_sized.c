@@ -96,7 +96,7 @@ static void sizes_are_checked_in_words(void **state)
 {
     static const char *const unprepared = "must be in [16, 24], a multiple of 8; prepare the struct with "
                                           "restitute_thing_init",
-                            *const newer = "must be at most 24; the program was compiled with later headers";
+                             *const newer = "must be at most 24; the program was compiled with later headers";
     const struct {
         size_t size;
         const char *words; /* NULL: accepted */
