@@ -7,7 +7,7 @@ module rst_euler_ledger
 
 contains
 
-  !> Dissipation of one step, sum over the elements of h sum_k y_k^2/(g_k tau_k) + eta du^2/h.
+  !> Dissipation of one step, sum over the elements of h sum_k f_k^2/(g_k tau_k) + eta du^2/h.
   pure subroutine post_viscous(weight, h, capacity, n, eta, move, n_terms, g, tau, y, account)
     real(dp), intent(in) :: weight, h, eta
     integer(ip), intent(in) :: capacity, n, n_terms
@@ -73,7 +73,7 @@ contains
     end do
   end subroutine post_unloading
 
-  !> Elastic energy (1/2)(G_inf u^2 + sum_k y_k^2/g_k) of the elements first..last that have just
+  !> Elastic energy (1/2)(G_inf u^2 + sum_k f_k^2/g_k) of the elements first..last that have just
   !> left.
   pure subroutine post_left_behind(weight, capacity, first, last, g_inf, u, n_terms, g, y, account)
     real(dp), intent(in) :: weight, g_inf

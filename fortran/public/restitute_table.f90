@@ -6,7 +6,7 @@
 !>     use restitute_table_module
 !>     type(restitute_table) :: table
 !>     status = restitute_table_build(scene, table=table, error=error)
-!>     status = restitute_table_pair(table, normal_speed=v, tangential_speed=u, ez=ez, ex=ex)
+!>     status = restitute_table_pair(table, normal_speed=v, sliding_speed=u, ez=ez, ex=ex)
 !>     call restitute_table_destroy(table)
 !>
 !> A restitute_table_contact between the table and the speeds asks for another contact than the
@@ -159,23 +159,23 @@ module restitute_table_module
       type(restitute_error), intent(inout), optional :: error
     end function c_contact_set
 
-    integer(c_int) function c_pair(table, contact, normal_speed, tangential_speed, ez, ex, error) &
+    integer(c_int) function c_pair(table, contact, normal_speed, sliding_speed, ez, ex, error) &
       bind(c, name="restitute_table_pair")
       import
       type(c_ptr), value :: table
       type(restitute_table_contact), intent(in), optional :: contact
-      real(c_double), value :: normal_speed, tangential_speed
+      real(c_double), value :: normal_speed, sliding_speed
       real(c_double), intent(inout), optional :: ez, ex
       type(restitute_error), intent(inout), optional :: error
     end function c_pair
 
-    integer(c_int) function c_pair_many(table, contact, n, normal_speeds, tangential_speeds, ez, ex, error) &
+    integer(c_int) function c_pair_many(table, contact, n, normal_speeds, sliding_speeds, ez, ex, error) &
       bind(c, name="restitute_table_pair_many")
       import
       type(c_ptr), value :: table
       type(restitute_table_contact), intent(in), optional :: contact
       integer(c_size_t), value :: n
-      real(c_double), intent(in) :: normal_speeds(*), tangential_speeds(*)
+      real(c_double), intent(in) :: normal_speeds(*), sliding_speeds(*)
       real(c_double), intent(inout), optional :: ez(*), ex(*)
       type(restitute_error), intent(inout), optional :: error
     end function c_pair_many
@@ -190,11 +190,11 @@ module restitute_table_module
       type(restitute_error), intent(inout), optional :: error
     end function c_collide
 
-    integer(c_int) function c_flags(table, normal_speed, tangential_speed, flags, error) &
+    integer(c_int) function c_flags(table, normal_speed, sliding_speed, flags, error) &
       bind(c, name="restitute_table_flags")
       import
       type(c_ptr), value :: table
-      real(c_double), value :: normal_speed, tangential_speed
+      real(c_double), value :: normal_speed, sliding_speed
       integer(c_int), intent(inout) :: flags
       type(restitute_error), intent(inout), optional :: error
     end function c_flags
@@ -270,30 +270,30 @@ contains
     status = c_contact_set(table%address, scene, contact, error)
   end function restitute_table_contact_set
 
-  integer(c_int) function restitute_table_pair(table, contact, normal_speed, tangential_speed, ez, ex, error) &
+  integer(c_int) function restitute_table_pair(table, contact, normal_speed, sliding_speed, ez, ex, error) &
     result(status)
     type(restitute_table), intent(in) :: table
     type(restitute_table_contact), intent(in), optional :: contact
-    real(c_double), intent(in) :: normal_speed, tangential_speed
+    real(c_double), intent(in) :: normal_speed, sliding_speed
     real(c_double), intent(inout), optional :: ez, ex
     type(restitute_error), intent(inout), optional :: error
-    status = c_pair(table%address, contact, normal_speed, tangential_speed, ez, ex, error)
+    status = c_pair(table%address, contact, normal_speed, sliding_speed, ez, ex, error)
   end function restitute_table_pair
 
-  integer(c_int) function restitute_table_pair_many(table, contact, normal_speeds, tangential_speeds, ez, ex, error) &
+  integer(c_int) function restitute_table_pair_many(table, contact, normal_speeds, sliding_speeds, ez, ex, error) &
     result(status)
     type(restitute_table), intent(in) :: table
     type(restitute_table_contact), intent(in), optional :: contact
-    real(c_double), intent(in) :: normal_speeds(:), tangential_speeds(:)
+    real(c_double), intent(in) :: normal_speeds(:), sliding_speeds(:)
     real(c_double), intent(inout), optional :: ez(:), ex(:)
     type(restitute_error), intent(inout), optional :: error
     integer(c_size_t) :: n
     n = size(normal_speeds, kind=c_size_t)
     status = RESTITUTE_OK
-    call check_length("tangential_speeds", tangential_speeds, "normal_speeds", n, status, error)
+    call check_length("sliding_speeds", sliding_speeds, "normal_speeds", n, status, error)
     call check_length("ez", ez, "normal_speeds", n, status, error)
     call check_length("ex", ex, "normal_speeds", n, status, error)
-    if (status == RESTITUTE_OK) status = c_pair_many(table%address, contact, n, normal_speeds, tangential_speeds, &
+    if (status == RESTITUTE_OK) status = c_pair_many(table%address, contact, n, normal_speeds, sliding_speeds, &
                                                      ez, ex, error)
   end function restitute_table_pair_many
 
@@ -306,12 +306,12 @@ contains
     status = c_collide(table%address, contact, first, second, ez, ex, error)
   end function restitute_table_collide
 
-  integer(c_int) function restitute_table_flags(table, normal_speed, tangential_speed, flags, error) result(status)
+  integer(c_int) function restitute_table_flags(table, normal_speed, sliding_speed, flags, error) result(status)
     type(restitute_table), intent(in) :: table
-    real(c_double), intent(in) :: normal_speed, tangential_speed
+    real(c_double), intent(in) :: normal_speed, sliding_speed
     integer(c_int), intent(inout) :: flags
     type(restitute_error), intent(inout), optional :: error
-    status = c_flags(table%address, normal_speed, tangential_speed, flags, error)
+    status = c_flags(table%address, normal_speed, sliding_speed, flags, error)
   end function restitute_table_flags
 
   integer(c_int) function restitute_table_describe(table, info, error) result(status)

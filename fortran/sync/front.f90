@@ -1,12 +1,13 @@
 !> The front of slip (docs/sync.md): the stick radius c as the edge of the corrective contact.
 !>
-!> With the sense d = 1 or -1 of the slip, the stick margin y = f - d q of an element that has stuck
-!> since the edge reached it, at the time t_X, is that of a contact with the velocity v_d = D' - d
-!> U' in place of D':
+!> With the sense sigma = 1 or -1 of the slip, the stick margin y = f - sigma q of an element that
+!> has stuck since the edge reached it, at the time t_X, is that of a contact with the velocity
+!> v_sigma in place of D' (s12). With m_k = M_k - sigma M_k^x and E_k = exp(-(s - t_X)/tau_k),
 !>
-!>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta v_d,  m_k = M_k - d M_k^x,  E_k = exp(-(s - t_X)/tau_k)
+!>   y(X) = sum_k [m_k - E_k m_k(t_X)] + eta v_sigma,  v_sigma = D' - sigma U'
 !>
-!> It is zero at c, and its integral is H = int_0^c y dX = sum_k E_k p_k(t_c), p_k = P_k - d P_k^x.
+!> It is zero at c, and its integral is H = int_0^c y dX = sum_k E_k p_k(t_c) (s13), with p_k = P_k
+!> - sigma P_k^x. For sigma = 1 elements that were touched in gross slip have the same y.
 module rst_front
   use rst_precision, only: dp, ip
   use rst_collocation, only: stages, weights_at
@@ -132,7 +133,7 @@ contains
   end subroutine find_record
 
   !> The element that the edge reached at the angle theta. By A^2 = D the edge moves by dX/dtheta =
-  !> D' (ds/dtheta)/(2 X), and dy/dtheta = -v_d ds/dtheta sum_k g_k E_k.
+  !> D' (ds/dtheta)/(2 X), and dy/dtheta = -v_sigma ds/dtheta sum_k g_k E_k.
   subroutine element_at(normal, store, time, sense, theta, element)
     type(normal_type), intent(in) :: normal
     type(store_type), intent(in) :: store
@@ -172,7 +173,7 @@ contains
              + weight(5)*at(:, 5) + weight(6)*at(:, 6)
   end function interpolated
 
-  !> m_k and p_k of an arm for d = 1 and for d = -1. (As a pointer, since compilers would copy parts
+  !> m_k and p_k of an arm for sigma = 1 and for -1. (As a pointer, since compilers would copy parts
   !> of a component.)
   function corrective_at(weight, corrective, arm, record) result(values)
     real(dp), intent(in) :: weight(0:stages)

@@ -120,8 +120,8 @@ contains
     s%quality = good
   end subroutine stick_all
 
-  !> Partial slip: U' at the points with S = d (F - H), by Newton's steps; H answers as the elements
-  !> that stick do.
+  !> Partial slip: U' at the points with S = sigma (F - H) (s14), by Newton's steps; H answers as
+  !> the elements that stick do.
   subroutine slip_behind(normal, contact, store, interval, sense, warm, s)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

@@ -7,7 +7,7 @@ module rst_store
   private
   public :: contact_type, record_type, piece_type, store_type, of_touch, of_arm, backward, sticks, forward
 
-  !> Sense d of the slip at the edge.
+  !> Sense (sigma) of the slip at the edge.
   enum, bind(c)
     enumerator :: backward = -1, sticks = 0, forward = 1
   end enum
@@ -47,7 +47,7 @@ module rst_store
     integer(ip) :: n_records, n_pieces
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
-    real(dp), pointer, contiguous :: corrective(:, :, :, :) !! (of_arm, 0:stages, arms, records): m_k, p_k for d = 1, for d = -1
+    real(dp), pointer, contiguous :: corrective(:, :, :, :) !! (of_arm, 0:stages, arms, records): m_k, p_k for sigma = 1, for -1
     !> (stages, 0:stages, arms). kernel: of the piece, either its panel's in normal_type or the room
     real(dp), pointer, contiguous, dimension(:, :, :) :: kernel, kernel_room
     real(dp), pointer, contiguous, dimension(:, :) :: memory_z, memory_x, loading_x !! M_k in z, in x, P_k in x

@@ -192,7 +192,7 @@ contains
 
   !> Gross slip to the end: U' follows D'. It lasts if the element that slipped last, the one at the
   !> centre, goes on: its stick margin y stays 0, which asks for the velocity v, and it slips with v
-  !> - v_d.
+  !> - v_sigma.
   subroutine slide(normal, contact, store, panel, x, sense, velocity, found)
     type(normal_type), intent(in) :: normal
     type(contact_type), intent(in) :: contact

@@ -22,7 +22,7 @@
  *      scene.normal_speed = 0.2; scene.tangential_speed = 0.1;                      // m/s
  *      double ez, ex; restitute_scene_pair(&scene, &ez, &ex, NULL);
  *
- *  Rules that hold for every function of every header
+ *  Rules that hold for every function of every header, but for the exceptions at their end
  *  - What can fail returns a @ref restitute_status: 0 done, positive done with a remark, negative
  *    failed. A failed call leaves all its outputs untouched. Its last argument is an optional @ref
  *    restitute_error that names the offending value and its allowed range. Numbers in it have a
@@ -33,7 +33,7 @@
  *    length. Options that are NULL are the defaults; an output that is NULL is not wanted and not
  *    computed, unless it is all that the function is for.
  *  - Nothing is printed, nothing aborts, there is no global state.
- *  - Defaults add nothing: an elastic solid, a rigid partner, no friction, no spin, one thread.
+ *  - Defaults add nothing: an elastic solid, one rigid body, no friction, no spin, one thread.
  *    What a struct needs beyond them is marked as required.
  *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which sets
  *    all defaults. It may grow at its end in later versions: a program that was compiled with older
@@ -48,6 +48,14 @@
  *    restitute_impact.
  *  - Nothing is removed at once: a function is marked as deprecated, with what replaces it, for two
  *    minor versions before it goes.
+ *
+ *  Exceptions
+ *  - Calls for many cases (`_many`) that return the failure of one case have filled the outputs of
+ *    the others. A contact state that was corrupt before (contact.h) may have changed.
+ *  - OpenMP, FFTW (bem.h) and SUNDIALS (cvode.h) can end the program where there is no memory or no
+ *    thread left, and SUNDIALS may print then. Each header says when.
+ *  - FFTW's planner (bem.h) and GSL's error handler (fit.h) are global states of the process.
+ *  - GSL (fit.h) may raise floating-point exceptions.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -133,17 +141,17 @@ RESTITUTE_SINCE_0_1 int restitute_material_maxwell(double modulus, double viscos
 /** The effective solid of two bodies of unlike materials, for a @ref restitute_scene in which one
  *  body deforms.
  *
- *  Compliances add (theory.md, 10): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned
- *  back into one Prony series. Exact if both are incompressible or nu_1 = nu_2 and elastically
- *  similar; for other pairs normal and tangential problem are coupled, which the model neglects, as
- *  usual. Dundurs' constant says how much:
+ *  Compliances add (theory.md, 10): with E_i = 2 G_i/(1-nu_i), the two chains in series are turned
+ *  back into one Prony series. The normal and the tangential problem of a pair are coupled, which
+ *  the model neglects, as usual. Dundurs' constant says how much:
  *
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
  *
- *  see @ref restitute_material_dundurs. The Poisson ratio of the effective solid is the one that
- *  has its ratio of tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum
- *  (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. Where that ratio and beta change with time (unlike nu of
- *  which one relaxes), the instantaneous moduli are taken.
+ *  see @ref restitute_material_dundurs. The model is exact where beta is 0 all the time: if both
+ *  bodies are incompressible, or if (1-2nu1)/G1 = (1-2nu2)/G2. The Poisson ratio of the effective
+ *  solid is the one that has its ratio of tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z
+ *  with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. If nu1 = nu2, it is nu1. Where that
+ *  ratio or beta changes with time, the instantaneous moduli are taken.
  *
  *  The work grows as the square of the number of terms: 1000 with 1000 take half a second.
  *
@@ -187,8 +195,8 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
 
 /* ---------------------------------------------------------------------------- what is to happen */
 
-/** One impact in dimensionless numbers (22),(23). Lengths in d0 = a_el^2/R, times in T = d0/v_z0,
- *  a_el by (24).
+/** One impact in dimensionless numbers (22),(23). Indentations in d0 = a_el^2/R, contact radii in
+ *  a_el by (24), times in T = d0/v_z0, tangential displacements in d0 mu (2-nu)/(2-2nu).
  *
  *      chi    = (1-nu)/(2-nu) (1 + m R^2/J)                 7/6: solid incompressible sphere
  *      psi    = (2-2nu)/(2-nu) |v_x0 + R w0|/(mu v_z0)      0: no slip (mu -> infinity)
@@ -220,7 +228,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, impact)
  *  series: G_eff(t) = G(t)/2. Two unlike materials are one effective solid (@ref
  *  restitute_material_effective) and ONE_BODY_DEFORMS. */
 typedef enum restitute_deformable {
-    RESTITUTE_ONE_BODY_DEFORMS = 1,  /**< the partner is rigid */
+    RESTITUTE_ONE_BODY_DEFORMS = 1,  /**< the other is rigid; it does not matter which */
     RESTITUTE_BOTH_BODIES_DEFORM = 2 /**< both are of `material` */
 } restitute_deformable;
 
@@ -254,7 +262,7 @@ typedef struct restitute_scene {
                                              1e100]; default 0: that of the denser sphere */
 } restitute_scene;
 
-/** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
+/** Prepare with the defaults named above: a wall, one rigid body, no friction, no spin. */
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, scene)
 
 /** What a scene is in dimensionless numbers, and the scales that lead back to SI.
@@ -309,11 +317,13 @@ typedef struct restitute_options {
     size_t struct_size;             /**< set by @ref restitute_options_init */
     const restitute_method *method; /**< default @ref restitute_method_euler */
     double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default
-                                         1e-3 */
+                                         1e-3. OK means that the estimates meet it. They are no
+                                         bounds: see docs/records/accuracy.md for true errors */
     int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0
-                                         (default): chosen. For `sync` points of collocation,
-                                         lowered to 6 times a power of two, from 24 to 1536, and
-                                         more where panels are halved; `cvode` takes up to 16384 */
+                                         (default): chosen. For `sync` points of collocation: 24,
+                                         48, 96, ... or 1536, the largest of them that is not above
+                                         the given number, or 24; there are more where panels are
+                                         halved. `cvode` takes up to 16384 */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene),
                                          in [1e-100, 1e100]; 0 (default): chosen. A step that cannot
                                          be stable is refused with the largest that is */
@@ -382,13 +392,13 @@ RESTITUTE_SINCE_0_1 const char *restitute_flag_text(int flag);
  *  restitute_solve_scene. */
 typedef struct restitute_result {
     size_t struct_size;        /**< set by @ref restitute_result_init */
-    double ez, ex;             /**< restitution pair. Its limits: ex = -1 for mu = 0; psi = 0 gives
-                                    the no-slip value; the sign is that of (26): ex > 0 if the
-                                    contact point turns back */
+    double ez, ex;             /**< restitution pair. ex > 0 if the contact point turns back, as in
+                                    (26). ex = -1 without friction (mu = 0). With psi = 0 it is the
+                                    value without slip */
     double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms
                                     included */
     double contact_time;       /**< T or s; infinity with NO_REBOUND, and of `sync` where ez is less
-                                    than 0.01 tolerance */
+                                    than 0.01 tolerance (not NO_REBOUND if G_inf > 0) */
     double max_indentation;    /**< d0 or m; with NO_REBOUND where the sphere was given up */
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */
@@ -433,9 +443,10 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, ledger)
 
 /** Time history, into arrays of the caller; a NULL array is not wanted. Samples are evenly spaced,
  *  first touch and the end of contact included; of a sphere that sinks in (NO_REBOUND) the method
- *  sync gives first touch alone. Units as in @ref restitute_result; in the dimensionless case the
- *  tangential quantities are U' and the force over mu. In SI tangential quantities have the sign of
- *  the incoming contact-point velocity taken as positive. */
+ *  sync gives first touch alone. Units as in @ref restitute_result. In the dimensionless case the
+ *  tangential velocity is U' (theory.md, 2), and the tangential force is in units of mu m
+ *  v_z0^2/d0. In SI tangential quantities have the sign of the incoming contact-point velocity
+ *  taken as positive. */
 typedef struct restitute_history {
     size_t struct_size;          /**< set by @ref restitute_history_init */
     size_t capacity;             /**< length of every array given, >= 2 */
@@ -479,7 +490,8 @@ RESTITUTE_SINCE_0_1 int restitute_solve_scene(restitute_solver *solver,
  *  With the method `sync` cases that follow each other and differ in psi alone share their normal
  *  motion, as in a @ref restitute_plan.
  *
- *  A case that fails stops no other; its result stays as it was. For the message of each failed
+ *  A case that fails stops no other: its result stays as it was, those of the others are filled,
+ *  though the call returns the failure. For the message of each failed
  *  case, give it to @ref restitute_solve by itself. A long batch that is to show progress or to be
  *  stopped goes in pieces: a call costs no more than one solver a thread.
  *

@@ -6,10 +6,10 @@
  *  material, one friction coefficient. It serves all speeds and angles; for solid spheres it serves
  *  all sizes and other friction coefficients, see @ref restitute_table_contact_set. It then answers
  *
- *      (normal speed, tangential speed)  ->  (ez, ex)
+ *      (normal speed, sliding speed)  ->  (ez, ex)
  *
- *  without allocation, lock or error number, from any number of threads at once. Files of tables:
- *  table_files.h.
+ *  without allocation or lock and without errno, from any number of threads at once. Files of
+ *  tables: table_files.h.
  *
  *  Five lines:
  *
@@ -26,8 +26,8 @@
  *  while it is built: at places between the nodes it is compared with impacts solved afresh.
  *
  *  Limits
- *  - Below the lowest and above the highest speed of the table the number is taken as that of the
- *    end: ez is constant there and ex depends on psi alone. psi itself has no ends.
+ *  - Below the lowest and above the highest speed of the table the solid answers as at that end,
+ *    with its delta1: ez is constant there and ex depends on psi alone. psi itself has no ends.
  *  - v_n -> 0 with v_t > 0: psi -> infinity, ex = -1. v_t = 0: psi = 0, the no-slip value, also
  *    with v_n = 0.
  *  - friction 0: ex = -1, even with v_t = 0. Friction infinity: psi = 0, ex is the no-slip value.
@@ -150,31 +150,31 @@ RESTITUTE_SINCE_0_1 int restitute_table_contact_set(const restitute_table *table
 
 /** The pair of an impact.
  *
- *  @param contact           NULL: the table's own
- *  @param normal_speed      m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
- *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), in [-1e100,
- *                           1e100]; its sign does not matter
- *  @param ez,ex             either may be NULL: not wanted
+ *  @param contact        NULL: the table's own
+ *  @param normal_speed   m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
+ *  @param sliding_speed  m/s, of the contact point (v_x0 + R w0: spin included; that of a scene is
+ *                        of the centres), in [-1e100, 1e100]; its sign does not matter
+ *  @param ez,ex          either may be NULL: not wanted
  *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL, ERROR_STRUCT_SIZE
  *
  *      restitute_table_pair(table, NULL, 0.5, -0.2, &ez, &ex, &error); // after it: 0.5 ez, 0.2 ex */
 RESTITUTE_SINCE_0_1 int restitute_table_pair(const restitute_table *table,
-    const restitute_table_contact *contact, double normal_speed, double tangential_speed,
-    double *ez, double *ex, restitute_error *error);
+    const restitute_table_contact *contact, double normal_speed, double sliding_speed, double *ez,
+    double *ex, restitute_error *error);
 
 /** Many pairs; each has the bits that @ref restitute_table_pair gives it. The calling thread does
  *  all.
  *
- *  @param contact            NULL: the table's own
- *  @param n                  number of impacts; 0 is allowed
- *  @param normal_speeds      n values
- *  @param tangential_speeds  n values
- *  @param ez,ex              n values each; either may be NULL: not wanted
+ *  @param contact         NULL: the table's own
+ *  @param n               number of impacts; 0 is allowed
+ *  @param normal_speeds   n values
+ *  @param sliding_speeds  n values
+ *  @param ez,ex           n values each; either may be NULL: not wanted
  *  @return OK; ERROR_DOMAIN if any speed is out of its range: nothing is written then, and `error`
  *          names the first; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_table_pair_many(const restitute_table *table,
     const restitute_table_contact *contact, size_t n, const double *normal_speeds,
-    const double *tangential_speeds, double *ez, double *ex, restitute_error *error);
+    const double *sliding_speeds, double *ez, double *ex, restitute_error *error);
 
 /** One impact of two bodies, by the table: what @ref restitute_collide does, with the pair from the
  *  table.
@@ -202,7 +202,7 @@ RESTITUTE_SINCE_0_1 int restitute_table_collide(const restitute_table *table,
  *                the options the table was built with. Outside the table's range those of its ends
  *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL */
 RESTITUTE_SINCE_0_1 int restitute_table_flags(const restitute_table *table, double normal_speed,
-    double tangential_speed, int *flags, restitute_error *error);
+    double sliding_speed, int *flags, restitute_error *error);
 
 /* ------------------------------------------------------------------------------ what a table is */
 

@@ -65,7 +65,7 @@ void rst_table_evaluate(const restitute_table *table, double speed, double slidi
 int rst_check_contact(const restitute_table_contact *contact, restitute_error *error);
 
 /* The speeds that are looked up are in their ranges; `place` is "" or "s[i]" of many. */
-int rst_check_speeds(double normal, double tangential, const char *place, restitute_error *error);
+int rst_check_speeds(double normal, double sliding, const char *place, restitute_error *error);
 
 /* Highest value of chi that tables take, and lowest. */
 static const double rst_chi_range[2] = {0.3, 1000};

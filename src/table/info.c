@@ -65,11 +65,11 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
     return rst_done(error);
 }
 
-int restitute_table_flags(const restitute_table *table, double normal_speed, double tangential_speed, int *flags,
+int restitute_table_flags(const restitute_table *table, double normal_speed, double sliding_speed, int *flags,
                           restitute_error *error)
 {
     if (!table || !flags) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "flags" : "table");
-    const int status = rst_check_speeds(normal_speed, tangential_speed, "", error);
+    const int status = rst_check_speeds(normal_speed, sliding_speed, "", error);
     if (status) return status;
     const restitute_table_data *d = &table->d;
     const double v = fmin(fmax(normal_speed, d->low), d->high), place = rst_axis_place(v, NULL);
@@ -82,7 +82,7 @@ int restitute_table_flags(const restitute_table *table, double normal_speed, dou
         const double low = d->strain[3 * i + k], high = d->strain[3 * i + 3 + k];
         at[k] = low > 0 && high <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high); /* nearly powers of v */
     }
-    const double slide = at[SLIDE] * fabs(tangential_speed);
+    const double slide = at[SLIDE] * fabs(sliding_speed);
     *flags = (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
              (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
              (slide > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0);

@@ -210,12 +210,12 @@ int rst_check_contact(const restitute_table_contact *contact, restitute_error *e
                       contact->psi_factor, contact->speed_factor);
 }
 
-int rst_check_speeds(double normal, double tangential, const char *place, restitute_error *error)
+int rst_check_speeds(double normal, double sliding, const char *place, restitute_error *error)
 {
-    if (good_speeds(normal, tangential)) return RESTITUTE_OK;
+    if (good_speeds(normal, sliding)) return RESTITUTE_OK;
     const int at = normal >= 0 && normal <= rst_largest_speed;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s_speed%s (m/s) = %.17g: must be in [%g, %g]",
-                      at ? "tangential" : "normal", place, at ? tangential : normal, at ? -rst_largest_speed : 0,
+                      at ? "sliding" : "normal", place, at ? sliding : normal, at ? -rst_largest_speed : 0,
                       rst_largest_speed);
 }
 
@@ -226,13 +226,13 @@ COLD int refuse(const restitute_table_contact *c, double v_n, double v_t, restit
 }
 
 int restitute_table_pair(const restitute_table *table, const restitute_table_contact *contact, double normal_speed,
-                         double tangential_speed, double *ez, double *ex, restitute_error *error)
+                         double sliding_speed, double *ez, double *ex, restitute_error *error)
 {
     if (!table) return rst_report(error, RESTITUTE_ERROR_NULL, "table is NULL");
     const restitute_table_contact *c = contact ? contact : &table->own;
-    if ((contact && !good_contact(contact)) || !good_speeds(normal_speed, tangential_speed))
-        return refuse(c, normal_speed, tangential_speed, error);
-    const double speed = normal_speed * c->speed_factor, sliding = sliding_of(c, tangential_speed);
+    if ((contact && !good_contact(contact)) || !good_speeds(normal_speed, sliding_speed))
+        return refuse(c, normal_speed, sliding_speed, error);
+    const double speed = normal_speed * c->speed_factor, sliding = sliding_of(c, sliding_speed);
     double own_ez, own_ex;
     evaluate(table, speed, sliding, normal_speed, &own_ez, &own_ex);
     if (ez) *ez = own_ez;
@@ -242,37 +242,37 @@ int restitute_table_pair(const restitute_table *table, const restitute_table_con
 
 /* All speeds are in their ranges. The first loop has no branches; where it fails, the second one
  * finds the place. */
-static int check_many(size_t n, const double *normal, const double *tangential, restitute_error *error)
+static int check_many(size_t n, const double *normal, const double *sliding, restitute_error *error)
 {
     int good = 1;
     char place[32];
     for (size_t i = 0; i < n; i++)
-        good &= good_speeds(normal[i], tangential[i]);
+        good &= good_speeds(normal[i], sliding[i]);
     for (size_t i = 0; !good; i++)
-        if (!good_speeds(normal[i], tangential[i])) {
+        if (!good_speeds(normal[i], sliding[i])) {
             rst_print(place, sizeof place, "s[%zu]", i);
-            return rst_check_speeds(normal[i], tangential[i], place, error);
+            return rst_check_speeds(normal[i], sliding[i], place, error);
         }
     return RESTITUTE_OK;
 }
 
 int restitute_table_pair_many(const restitute_table *table, const restitute_table_contact *contact, size_t n,
-                              const double *normal_speeds, const double *tangential_speeds, double *ez, double *ex,
+                              const double *normal_speeds, const double *sliding_speeds, double *ez, double *ex,
                               restitute_error *error)
 {
-    if (!table || (n > 0 && (!normal_speeds || !tangential_speeds)))
+    if (!table || (n > 0 && (!normal_speeds || !sliding_speeds)))
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
                           !table           ? "table"
                           : !normal_speeds ? "normal_speeds"
-                                           : "tangential_speeds");
+                                           : "sliding_speeds");
     restitute_table_contact c = table->own;
     int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
     if (!status && contact) status = RST_TAKE(table_contact, &c, contact, error);
-    if (!status) status = check_many(n, normal_speeds, tangential_speeds, error);
+    if (!status) status = check_many(n, normal_speeds, sliding_speeds, error);
     if (status) return status;
     for (size_t done = 0; done < n; done += block) {
         double speed[block], sliding[block], own_ez[block], own_ex[block];
-        const double *v_n = normal_speeds + done, *v_t = tangential_speeds + done;
+        const double *v_n = normal_speeds + done, *v_t = sliding_speeds + done;
         const int count = n - done < block ? (int)(n - done) : block;
         for (int i = 0; i < count; i++) {
             speed[i] = v_n[i] * c.speed_factor;

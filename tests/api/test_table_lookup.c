@@ -258,7 +258,7 @@ static void bad_speeds_are_refused(void **state)
     restitute_error error;
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        const char *name = i < 4 ? "normal_speed (m/s) = " : "tangential_speed (m/s) = ";
+        const char *name = i < 4 ? "normal_speed (m/s) = " : "sliding_speed (m/s) = ";
         double ez = 5, ex = 6;
         int flags = 7;
         CHECK(restitute_table_pair(table, NULL, bad[i][0], bad[i][1], &ez, &ex, &error) == RESTITUTE_ERROR_DOMAIN,

@@ -2,7 +2,7 @@
  * equations. These are integrated here by Runge and Kutta's formulas, with small steps and with
  * steps twice as large for the error.
  *
- * Kelvin-Voigt (docs/sync.md, (3) and (9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta
+ * Kelvin-Voigt (docs/sync.md, (s3) and (s9)), compression:  D'' = -(15/8) [(2/3) D^(3/2) + theta
  * sqrt(D) D']
  *                             restitution:  D'' = -(5/4) (D + theta D')^(3/2), until D + theta D' = 0
  * Standard solid (the same), A = sqrt(B) the edge, B = D in compression:

@@ -8,7 +8,7 @@ int main(void)
     restitute_scene scene;
     double ez, ex;
     restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL); /* G1, G2 (Pa), eta (Pa s), nu */
-    restitute_scene_init(&scene);                                           /* a rigid ball on a wall that deforms */
+    restitute_scene_init(&scene);                                           /* ball on wall; one of them is rigid */
     scene.material = rubber;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3; /* m, kg */
     scene.normal_speed = 1.0, scene.tangential_speed = 0.8;           /* m/s */

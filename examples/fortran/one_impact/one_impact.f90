@@ -10,7 +10,7 @@ program one_impact
   integer :: status
 
   status = restitute_material_standard_solid(1e6_rk, 3e6_rk, 300.0_rk, 0.5_rk, rubber) ! G1, G2 (Pa), eta (Pa s), nu
-  scene = restitute_scene() ! a rigid ball on a wall that deforms
+  scene = restitute_scene() ! ball on wall; one of them is rigid
   scene%material = rubber
   scene%radius1 = 0.005_rk  ! m
   scene%mass1 = 0.004_rk    ! kg

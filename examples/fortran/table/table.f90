@@ -18,7 +18,7 @@ program table
 
   ! G1, G2 (Pa), eta (Pa s), nu
   if (restitute_material_standard_solid(1e6_rk, 3e6_rk, 300.0_rk, 0.5_rk, rubber, error) < 0) call fail()
-  scene = restitute_scene() ! a rigid ball on a wall that deforms; its speeds are not used
+  scene = restitute_scene() ! ball on wall; one of them is rigid; its speeds are not used
   scene%material = rubber
   scene%radius1 = 0.005_rk  ! m
   scene%mass1 = 0.004_rk    ! kg
@@ -32,7 +32,7 @@ program table
 
   if (restitute_table_read("rubber.h5", lookup, error) < 0) call fail()
   ! All places in one call; the table's own contact is left out, so what follows it is named.
-  if (restitute_table_pair_many(lookup, normal_speeds=normal, tangential_speeds=slide, ez=ez, ex=ex, error=error) < 0) &
+  if (restitute_table_pair_many(lookup, normal_speeds=normal, sliding_speeds=slide, ez=ez, ex=ex, error=error) < 0) &
     call fail()
   scene%radius1 = 0.004_rk  ! the same table serves another solid ball of steel
   scene%mass1 = 2.048e-3_rk

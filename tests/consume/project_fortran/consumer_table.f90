@@ -41,20 +41,20 @@ program consumer_table
   ! Many places, one place, and the same for a contact that is the table's own.
   small = restitute_table_contact()
   good = good .and. restitute_table_contact_set(table, scene, small, error) == RESTITUTE_OK
-  status = restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides, ez=many(1, :), &
+  status = restitute_table_pair_many(table, normal_speeds=speeds, sliding_speeds=slides, ez=many(1, :), &
                                      ex=many(2, :), error=error)
   good = good .and. status == RESTITUTE_OK
   do k = 1, 3
-    good = good .and. restitute_table_pair(table, normal_speed=speeds(k), tangential_speed=slides(k), ez=ez, ex=ex) == 0
+    good = good .and. restitute_table_pair(table, normal_speed=speeds(k), sliding_speed=slides(k), ez=ez, ex=ex) == 0
     good = good .and. restitute_table_pair(table, small, speeds(k), slides(k), other(1), other(2)) == RESTITUTE_OK
     ! The same bits of many, as table.h says; the factors of the other contact are 1 but for
     ! rounding
     good = good .and. .not. any(abs(many(:, k) - [ez, ex]) > 0) .and. all(abs(other - [ez, ex]) < 1e-12_rk)
   end do
   good = good .and. restitute_table_pair_many(table, small, speeds, slides, ez=many(1, :), error=error) == RESTITUTE_OK
-  status = restitute_table_pair_many(table, normal_speeds=speeds, tangential_speeds=slides(:2), error=error)
+  status = restitute_table_pair_many(table, normal_speeds=speeds, sliding_speeds=slides(:2), error=error)
   good = good .and. status == RESTITUTE_ERROR_DOMAIN
-  good = good .and. restitute_message(error) == "tangential_speeds: must have as many values as normal_speeds, 3; has 2"
+  good = good .and. restitute_message(error) == "sliding_speeds: must have as many values as normal_speeds, 3; has 2"
   good = good .and. restitute_table_flags(table, 10.0_rk, 0.0_rk, flags, error) == RESTITUTE_OK
   good = good .and. iand(flags, RESTITUTE_FLAG_LARGE_CONTACT) /= 0
 
@@ -77,7 +77,7 @@ program consumer_table
   good = good .and. abs(speed(1) - data%low) < 1e-15_rk .and. all(on_speed(1, :) >= 0) .and. all(on_speed(1, :) <= 1)
   call restitute_table_arrays_set(data, int(info%stick_cells), tau, modulus, speed, on_speed, strain, on_psi)
   good = good .and. data%slip_cells == info%slip_cells .and. restitute_table_create(data, copy, error) == RESTITUTE_OK
-  status = restitute_table_pair(copy, normal_speed=0.5_rk, tangential_speed=0.2_rk, ez=ez, ex=ex)
+  status = restitute_table_pair(copy, normal_speed=0.5_rk, sliding_speed=0.2_rk, ez=ez, ex=ex)
   good = good .and. status == RESTITUTE_OK
   good = good .and. .not. any(abs([ez, ex] - many(:, 2)) > 0)
   call restitute_table_destroy(copy)
@@ -92,7 +92,7 @@ program consumer_table
   status = restitute_table_build_many([rubber, rubber], scene, options, count_finished, c_loc(finished), tables, error)
   good = good .and. status == RESTITUTE_OK
   good = good .and. all(finished == 3)
-  good = good .and. restitute_table_pair(tables(2), normal_speed=0.5_rk, tangential_speed=0.2_rk, ex=ex) == RESTITUTE_OK
+  good = good .and. restitute_table_pair(tables(2), normal_speed=0.5_rk, sliding_speed=0.2_rk, ex=ex) == RESTITUTE_OK
   print "(2a, f7.4, a, f7.4)", "table of restitute ", restitute_text(info%version), many(1, 2), ",", many(2, 2)
   do k = 1, 3
     call restitute_table_destroy(tables(k))

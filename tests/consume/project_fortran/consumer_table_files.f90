@@ -28,9 +28,9 @@ program consumer_table_files
   good = good .and. restitute_table_build(scene, options, table, error) == RESTITUTE_OK
   good = good .and. restitute_table_write(table, path, error) == RESTITUTE_OK
   good = good .and. restitute_table_read(path, copy, error) == RESTITUTE_OK
-  status = restitute_table_pair(table, normal_speed=1.0_rk, tangential_speed=0.5_rk, ez=pair(1), ex=pair(2))
+  status = restitute_table_pair(table, normal_speed=1.0_rk, sliding_speed=0.5_rk, ez=pair(1), ex=pair(2))
   good = good .and. status == 0
-  status = restitute_table_pair(copy, normal_speed=1.0_rk, tangential_speed=0.5_rk, ez=again(1), ex=again(2))
+  status = restitute_table_pair(copy, normal_speed=1.0_rk, sliding_speed=0.5_rk, ez=again(1), ex=again(2))
   good = good .and. status == 0
   good = good .and. .not. any(abs(again - pair) > 0) ! the same bits
   call restitute_table_destroy(copy)
