@@ -19,9 +19,9 @@
  *  A failure of CVODE itself is ERROR_INTEGRATOR with CVODE's words in the message. The method
  *  chooses its steps: `time_step` must be 0. `elements` gives the number of elements over the
  *  largest contact radius, 4 to 16384; half as many are run for the error estimate. CVODE allocates
- *  its own memory in every call. Where there is none left, that is ERROR_MEMORY. Two functions of
- *  SUNDIALS 6.4 do more: SUNContext_Create crashes where the table of its logger is missing, and
- *  CVodeCreate writes to standard error.
+ *  its own memory in every call. Where there is none left, that is ERROR_MEMORY. Out of memory, two
+ *  functions of SUNDIALS 6.4 misbehave: SUNContext_Create crashes where the table of its logger is
+ *  missing, and CVodeCreate writes to standard error.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -141,8 +141,9 @@ RESTITUTE_SINCE_0_1 const restitute_method *restitute_cvode_recorder_method(
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder,
     restitute_cvode_events *events, restitute_error *error);
 
-/** Work of the last impact that the method began. @return OK; ERROR_DOMAIN before an impact; ERROR_NULL,
- *  ERROR_STRUCT_SIZE */
+/** Work of the last impact that the method began.
+ *
+ *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_work(const restitute_cvode_recorder *recorder,
     restitute_cvode_work *work, restitute_error *error);
 

@@ -29,10 +29,9 @@ static const struct rst_range rst_positions = {-1e100, 1e100}; /* m */
 static const struct rst_range rst_lengths = {1e-100, 1e100};   /* of a vector that is not 0 */
 static const struct rst_range rst_inertias = {1e-150, 1e150};  /* kg m^2 */
 static const struct rst_range rst_densities = {1e-100, 1e100}; /* kg/m^3 */
-/* Of a batch. More would be a mistake; OpenMP ends the program where it cannot start what it is asked
- * for. */
-enum { rst_most_threads = 1024 };
-
 static const double rst_least_friction = 1e-30;                /* but 0 */
+
+/* More would be a mistake; OpenMP ends the program where it cannot start what it is asked for. */
+enum { rst_most_threads = 1024 };
 
 #endif

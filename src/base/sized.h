@@ -1,8 +1,8 @@
 /* Structs that grow at their end: a caller's is shorter than ours where it was compiled with older
  * headers.
  *
- * RST_DEFAULTS defines the _init_sized function of a struct. An entry point reads an input through a
- * copy of full length (RST_TAKE), checks an output (RST_CHECK) and writes no more of it than the
+ * RST_DEFAULTS defines the _init_sized function of a struct. An entry point reads an input through
+ * a copy of full length (RST_TAKE), checks an output (RST_CHECK) and writes no more of it than the
  * caller has (RST_GIVE). Of an array all structs have one size (RST_CHECK_ARRAY). Hot calls read in
  * place what every caller has: the members of the first release.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -38,14 +38,14 @@ struct rst_layout {
  * later than ours. */
 #define RST_CHECK(NAME, value, error) rst_check_layout(&(const struct rst_layout)RST_LAYOUT(NAME), value, error)
 
-/* A status: all n structs of an array of the caller's, the argument `argument`, have one such size. */
-#define RST_CHECK_ARRAY(NAME, array, n, argument, error)                                                               \
-    rst_check_array(&(const struct rst_layout)RST_LAYOUT(NAME), array, n, argument, error)
-
 /* The same in a hot call, in place: no function is called. */
 #define RST_IS_SIZED(NAME, value)                                                                                      \
     (RST_SIZE_UP_TO(restitute_##NAME, RST_LAST_##NAME) <= (value)->struct_size &&                                      \
      (value)->struct_size <= sizeof *(value) && (value)->struct_size % sizeof(size_t) == 0)
+
+/* A status: all n structs of an array, the argument `argument`, have one such size. */
+#define RST_CHECK_ARRAY(NAME, array, n, argument, error)                                                               \
+    rst_check_array(&(const struct rst_layout)RST_LAYOUT(NAME), array, n, argument, error)
 
 /* A status: checks theirs and copies them into ours. Members that they have not get their defaults,
  * all members if theirs are NULL. */

@@ -25,8 +25,8 @@ struct restitute_solver {
 /* Share of the tolerance for the method by which merged terms may change the pair. */
 static const double merging_share = 0.1;
 
-/* Slip is left out where it changes e_x by less than this part of the caller's tolerance. The method
- * gets the rest. Twice as much would ask it for a third more accuracy. */
+/* Slip is left out where it changes e_x by less than this part of the caller's tolerance. The
+ * method gets the rest. Twice as much would ask it for a third more accuracy. */
 static const double share_of_slip = 0.25;
 
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */

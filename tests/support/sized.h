@@ -12,9 +12,9 @@ enum { guarded_bytes = 16384 };
 
 /* `call` of a struct restitute_NAME at `place`, of which `why` is the error: it refuses one that is
  * shorter than in the first release and one that is longer than the library's, says which, and
- * touches nothing of them. Nor does the init function write beyond the size that it is given. What a
- * longer one has beyond ours becomes 0. No padding is behind the last member, since a later one must
- * begin behind the struct of an old caller. */
+ * touches nothing of them. Nor does the init function write beyond the size that it is given. What
+ * a longer one has beyond ours becomes 0. No padding is behind the last member, since a later one
+ * must begin behind the struct of an old caller. */
 #define CHECK_SIZES(NAME, last, place, why, call)                                                                      \
     do {                                                                                                               \
         _Static_assert(offsetof(restitute_##NAME, last) + sizeof((restitute_##NAME *)0)->last ==                       \
