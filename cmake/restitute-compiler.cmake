@@ -34,7 +34,8 @@ endfunction()
 
 # No contraction to fused multiply-add: the same numbers on every machine that has IEEE arithmetic.
 # Clang would compute both branches of a selection, and so divide by 0 where the source does not:
-# hosts trap that. POSIX for newlocale, by which numbers in texts have a point (src/base/report.h).
+# hosts trap that. POSIX for files, clocks and newlocale, by which numbers in texts have a point
+# (src/base/report.h).
 restitute_accepted_flags(C RESTITUTE_C_FLAGS -Wall -Wextra -ffp-contract=off -ffp-exception-behavior=maytrap)
 list(APPEND RESTITUTE_C_FLAGS -D_POSIX_C_SOURCE=200809L)
 restitute_accepted_flags(Fortran RESTITUTE_FORTRAN_FLAGS -std=f2018 -Wall -Wextra -ffp-contract=off -fopenmp-simd)

@@ -124,13 +124,13 @@ endif()
 restitute_decide(RESTITUTE_FORTRAN "the Fortran modules" RESTITUTE_WITH_FORTRAN #
                  RESTITUTE_FORTRAN_PROGRAMS_LINK "the Fortran run-time library")
 
-# The components that have a Fortran module of their own here; table comes before table_files, which
-# uses it.
-set(RESTITUTE_FORTRAN_COMPONENTS "")
+# The components that are built, besides core; each has a folder of src, a header, a package file
+# and a Fortran module. table comes before table_files, which uses it.
+set(RESTITUTE_COMPONENTS "")
 foreach(component IN ITEMS bem contact cvode files fit table table_files)
   string(TOUPPER "RESTITUTE_WITH_${component}" with)
-  if(RESTITUTE_WITH_FORTRAN AND ${with})
-    list(APPEND RESTITUTE_FORTRAN_COMPONENTS ${component})
+  if(${with})
+    list(APPEND RESTITUTE_COMPONENTS ${component})
   endif()
 endforeach()
 

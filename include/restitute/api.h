@@ -29,8 +29,9 @@
  *
  *  It tells the library how long the caller's struct is, so that a program keeps working with a
  *  later library whose struct has more members. Languages without inline functions call
- *  restitute_NAME_init_sized. A struct longer than the library's gets struct_size alone: the
- *  program was compiled with later headers, and every call that is given the struct refuses it. */
+ *  restitute_NAME_init_sized. A struct longer than the library's gets zeros behind the
+ *  members that the library knows: the program was compiled with later headers, and every call that
+ *  is given the struct refuses it. */
 #define RESTITUTE_INIT(since, name)                                                                \
     since void restitute_##name##_init_sized(restitute_##name *value, size_t size);                \
     static inline void restitute_##name##_init(restitute_##name *value)                            \

@@ -50,11 +50,12 @@ typedef struct restitute_contact_law_options {
                              BOTH_BODIES_DEFORM */
     int elements;       /**< 8 (default), 16, 24 or 32: the error falls with the square, cost and
                              memory grow */
-    int terms;          /**< most Prony terms kept, 1 to 8; default 4. More in the material are
-                             reduced, which needs: */
-    double shortest;    /**< s, >= 1e-60: times from here, the time step of the host, ... */
-    double longest;     /**< s, > shortest, <= 1e60: ... to here, the longest contact time of
-                             interest, are met. Default 0, 0; only read if terms are reduced */
+    int terms;          /**< most Prony terms kept, 1 to 8; default 4. A material with more is
+                             reduced to so many, which meet G(t) from `shortest` to `longest` */
+    /** s, 1e-60 <= shortest < longest <= 1e60: the time step of the host and the longest contact
+     *  time of interest. Required if terms are reduced, else not read; default 0 */
+    double shortest;
+    double longest;     /**< see `shortest` */
     int frictionless;   /**< nonzero: no tangential force, no states for it; default 0 */
     int energies;       /**< nonzero: two more doubles a contact, for @ref
                              restitute_contact_energies_get; default 0 */
@@ -125,7 +126,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_rates)
 RESTITUTE_SINCE_0_1 int restitute_contact_rates_set(const restitute_contact_law *law, double step,
     restitute_contact_rates *rates, restitute_error *error);
 
-/** One time step of one contact. */
+/** One time step of one contact. What has no other default is 0. */
 typedef struct restitute_contact_motion {
     size_t struct_size;                    /**< set by @ref restitute_contact_motion_init */
     double overlap;                        /**< m, at the end of the step, at most radius; <= 0:
@@ -136,13 +137,15 @@ typedef struct restitute_contact_motion {
     double displacement[3];                /**< m, of the surface of body 1 past that of body 2 in
                                                 the step; its normal part is ignored. Each up to
                                                 radius */
-    double normal[3];                      /**< unit vector from body 1 into body 2 */
+    double normal[3];                      /**< unit vector from body 1 into body 2; default (0,
+                                                0, 1) */
     double half_step_over_mass;            /**< s/kg, step/(2 m), m effective; 0 for motion that
                                                 forces do not change; up to 1e30, as the next */
     double half_step_over_tangential_mass; /**< s/kg, the same with 1/m1 + R1^2/J1 + 1/m2 + R2^2/J2
                                                 for 1/m */
-    double radius;                         /**< m, effective, in [1e-15, 1e15] */
-    double friction;                       /**< coefficient, in [0, 1e6] */
+    double radius;                         /**< m, effective, in [1e-15, 1e15]; required, default
+                                                0 */
+    double friction;                       /**< coefficient, in [0, 1e6]; default 0 */
 } restitute_contact_motion;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_motion)
@@ -161,16 +164,19 @@ typedef struct restitute_contact_force {
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of
  *          another law; a new contact of less than ten steps; a normal that has turned by 60
  *          degrees towards the stored axis, see @ref restitute_contact_turn. State and force are
- *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is not finite; it cannot
- *          be repaired */
+ *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is not finite; the state
+ *          is spoilt then, `force` is untouched */
 RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
     const restitute_contact_rates *rates, const restitute_contact_motion *motion, double *state,
     restitute_contact_force *force, restitute_error *error);
 
-/** Advance n contacts of one law, the i-th with states + i stride.
+/** Advance n contacts of one law, the i-th with states + i stride; n may be 0.
  *
  *  @param statuses  optional: n statuses. A contact that fails stops no other
- *  @return OK, or the status of the first contact that failed, named in `error` */
+ *  @return OK, or the status of the first contact that failed, named in `error`, e.g. "motions[7]:
+ *          motion.friction = -1: must be in [0, 1e+06]". A call that is refused as a whole
+ *          (ERROR_NULL; ERROR_STRUCT_SIZE of rates or any motion; rates of another law; a stride
+ *          below the size of a state) touches nothing */
 RESTITUTE_SINCE_0_1 int restitute_contact_step_many(const restitute_contact_law *law,
     const restitute_contact_rates *rates, size_t n, const restitute_contact_motion *motions,
     double *states, size_t stride, restitute_contact_force *forces, int *statuses,

@@ -19,9 +19,9 @@
  *  A failure of CVODE itself is ERROR_INTEGRATOR with CVODE's words in the message. The method
  *  chooses its steps: `time_step` must be 0. `elements` gives the number of elements over the
  *  largest contact radius, 4 to 16384; half as many are run for the error estimate. CVODE allocates
- *  its own memory in every call. Where there is none left, that is ERROR_MEMORY. Two functions of
- *  SUNDIALS 6.4 do more: SUNContext_Create crashes where the table of its logger is missing, and
- *  CVodeCreate writes to standard error.
+ *  its own memory in every call. Where there is none left, that is ERROR_MEMORY. Out of memory, two
+ *  functions of SUNDIALS 6.4 misbehave: SUNContext_Create crashes where the table of its logger is
+ *  missing, and CVodeCreate writes to standard error.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -132,16 +132,18 @@ RESTITUTE_SINCE_0_1 void restitute_cvode_recorder_destroy(restitute_cvode_record
 RESTITUTE_SINCE_0_1 const restitute_method *restitute_cvode_recorder_method(
     const restitute_cvode_recorder *recorder);
 
-/** Events of the last impact, those of the run that gave the pair, in the units of that impact. Of
- *  a sphere that sinks in (NO_REBOUND) there are the events up to where it is given up. Of an
- *  impact that failed there are none.
+/** Events of the last impact that the method began, those of the run that gave the pair, in the
+ *  units of that impact. A call whose input is refused begins none. Of a sphere that sinks in
+ *  (NO_REBOUND) there are the events up to where it is given up. Of an impact that failed there are
+ *  none.
  *
  *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder,
     restitute_cvode_events *events, restitute_error *error);
 
-/** Work of the last impact. @return OK; ERROR_DOMAIN before an impact; ERROR_NULL,
- *  ERROR_STRUCT_SIZE */
+/** Work of the last impact that the method began.
+ *
+ *  @return OK; ERROR_DOMAIN before an impact; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_cvode_recorder_work(const restitute_cvode_recorder *recorder,
     restitute_cvode_work *work, restitute_error *error);
 

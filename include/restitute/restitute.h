@@ -27,18 +27,20 @@
  *    failed. A failed call leaves all its outputs untouched. Its last argument is an optional @ref
  *    restitute_error that names the offending value and its allowed range. Numbers in it have a
  *    decimal point, whatever the locale.
- *  - What returns a value (a number, a text, a method) cannot fail. It answers NULL and what is
- *    unknown with 0, NaN, NULL or a text, as stands beside it.
+ *  - What returns a value (a number, a text, a method) cannot fail. For NULL or unknown input it
+ *    returns 0, NaN, NULL or a text; its comment says which.
  *  - Arguments come in one order: the object, input, options, output, error. Arrays follow their
- *    length. Options that are NULL are the defaults; an output that is NULL is not wanted and not
- *    computed, unless it is all that the function is for.
+ *    length. Where the length may be 0, the arrays may then be NULL: object and options are checked
+ *    and nothing else is done. Options that are NULL are the defaults; an output that is NULL is
+ *    not wanted and not computed, unless it is all that the function is for.
  *  - Nothing is printed, nothing aborts, there is no global state.
  *  - Defaults add nothing: an elastic solid, one rigid body, no friction, no spin, one thread.
  *    What a struct needs beyond them is marked as required.
  *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which sets
  *    all defaults. It may grow at its end in later versions: a program that was compiled with older
- *    headers keeps working, and what it does not know keeps its default. In an array the
- *    `struct_size` of the first is the distance to the next. Other structs never change.
+ *    headers keeps working, and what it does not know keeps its default. All
+ *    structs of an array have one `struct_size`, that of the first, which is also their distance in
+ *    bytes. Other structs never change.
  *  - Numbers have the ranges that stand beside them, wider than any system of units needs; what is
  *    outside is refused. Within them nothing overflows: no call raises FE_INVALID, FE_DIVBYZERO or
  *    FE_OVERFLOW, which hosts may trap.
@@ -155,7 +157,7 @@ RESTITUTE_SINCE_0_1 int restitute_material_maxwell(double modulus, double viscos
  *
  *  The work grows as the square of the number of terms: 1000 with 1000 take half a second.
  *
- *  @param material1,material2  any two materials; may be the same
+ *  @param material1,material2  any but effective ones; may be the same
  *  @param effective            the new solid, to be destroyed like any material
  *  @return ERROR_DOMAIN also if the solid leaves the ranges of a material, which takes moduli some
  *          60 decades apart
@@ -208,17 +210,17 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
 typedef struct restitute_impact {
     size_t struct_size;                 /**< set by @ref restitute_impact_init */
     double chi;                         /**< in [1/3, 1000]; default 7/6 */
-    double psi;                         /**< in [0, 1e12] or infinity, within 1e-12 of 0 or 1 taken
-                                             as that; default infinity: no friction */
+    double psi;                         /**< in [0, 1e12] or infinity; values within 1e-12 of 0 or 1
+                                             count as 0 or 1; default infinity: no friction */
     double delta1;                      /**< in [0, 1e12], below 1e-50 taken as 0; default 0:
                                              elastic; not used with `material` */
     double gamma;                       /**< in [0, infinity], below 1e-50 taken as 0, above 1e50 as
                                              infinity; default infinity; not used with `material` */
     const restitute_material *material; /**< optional, any solid instead of (delta1, gamma): its
                                              moduli stand for G/G_r, its times for t/T, with a_el
-                                             formed with G_r; its nu is not used. Its parallel
-                                             viscosity is not above what delta1 allows, here and in
-                                             a scene */
+                                             formed with G_r; its nu is not used. A parallel
+                                             viscosity stronger than delta1 = 1e12 is refused, here
+                                             and in a scene */
 } restitute_impact;
 
 /** Prepare with the defaults named above: an elastic impact without friction. */
@@ -248,8 +250,9 @@ typedef struct restitute_scene {
     double radius1, mass1;              /**< m, kg; required, default 0 */
     double radius2, mass2;              /**< m, kg; infinity allowed; default infinity: a wall */
     double inertia1, inertia2;          /**< kg m^2, in [1e-150, 1e150]; default 0 stands for a
-                                             solid sphere, (2/5) m R^2; not used for a body of
-                                             infinite mass, which is held fast */
+                                             solid sphere, (2/5) m R^2. inertia2 must be 0 for a
+                                             wall; of a sphere with infinite mass2, which is held
+                                             fast, it is not used */
     int rotation_blocked;               /**< nonzero: the spheres cannot rotate; default 0 */
     double friction;                    /**< mu, 0 or >= 1e-30, infinity allowed (no slip); default
                                              0 */
@@ -342,11 +345,11 @@ typedef struct restitute_options {
                                          TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
                                          0.1 s on it is kept within a factor of two; a history,
-                                         events and a ledger come on top. 0 (default): 1 s, but no
-                                         limit where `elements` or `time_step` is given, nor with
-                                         `bem`. infinity: no limit. A call that reaches it returns
-                                         its best with TOLERANCE_NOT_REACHED. That best depends on
-                                         the machine; with max_work it does not */
+                                         events and a ledger come on top. 0 (default): 1 s, or no
+                                         limit if `elements` or `time_step` is given or the method
+                                         is `bem`. infinity: no limit. A call that reaches it
+                                         returns its best with TOLERANCE_NOT_REACHED. That best
+                                         depends on the machine; with max_work it does not */
     double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >=
@@ -449,7 +452,8 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, ledger)
  *  taken as positive. */
 typedef struct restitute_history {
     size_t struct_size;          /**< set by @ref restitute_history_init */
-    size_t capacity;             /**< length of every array given, >= 2 */
+    size_t capacity;             /**< length of every array given, in [2, 1e9]; required, default
+                                      0 */
     size_t count;                /**< out: samples written; with the methods euler and bem not more
                                       than steps and one */
     double *time;
@@ -491,22 +495,21 @@ RESTITUTE_SINCE_0_1 int restitute_solve_scene(restitute_solver *solver,
  *  motion, as in a @ref restitute_plan.
  *
  *  A case that fails stops no other: its result stays as it was, those of the others are filled,
- *  though the call returns the failure. For the message of each failed
- *  case, give it to @ref restitute_solve by itself. A long batch that is to show progress or to be
- *  stopped goes in pieces: a call costs no more than one solver a thread.
+ *  though the call returns the failure. To get the message of a failed case, solve that case alone.
+ *  A long batch that is to show progress or to be stopped goes in pieces: a call costs no more than
+ *  one solver a thread.
  *
  *  @param n         number of cases; 0 is allowed
  *  @param impacts   n cases, each prepared by @ref restitute_impact_init
  *  @param options   for all cases, with the number of threads; NULL: the defaults
  *  @param results   optional: n results, each prepared by @ref restitute_result_init
  *  @param statuses  optional: n statuses, one a case
- *  @param error     optional: of the case that gave the return value, e.g. "impact[17]: psi = -1:
+ *  @param error     optional: of the case that gave the return value, e.g. "impacts[17]: psi = -1:
  *                   must be in [0, 1e+12] or inf"
  *  @return OK if all cases are OK; else the status of the first failed case by index; if none
  *          failed, that of the first with a remark. A call that is refused as a whole (ERROR_NULL,
- *          ERROR_MEMORY, ERROR_DOMAIN of options, ERROR_STRUCT_SIZE of options, impacts[0] or
- *          results[0], since the size is the distance to the next) touches nothing, neither results
- *          nor statuses, and its message names no case
+ *          ERROR_MEMORY, ERROR_DOMAIN of options, ERROR_STRUCT_SIZE of options or of any impact or
+ *          result) touches nothing, neither results nor statuses
  *
  *      restitute_impact impacts[100]; restitute_result results[100]; int statuses[100];
  *      for (int i = 0; i < 100; i++) {
@@ -519,7 +522,7 @@ RESTITUTE_SINCE_0_1 int restitute_solve_many(size_t n, const restitute_impact *i
     restitute_error *error);
 
 /** Solve many impacts in SI units, of any materials; otherwise like @ref restitute_solve_many
- *  ("scene[17]: ..."). */
+ *  ("scenes[17]: ..."). */
 RESTITUTE_SINCE_0_1 int restitute_solve_scene_many(size_t n, const restitute_scene *scenes,
     const restitute_options *options, restitute_result *results, int *statuses,
     restitute_error *error);
@@ -588,8 +591,8 @@ typedef struct restitute_body {
     double mass;        /**< kg; infinity: a sphere held fast; not used for a plane; required,
                              default 0 */
     double inertia;     /**< kg m^2; default 0 stands for a solid sphere */
-    double normal[3];   /**< of a plane: points out of it, of length 1e-100 to 1e100; not used for a
-                             sphere */
+    double normal[3];   /**< of a plane: points out of it, of length 1e-100 to 1e100; required for a
+                             plane, default 0; not used for a sphere */
 } restitute_body;
 
 /** Prepare a body at rest at the origin. */
@@ -603,9 +606,9 @@ typedef struct restitute_collision {
                                              */
     double friction;                    /**< mu, as in @ref restitute_scene; default 0 */
     double touch_gap;                   /**< how far apart, over the sum of the radii (the one
-                                             radius with a plane), bodies still touch; >= 0, default
-                                             1e-6. Overlaps up to a tenth are touch, too */
-    double wave_density;                /**< as in @ref restitute_scene */
+                                             radius with a plane), bodies still touch; in [0, 1],
+                                             default 1e-6. Overlaps up to a tenth are touch, too */
+    double wave_density;                /**< kg/m^3, as in @ref restitute_scene; default 0 */
 } restitute_collision;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, collision)

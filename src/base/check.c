@@ -14,7 +14,7 @@ int rst_check_range(double value, double low, double high, const char *name, res
 
 int rst_check_within(double value, struct rst_range range, double besides, const char *name, restitute_error *error)
 {
-    if ((value >= range.low && value <= range.high) || value == besides) return RESTITUTE_OK;
+    if (rst_is_within(value, range, besides)) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]%s", name, value, range.low,
                       range.high,
                       besides == 0     ? " or 0"

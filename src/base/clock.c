@@ -1,6 +1,5 @@
 /* The clock behind the limit of time (clock.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
 #include "base/clock.h"
 
 #include <time.h>

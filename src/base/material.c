@@ -15,7 +15,7 @@ static int check_term(double value, struct rst_range range, const char *what, si
                       restitute_error *error)
 {
     char name[48];
-    if (value >= range.low && value <= range.high) return RESTITUTE_OK;
+    if (rst_is_within(value, range, NAN)) return RESTITUTE_OK;
     snprintf(name, sizeof name, "%s[%zu] (%s)", what, k, unit);
     return rst_check_within(value, range, NAN, name, error);
 }

@@ -6,9 +6,9 @@
 #include "base/problem.h"
 #include "base/workspace.h"
 
-/* Of this struct and of all that the core and a method share through it: rst_problem,
- * rst_workspace, rst_outcome, rst_history, and the procedures of base. One more with every change
- * of these, since a method may come from a library of another version. */
+/* A method may come from a library of another version. Raise the number with every change of this
+ * struct or of what core and method share through it: rst_problem, rst_workspace, rst_outcome,
+ * rst_history, and the procedures of base. */
 enum { RST_METHOD_NUMBER = 1 };
 
 struct restitute_method {
@@ -22,7 +22,7 @@ struct restitute_method {
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
     int takes_time_step;       /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
     int takes_all_terms;       /* no merging: a fast term would become a dashpot, which this method cannot do */
-    int cheap_without_slip;    /* so that slip is left out where following it errs by more than it changes */
+    int cheap_without_slip;    /* if following slip has a larger error than leaving it out, leave it out */
     int records_between_steps; /* samples of a history may be closer than its steps */
     /* Solve; `outcome` is valid if the status is not negative. keep_ledger: fill
      * outcome->ledger. */

@@ -5,11 +5,11 @@
 #define RST_PROBLEM_H
 
 #include <math.h>
-#include <stdio.h>
 
 #include <restitute/restitute.h>
 
 #include "base/kernels.h"
+#include "base/report.h"
 
 /* Dimensionless solid: moduli over G_r, times over T. The arrays live in the solver's workspace. */
 struct rst_solid {
@@ -32,7 +32,7 @@ struct rst_problem {
     enum rst_mode mode; /* how friction acts, decided once: here, and where the solver leaves out slip */
     double psi;         /* (22), however friction acts: 0 without slip, infinite without friction */
     double shear_speed; /* U' at first touch: psi, or 1 without slip or friction, where U may have any unit */
-    double shear_scale; /* of tangential quantities, the caller's over those here: 1, or psi if slip was left out */
+    double shear_scale; /* caller's tangential unit / ours: 1, or psi if slip was left out */
     double slip_bound;  /* what slip that was left out may change of e_x */
     struct rst_solid solid;
     double tolerance;      /* for the method to meet */
@@ -72,9 +72,9 @@ static inline struct rst_limit rst_spent(const struct rst_problem *problem, int 
 {
     struct rst_limit limit;
     if (by_time)
-        snprintf(limit.text, sizeof limit.text, "time_limit = %g s", problem->time_limit);
+        rst_print(limit.text, sizeof limit.text, "time_limit = %g s", problem->time_limit);
     else
-        snprintf(limit.text, sizeof limit.text, "max_work = %g", problem->max_work);
+        rst_print(limit.text, sizeof limit.text, "max_work = %g", problem->max_work);
     return limit;
 }
 

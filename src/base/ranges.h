@@ -31,4 +31,7 @@ static const struct rst_range rst_inertias = {1e-150, 1e150};  /* kg m^2 */
 static const struct rst_range rst_densities = {1e-100, 1e100}; /* kg/m^3 */
 static const double rst_least_friction = 1e-30;                /* but 0 */
 
+/* More would be a mistake; OpenMP ends the program where it cannot start what it is asked for. */
+enum { rst_most_threads = 1024 };
+
 #endif

@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* vsnprintf and snprintf with a decimal point, whatever locale the program has set: programs read
- * names and messages. */
 int rst_vprint(char *text, size_t size, const char *format, va_list arguments)
 {
     const locale_t none = (locale_t)0, plain = newlocale(LC_ALL_MASK, "C", none);
@@ -29,7 +27,6 @@ int rst_print(char *text, size_t size, const char *format, ...)
     return length;
 }
 
-/* Fill `error` (if wanted) and return `status`. */
 int rst_report(restitute_error *error, int status, const char *format, ...)
 {
     if (error) {
@@ -42,7 +39,6 @@ int rst_report(restitute_error *error, int status, const char *format, ...)
     return status;
 }
 
-/* Add a remark behind what `error` (if wanted) says already; its status stays. */
 void rst_remark(restitute_error *error, const char *format, ...)
 {
     if (error) {
@@ -56,7 +52,6 @@ void rst_remark(restitute_error *error, const char *format, ...)
     }
 }
 
-/* Clear `error` (if wanted) and return OK. */
 int rst_done(restitute_error *error)
 {
     if (error) {

@@ -126,10 +126,9 @@ int restitute_scene_numbers(const restitute_scene *scene, restitute_numbers *num
     restitute_scene s;
     restitute_numbers n;
     if (!scene || !numbers) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "numbers" : "scene");
-    int status = RST_CHECK(scene, scene, error);
+    int status = RST_TAKE(scene, &s, scene, error);
     if (!status) status = RST_CHECK(numbers, numbers, error);
     if (status) return status;
-    RST_TAKE(scene, &s, scene);
     restitute_numbers_init(&n);
     status = check_scene(&s, error);
     if (!status) status = numbers_of(&s, &n, error);

@@ -41,7 +41,7 @@ static int check_member(double value, struct rst_range range, double besides, co
                         restitute_error *error)
 {
     char place[48];
-    if ((value >= range.low && value <= range.high) || value == besides) return RESTITUTE_OK;
+    if (rst_is_within(value, range, besides)) return RESTITUTE_OK;
     snprintf(place, sizeof place, name[0] == ' ' ? "length of %s.%s" : "%s.%s", body, name + (name[0] == ' '));
     return rst_check_within(value, range, besides, place, error);
 }

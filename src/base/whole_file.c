@@ -11,8 +11,7 @@
 
 #include "base/report.h"
 
-/* Open it; `name` stands for it in messages. Without O_NONBLOCK a FIFO would wait for its
- * writer. */
+/* Without O_NONBLOCK a FIFO would wait for its writer. */
 int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size, restitute_error *error)
 {
     struct stat status;
@@ -33,7 +32,6 @@ int rst_open_regular(const char *path, const char *name, uint64_t most, int *fil
                       (unsigned long long)bytes, (unsigned long long)most);
 }
 
-/* All of it, with a NUL behind. The caller frees *bytes. */
 int rst_read_whole(const char *path, const char *name, uint64_t most, char **bytes, size_t *size,
                    restitute_error *error)
 {

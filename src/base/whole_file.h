@@ -1,5 +1,5 @@
 /* Read a whole file into memory. Only regular files of a bounded size: a FIFO or a device would
- * block the reader or fill its memory. Define _POSIX_C_SOURCE before this include.
+ * block the reader or fill its memory.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_WHOLE_FILE_H
 #define RST_WHOLE_FILE_H

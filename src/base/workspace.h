@@ -12,7 +12,7 @@ struct rst_own_memory {
 };
 
 struct rst_workspace {
-    double *terms; /* term_arrays times n_terms values: g, tau, decay, gain, stress */
+    double *terms; /* rst_term_arrays times n_terms values: g, tau, decay, gain, stress */
     size_t terms_size;
     double *elements; /* what the method lays out in it */
     size_t elements_size;

@@ -1,7 +1,5 @@
 /* The lock of FFTW's planner.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "bem/planner.h"
 
 #include <pthread.h>

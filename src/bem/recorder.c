@@ -100,6 +100,9 @@ int restitute_bem_recorder_get(const restitute_bem_recorder *recorder, size_t in
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", recorder ? "snapshot" : "recorder");
     const int status = RST_CHECK(bem_snapshot, snapshot, error);
     if (status) return status;
+    if (recorder->count == 0)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "recorder has no snapshots: restitute_solve makes them with a history");
     if (index >= recorder->count)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "index = %zu: must be below %zu", index, recorder->count);
     const struct snapshot *s = &recorder->snapshots[index];

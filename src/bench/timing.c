@@ -1,7 +1,5 @@
 /* Timing by repetition; the median is not moved by what else the machine does now and then.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "timing.h"
 
 #include <math.h>

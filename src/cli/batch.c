@@ -1,7 +1,5 @@
 /* Many impacts: row after row, into OUT.partial, which becomes OUT at the end.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "batch.h"
 
 #include <signal.h>

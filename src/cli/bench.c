@@ -1,7 +1,5 @@
 /* `restitute bench`: runs what the library restitute_bench measures and writes its tables and figures.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "bench.h"
 
 #include <math.h>

@@ -1,8 +1,6 @@
 /* `restitute bench --bem-campaign`: set after set into PREFIX-bem.csv.partial, whose first line tells the settings.
  * Rows of finished shards may be joined: what is there already is not solved again.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

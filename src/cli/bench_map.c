@@ -1,7 +1,5 @@
 /* `restitute bench --stability`: cell after cell into PREFIX-stability.csv.partial, whose first line tells the
  * settings. SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,5 @@
 /* `restitute fit`: a thin caller of restitute/fit.h.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "fit.h"
 
 #ifdef RESTITUTE_WITH_FIT

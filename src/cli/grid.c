@@ -1,7 +1,5 @@
 /* Reading --grid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "grid.h"
 
 #include <math.h>

@@ -1,7 +1,5 @@
 /* restitute: the command. It reads the command line, calls the library and writes what comes back.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>

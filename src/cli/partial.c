@@ -1,7 +1,5 @@
 /* Interrupted runs: begin, resume, commit.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "partial.h"
 
 #include <stdlib.h>

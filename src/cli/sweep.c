@@ -1,7 +1,5 @@
 /* Figures with a name, one after the other: each is a batch of its own, whose rows become files, a chart and checks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "sweep.h"
 
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 
 RST_DEFAULTS(contact_law_options, .deformable = RESTITUTE_ONE_BODY_DEFORMS, .elements = 8, .terms = 4)
 
-RST_DEFAULTS(contact_rates, .struct_size = 0)
+RST_DEFAULTS(contact_rates, 0)
 
 static int check_options(const restitute_contact_law_options *o, restitute_error *error)
 {
@@ -102,14 +102,10 @@ int restitute_contact_law_create(const restitute_material *material, const resti
                                  restitute_contact_law **law, restitute_error *error)
 {
     restitute_contact_law_options own;
-    int status = RESTITUTE_OK;
     if (!material || !law)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "law" : "material");
-    if (options) status = RST_CHECK(contact_law_options, options, error);
-    if (status) return status;
-    restitute_contact_law_options_init(&own);
-    if (options) rst_copy(&own, sizeof own, options);
-    status = check_options(&own, error);
+    int status = RST_TAKE(contact_law_options, &own, options, error);
+    if (!status) status = check_options(&own, error);
     if (status) return status;
     restitute_contact_law *made = calloc(1, sizeof *made);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for a contact law");

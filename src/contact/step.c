@@ -37,10 +37,11 @@ static int is_unit(const double v[3])
 
 /* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
 static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e30, largest_friction = 1e6;
+static const double least_step = 1e-60, largest_step = 1e60;
 
 RST_DEFAULTS(contact_motion, .normal = {0, 0, 1})
 
-RST_DEFAULTS(contact_energies, .struct_size = 0)
+RST_DEFAULTS(contact_energies, 0)
 
 /* Motions and rates are read in place, since those of every caller have what a step needs. One test
  * for all: comparisons are false for NaN. */
@@ -79,6 +80,10 @@ static int refuse(const restitute_contact_rates *rates, const restitute_contact_
 {
     const int status = RST_CHECK(contact_motion, m, error);
     if (status) return status;
+    if (!(rates->step >= least_step && rates->step <= largest_step))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "rates.step = %g s: must be in [%g, %g]; restitute_contact_rates_set fills rates",
+                          rates->step, least_step, largest_step);
     const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
     const struct {
         const char *name;
@@ -145,12 +150,9 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
     return RESTITUTE_OK;
 }
 
-static int check_call(const restitute_contact_law *law, const restitute_contact_rates *rates, const void *motion,
-                      const void *state, const void *force, restitute_error *error)
+static int check_rates(const restitute_contact_law *law, const restitute_contact_rates *rates, restitute_error *error)
 {
-    if (!law || !rates || !motion || !state || !force)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL",
-                          !law ? "law" : !rates ? "rates" : !motion ? "motion" : !state ? "state" : "force");
+    if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
     if (!RST_IS_SIZED(contact_rates, rates)) return RST_CHECK(contact_rates, rates, error);
     if (rates->law != law->hash)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
@@ -158,11 +160,24 @@ static int check_call(const restitute_contact_law *law, const restitute_contact_
     return RESTITUTE_OK;
 }
 
+/* `plural`: how the names of the arguments end. */
+static int check_places(const void *motion, const void *state, const void *force, const char *plural,
+                        restitute_error *error)
+{
+    if (motion && state && force) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_NULL, "%s%s is NULL",
+                      !motion  ? "motion"
+                      : !state ? "state"
+                               : "force",
+                      plural);
+}
+
 int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
                            const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                            restitute_error *error)
 {
-    int status = check_call(law, rates, motion, state, force, error);
+    int status = check_rates(law, rates, error);
+    if (!status) status = check_places(motion, state, force, "", error);
     if (!status) status = advance(law, rates, motion, state, force, error);
     return status ? status : rst_done(error);
 }
@@ -173,9 +188,9 @@ int restitute_contact_step_many(const restitute_contact_law *law, const restitut
 {
     int first = RESTITUTE_OK;
     restitute_error its;
-    if (n == 0) return rst_done(error);
-    int status = check_call(law, rates, motions, states, forces, error);
-    if (!status) status = RST_CHECK(contact_motion, motions, error);
+    int status = check_rates(law, rates, error);
+    if (!status && n > 0) status = check_places(motions, states, forces, "s", error);
+    if (!status) status = RST_CHECK_ARRAY(contact_motion, motions, n, "motions", error);
     if (status) return status;
     if (stride < law->size)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "stride = %zu: must be at least the size of a state, %zu",
@@ -183,7 +198,7 @@ int restitute_contact_step_many(const restitute_contact_law *law, const restitut
     for (size_t i = 0; i < n; i++) {
         const int one = advance(law, rates, rst_at(motions, i), states + i * stride, &forces[i], &its);
         if (statuses) statuses[i] = one;
-        if (one && !first) first = rst_report(error, one, "contact[%zu]: %.220s", i, its.message);
+        if (one && !first) first = rst_report(error, one, "motions[%zu]: %.220s", i, its.message);
     }
     return first ? first : rst_done(error);
 }

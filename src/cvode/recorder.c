@@ -86,9 +86,8 @@ int restitute_cvode_recorder_events(const restitute_cvode_recorder *recorder, re
 {
     restitute_cvode_events own;
     int status = check_recorder(recorder, events, "events", error);
-    if (!status) status = RST_CHECK(cvode_events, events, error);
+    if (!status) status = RST_TAKE(cvode_events, &own, events, error);
     if (status) return status;
-    RST_TAKE(cvode_events, &own, events);
     if (own.capacity > 0 && !own.event)
         return rst_report(error, RESTITUTE_ERROR_NULL, "events.event is NULL, but events.capacity is %zu",
                           own.capacity);

@@ -636,6 +636,15 @@ static int is_late(struct run *run)
     return clock && run->checks++ % steps_between_looks == 0 && clock() > s->until;
 }
 
+static int spent_all(struct run *run, int by_time)
+{
+    const struct run_setup *s = run->setup;
+    char what[48] = "the normal motion";
+    if (s->n_nodes > 0) snprintf(what, sizeof what, "%lld elements", (long long)s->n_nodes);
+    snprintf(run->text, sizeof run->text, "%s: too little for %s", rst_spent(s->problem, by_time).text, what);
+    return RESTITUTE_ERROR_TOO_MUCH_WORK;
+}
+
 static int check_work(struct run *run)
 {
     const struct run_setup *s = run->setup;
@@ -650,13 +659,9 @@ static int check_work(struct run *run)
         status = RESTITUTE_ERROR_CONVERGENCE;
         snprintf(run->text, size, "more than %lld steps of CVODE", (long long)s->most_steps);
     } else if (spent(run) > s->budget) {
-        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        snprintf(run->text, size, "max_work = %g: reached in a run with elements = %lld; raise it",
-                 s->problem->max_work, (long long)s->n_nodes);
+        status = spent_all(run, 0);
     } else if (is_late(run)) {
-        status = RESTITUTE_ERROR_TOO_MUCH_WORK;
-        snprintf(run->text, size, "time_limit = %g s: reached in a run with elements = %lld; raise it",
-                 s->problem->time_limit, (long long)s->n_nodes);
+        status = spent_all(run, 1);
     }
     return status;
 }

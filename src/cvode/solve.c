@@ -165,8 +165,8 @@ static int too_coarse(const struct rst_problem *problem, const struct rst_outcom
                       restitute_error *error)
 {
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s",
-                      problem->tolerance, outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements; %s", problem->asked,
+                      outcome->error_ez, outcome->error_ex, (long long)outcome->elements, obstacle);
 }
 
 /* What ends a finer run leaves the coarser ones as they are. */

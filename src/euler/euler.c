@@ -228,7 +228,7 @@ static int finish(const struct rst_problem *problem, const struct rst_outcome *o
     const double work = (double)outcome->updates / problem->method->updates_per_second, high = 1;
     if (work < high) return rst_done(error);
     return rst_report(error, RESTITUTE_OK, "tolerance = %g took %.2g nominal seconds; the method sync is far faster",
-                      problem->tolerance, work);
+                      problem->asked, work);
 }
 
 /* Refine elements and step together until the change between levels meets the tolerance. */
@@ -267,12 +267,12 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
     if (found && status == RESTITUTE_ERROR_CONVERGENCE)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                           "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); finer steps are lost in rounding",
-                          problem->tolerance, outcome->error_ez, outcome->error_ex);
+                          problem->asked, outcome->error_ez, outcome->error_ex);
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
     return rst_report(
         error, RESTITUTE_TOLERANCE_NOT_REACHED,
         "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was reached; the method sync is faster",
-        problem->tolerance, outcome->error_ez, outcome->error_ex,
+        problem->asked, outcome->error_ez, outcome->error_ex,
         rst_spent(problem, late || rst_time_left(problem) <= 0).text);
 }
 

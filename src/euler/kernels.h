@@ -7,14 +7,7 @@
 #include "base/kernels.h"
 
 /* Phases of fortran/euler/euler.f90. */
-enum rst_phase {
-    RST_COMPRESSION = 0,
-    RST_RESTITUTION = 1,
-    RST_DONE = 2,
-    RST_SUNK = 3,
-    RST_OVERFLOW = 4,
-    RST_STALLED = 5
-};
+enum { RST_COMPRESSION = 0, RST_RESTITUTION = 1, RST_DONE = 2, RST_SUNK = 3, RST_OVERFLOW = 4, RST_STALLED = 5 };
 
 /* Twin of scene_type. */
 struct euler_scene {

@@ -1,7 +1,5 @@
 /* Strict reading of one number, independent of the program's locale.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include "files/number.h"
 
 #include <errno.h>

@@ -24,8 +24,8 @@ static int check_rows(size_t n, const double *frequency, const double *storage, 
     const double *const arrays[] = {frequency, storage, loss};
     static const char *const names[] = {"frequency", "storage", "loss"};
     char name[40];
-    if (!frequency || !storage || !loss)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "frequency, storage or loss is NULL");
+    for (int k = 0; k < 3; k++)
+        if (!arrays[k]) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", names[k]);
     if (n < 3 || n > 100000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%zu rows: must be in [3, 100000]", n);
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < 3; k++) {
@@ -179,14 +179,11 @@ int restitute_dma_fit(size_t n, const double *frequency, const double *storage, 
 {
     restitute_dma_options o;
     restitute_dma_result r;
-    restitute_dma_options_init(&o);
     restitute_dma_result_init(&r);
     if (!result) return rst_report(error, RESTITUTE_ERROR_NULL, "result is NULL");
     int status = RST_CHECK(dma_result, result, error);
-    if (!status && options) status = RST_CHECK(dma_options, options, error);
-    if (status) return status;
-    if (options) RST_TAKE(dma_options, &o, options);
-    status = check_options(&o, error);
+    if (!status) status = RST_TAKE(dma_options, &o, options, error);
+    if (!status) status = check_options(&o, error);
     if (!status) status = check_rows(n, frequency, storage, loss, temperature, error);
     if (status) return status;
     struct rst_dma *d = calloc(1, sizeof *d);

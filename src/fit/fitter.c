@@ -138,10 +138,8 @@ int restitute_fitter_create(size_t n, const restitute_fit_point *points, const r
 {
     restitute_fit_options own;
     if (!fitter) return rst_report(error, RESTITUTE_ERROR_NULL, "fitter is NULL");
-    int status = options ? RST_CHECK(fit_options, options, error) : RESTITUTE_OK;
+    int status = RST_TAKE(fit_options, &own, options, error);
     if (status) return status;
-    restitute_fit_options_init(&own);
-    if (options) RST_TAKE(fit_options, &own, options);
     restitute_fitter *f = calloc(1, sizeof *f);
     if (!f) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory");
     status = rst_fit_data_create(n, points, &own, &f->data, error);

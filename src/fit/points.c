@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/report.h"
 #include "base/sized.h"
+#include "base/status.h"
 #include "fit/model.h"
 
 RST_DEFAULTS(fit_point, .temperature = NAN, .ez = NAN, .ex = NAN, .contact_time = NAN, .sigma_ez = NAN, .sigma_ex = NAN,
@@ -64,7 +64,7 @@ static int check_options(const restitute_fit_options *o, restitute_error *error)
         status = rst_fit_outside("options.loss", o->loss, RESTITUTE_FIT_LOSS_SQUARES, RESTITUTE_FIT_LOSS_CAUCHY, error);
     if (!status) status = rst_fit_outside("options.confidence", o->confidence, 0.5, 0.999, error);
     if (!status) status = rst_fit_outside("options.starts", o->starts, 0, 100, error);
-    if (!status) status = rst_fit_outside("options.threads", o->threads, 0, 1024, error);
+    if (!status) status = rst_fit_outside("options.threads", o->threads, 0, rst_most_threads, error);
     if (!status && o->model == RESTITUTE_FIT_MODEL_PRONY) {
         status = rst_fit_outside("options.terms", (double)o->terms, 1, 20, error);
         if (!status && !o->relaxation_time)
@@ -146,15 +146,11 @@ static int copy_point(const restitute_fit_point *points, size_t i, struct rst_fi
 {
     const restitute_fit_point *theirs = rst_at(points, i);
     restitute_error inner;
-    if (theirs->struct_size != points->struct_size)
-        return rst_report(error, RESTITUTE_ERROR_STRUCT_SIZE,
-                          "points[%zu].struct_size = %zu: must be %zu, as of the first", i, theirs->struct_size,
-                          points->struct_size);
-    RST_TAKE(fit_point, &d->points[i], theirs);
+    int status = RST_TAKE(fit_point, &d->points[i], theirs, error);
+    if (status) return status;
     if (!theirs->scene) return rst_report(error, RESTITUTE_ERROR_NULL, "points[%zu].scene is NULL", i);
-    const int status = RST_CHECK(scene, theirs->scene, &inner);
+    status = RST_TAKE(scene, &d->scene[i], theirs->scene, &inner);
     if (status) return rst_report(error, status, "points[%zu]: %s", i, inner.message);
-    RST_TAKE(scene, &d->scene[i], theirs->scene);
     d->points[i].scene = &d->scene[i];
     return check_point(i, &d->points[i], d->options.noise_known, error);
 }
@@ -202,7 +198,7 @@ int rst_fit_data_create(size_t n, const restitute_fit_point *points, const resti
     if (!points) return rst_report(error, RESTITUTE_ERROR_NULL, "points is NULL");
     if (n == 0 || n > 1000000) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "n = %zu: must be in [1, 1000000]", n);
     int status = check_options(options, error);
-    if (!status) status = RST_CHECK(fit_point, points, error);
+    if (!status) status = RST_CHECK_ARRAY(fit_point, points, n, "points", error);
     if (!status) status = copy(n, points, options, data, error);
     if (!status) {
         set_solver(data);

@@ -55,9 +55,9 @@ int restitute_collide(restitute_solver *solver, const restitute_collision *colli
                           : !collision ? "collision"
                           : !first     ? "first"
                                        : "second");
-    int status = RST_CHECK(collision, collision, error);
+    int status = RST_TAKE(collision, &c, collision, error);
     if (status) return status;
-    RST_TAKE(collision, &c, collision);
+    if (!c.material) return rst_report(error, RESTITUTE_ERROR_NULL, "collision.material is NULL");
     status = rst_check_range(c.touch_gap, 0, 1, "touch_gap", error);
     if (!status) status = rst_check_bodies(first, second, error);
     if (!status && result) status = RST_CHECK(result, result, error);

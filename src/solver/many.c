@@ -115,17 +115,16 @@ static int report_first(const struct batch *batch, const struct worker *workers,
     for (int i = 1; i < threads; i++)
         if (workers[i].error.status != RESTITUTE_OK) note(&first, workers[i].index, &workers[i].error);
     if (first.error.status == RESTITUTE_OK) return rst_done(error);
-    return rst_report(error, first.error.status, "%s[%zu]: %s", batch->scenes ? "scene" : "impact", first.index,
+    return rst_report(error, first.error.status, "%s[%zu]: %s", batch->scenes ? "scenes" : "impacts", first.index,
                       first.error.message);
 }
 
-/* The size that the first struct of an array names tells how far apart all are: where it is wrong,
- * none can be found. */
+/* Where a struct has another size than the first, the next one cannot be found. */
 static int check_batch(const struct batch *batch, restitute_error *error)
 {
-    if (batch->n == 0) return RESTITUTE_OK;
-    int status = batch->scenes ? RST_CHECK(scene, batch->scenes, error) : RST_CHECK(impact, batch->impacts, error);
-    if (!status && batch->results) status = RST_CHECK(result, batch->results, error);
+    int status = batch->scenes ? RST_CHECK_ARRAY(scene, batch->scenes, batch->n, "scenes", error)
+                               : RST_CHECK_ARRAY(impact, batch->impacts, batch->n, "impacts", error);
+    if (!status && batch->results) status = RST_CHECK_ARRAY(result, batch->results, batch->n, "results", error);
     return status;
 }
 

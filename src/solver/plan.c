@@ -6,7 +6,7 @@
 #include "base/status.h"
 #include "solver/solver.h"
 
-/* One of the two has its struct_size. */
+/* Only the one in use has a struct_size other than 0. */
 struct restitute_plan {
     restitute_solver *solver;
     restitute_impact impact;
@@ -45,10 +45,9 @@ int restitute_plan_create(const restitute_impact *impact, const restitute_option
                           restitute_error *error)
 {
     if (!impact || !plan) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", impact ? "plan" : "impact");
-    int status = RST_CHECK(impact, impact, error);
-    if (status) return status;
     struct restitute_plan input = {0};
-    RST_TAKE(impact, &input.impact, impact);
+    const int status = RST_TAKE(impact, &input.impact, impact, error);
+    if (status) return status;
     input.impact.psi = 0;
     return create(&input, options, plan, error);
 }
@@ -57,10 +56,9 @@ int restitute_plan_create_scene(const restitute_scene *scene, const restitute_op
                                 restitute_error *error)
 {
     if (!scene || !plan) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", scene ? "plan" : "scene");
-    int status = RST_CHECK(scene, scene, error);
-    if (status) return status;
     struct restitute_plan input = {0};
-    RST_TAKE(scene, &input.scene, scene);
+    const int status = RST_TAKE(scene, &input.scene, scene, error);
+    if (status) return status;
     if (!input.scene.material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
     input.scene.tangential_speed = input.scene.spin1 = input.scene.spin2 = 0;
     return create(&input, options, plan, error);

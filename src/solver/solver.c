@@ -22,11 +22,11 @@ struct restitute_solver {
     size_t samples_size;
 };
 
-/* Share of the tolerance by which merged terms may change the pair. */
+/* Share of the tolerance for the method by which merged terms may change the pair. */
 static const double merging_share = 0.1;
 
-/* Slip is left out where it changes e_x by less than this part of the tolerance. The method gets
- * the rest. Twice as much would ask it for a third more accuracy. */
+/* Slip is left out where it changes e_x by less than this part of the caller's tolerance. The
+ * method gets the rest. Twice as much would ask it for a third more accuracy. */
 static const double share_of_slip = 0.25;
 
 /* Merging bounds rise with the largest indentation; the quick guess of it is good to some 10 %. */
@@ -53,10 +53,6 @@ const char *restitute_method_name(const restitute_method *method)
 RST_DEFAULTS(options, .method = &rst_method_euler, .tolerance = 1e-3, .threads = 1, .max_work = 10, .speed_limit = 0.1,
              .radius_limit = 0.1, .displacement_limit = 0.3, .dundurs_limit = 0.1)
 
-/* More would be a mistake; OpenMP ends the program when it cannot start the threads it is asked
- * for. */
-static const int most_threads = 1024;
-
 /* A method of another component may be of another version, with which we share no struct. */
 static int check_method(const restitute_method *method, restitute_error *error)
 {
@@ -79,9 +75,9 @@ static int check_options(const restitute_options *options, restitute_error *erro
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
                             "time_step = %g: must be 0 with the method %s, which chooses its steps itself",
                             options->time_step, options->method->name);
-    if (!status && (options->threads < 0 || options->threads > most_threads))
+    if (!status && (options->threads < 0 || options->threads > rst_most_threads))
         status = rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)",
-                            options->threads, most_threads);
+                            options->threads, rst_most_threads);
     if (!status && !(options->max_work > 0))
         status =
             rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_work = %g: must be > 0 (inf: no limit)", options->max_work);
@@ -95,12 +91,8 @@ static int check_options(const restitute_options *options, restitute_error *erro
 
 int rst_take_options(const restitute_options *options, restitute_options *chosen, restitute_error *error)
 {
-    restitute_options_init(chosen);
-    if (!options) return RESTITUTE_OK;
-    const int status = RST_CHECK(options, options, error);
-    if (status) return status;
-    RST_TAKE(options, chosen, options);
-    return check_options(chosen, error);
+    const int status = RST_TAKE(options, chosen, options, error);
+    return status ? status : check_options(chosen, error);
 }
 
 int restitute_solver_create(const restitute_options *options, restitute_solver **solver, restitute_error *error)
@@ -134,8 +126,8 @@ struct merged {
     double slow_rate, fast_bound; /* bound: slow_rate * contact time + fast_bound */
 };
 
-/* Merge terms whose relaxation does not matter in this contact. `window`: its longest duration, in
- * T. */
+/* Merge terms whose relaxation does not matter in this contact. `window_factor`: its longest
+ * duration over that of a compression. */
 static struct merged merge(struct rst_problem *problem, double window_factor)
 {
     struct rst_solid *s = &problem->solid;
@@ -190,7 +182,7 @@ static int solve_problem(restitute_solver *solver, int keep_ledger, struct rst_p
     return rst_report(error, again, "%s: too little for this impact", rst_spent(&before, 0).text);
 }
 
-/* Who prescribes the resolution has chosen what it takes. */
+/* A prescribed resolution has no time limit. */
 static double time_limit(const restitute_options *o)
 {
     if (o->time_limit > 0) return o->time_limit;
@@ -337,7 +329,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         RST_GIVE(&energies, ledger);
     }
     if (history) {
-        RST_TAKE(history, &series, history);
+        RST_TAKE(history, &series, history, NULL); /* checked above */
         rst_write_history(&samples, &problem.units, &series);
         RST_GIVE(&series, history);
     }
@@ -355,10 +347,9 @@ int restitute_solve(restitute_solver *solver, const restitute_impact *impact, re
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
     if (!impact) return rst_report(error, RESTITUTE_ERROR_NULL, "impact is NULL");
-    status = RST_CHECK(impact, impact, error);
-    if (status) return status;
     restitute_impact own;
-    RST_TAKE(impact, &own, impact);
+    status = RST_TAKE(impact, &own, impact, error);
+    if (status) return status;
     return solve(solver, &(struct input){.impact = &own}, result, ledger, history, error);
 }
 
@@ -368,10 +359,9 @@ int restitute_solve_scene(restitute_solver *solver, const restitute_scene *scene
     int status = check_outputs(solver, result, ledger, history, error);
     if (status) return status;
     if (!scene) return rst_report(error, RESTITUTE_ERROR_NULL, "scene is NULL");
-    status = RST_CHECK(scene, scene, error);
-    if (status) return status;
     restitute_scene own;
-    RST_TAKE(scene, &own, scene);
+    status = RST_TAKE(scene, &own, scene, error);
+    if (status) return status;
     if (!own.material) return rst_report(error, RESTITUTE_ERROR_NULL, "scene.material is NULL");
     return solve(solver, &(struct input){.scene = &own}, result, ledger, history, error);
 }

@@ -29,8 +29,9 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "speed (m/s) = %g to %g: highest over lowest must be <= %g", o->speed[0], o->speed[1],
                           most_ratio);
-    if (o->threads < 0 || o->threads > 1024)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, 1024] (0: all)", o->threads);
+    if (o->threads < 0 || o->threads > rst_most_threads)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)", o->threads,
+                          rst_most_threads);
     if (o->max_impacts <= 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "max_impacts = %lld: must be > 0", (long long)o->max_impacts);
     if (!(o->time_limit > 0))
@@ -43,11 +44,8 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
 
 int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
 {
-    const int status = theirs ? RST_CHECK(table_options, theirs, error) : RESTITUTE_OK;
-    if (status) return status;
-    restitute_table_options_init(ours);
-    if (theirs) rst_copy(ours, sizeof *ours, theirs);
-    return check_options(ours, error);
+    const int status = RST_TAKE(table_options, ours, theirs, error);
+    return status ? status : check_options(ours, error);
 }
 
 /* ---- start */

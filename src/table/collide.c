@@ -55,9 +55,9 @@ int restitute_table_collide(const restitute_table *table, const restitute_table_
                           : !first ? "first"
                                    : "second");
     restitute_table_contact c = table->own;
-    int status = contact ? RST_CHECK(table_contact, contact, error) : RESTITUTE_OK;
+    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    if (!status && contact) status = RST_TAKE(table_contact, &c, contact, error);
     if (status) return status;
-    if (contact) RST_TAKE(table_contact, &c, contact);
     status = rst_check_range(c.touch_gap, 0, 1, "touch_gap", error);
     if (!status) status = rst_check_bodies(first, second, error);
     if (status) return status;

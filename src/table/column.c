@@ -29,9 +29,8 @@ static int without_time(const restitute_material *material)
 int rst_contact_set(const restitute_scene *scene, struct rst_contact *contact, restitute_error *error)
 {
     restitute_scene plain;
-    int status = RST_CHECK(scene, scene, error);
+    int status = RST_TAKE(scene, &plain, scene, error);
     if (status) return status;
-    RST_TAKE(scene, &plain, scene);
     plain.normal_speed = 1;
     plain.tangential_speed = plain.spin1 = plain.spin2 = 0;
     restitute_numbers_init(&contact->numbers);

@@ -78,10 +78,9 @@ int restitute_table_contact_set(const restitute_table *table, const restitute_sc
     restitute_table_contact found;
     if (!table || !scene || !contact)
         return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !table ? "table" : !scene ? "scene" : "contact");
-    int status = RST_CHECK(table_contact, contact, error);
+    int status = RST_TAKE(table_contact, &found, contact, error);
     if (!status) status = rst_contact_set(scene, &c, error);
     if (status) return status;
-    RST_TAKE(table_contact, &found, contact);
     status = bind(table, &c, &found, error);
     if (status) return status;
     RST_GIVE(&found, contact);

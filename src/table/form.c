@@ -160,9 +160,10 @@ static void fill(restitute_table *t, const restitute_table_data *d, int bins)
     t->own.mass = d->mass;
 }
 
-RST_DEFAULTS(table_contact, .speed_factor = 1, .touch_gap = 1e-6)
+/* speed_factor = 0: not set. */
+RST_DEFAULTS(table_contact, .touch_gap = 1e-6)
 
-RST_DEFAULTS(table_data, .struct_size = 0)
+RST_DEFAULTS(table_data, 0)
 
 int restitute_table_data_get(const restitute_table *table, restitute_table_data *data, restitute_error *error)
 {
@@ -189,9 +190,8 @@ int restitute_table_create(const restitute_table_data *data, restitute_table **t
 {
     restitute_table_data d;
     if (!data || !table) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", data ? "table" : "data");
-    int status = RST_CHECK(table_data, data, error);
+    int status = RST_TAKE(table_data, &d, data, error);
     if (status) return status;
-    RST_TAKE(table_data, &d, data);
     d.version[sizeof d.version - 1] = '\0';
     status = check_data(&d, error);
     if (status) return status;

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-RST_DEFAULTS(table_info, .struct_size = 0)
+RST_DEFAULTS(table_info, 0)
 
 enum strain { FAST, LARGE, SLIDE };
 

@@ -202,6 +202,8 @@ int rst_check_contact(const restitute_table_contact *contact, restitute_error *e
 {
     const int status = RST_CHECK(table_contact, contact, error);
     if (status || good_contact(contact)) return status;
+    if (contact->speed_factor == 0)
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "contact is not set: restitute_table_contact_set fills it");
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                       "contact.psi_factor = %g, speed_factor = %g: must be >= 0 and > 0; restitute_table_contact_set "
                       "fills it",
@@ -265,9 +267,9 @@ int restitute_table_pair_many(const restitute_table *table, const restitute_tabl
                                            : "sliding_speeds");
     restitute_table_contact c = table->own;
     int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    if (!status && contact) status = RST_TAKE(table_contact, &c, contact, error);
     if (!status) status = check_many(n, normal_speeds, sliding_speeds, error);
     if (status) return status;
-    if (contact) RST_TAKE(table_contact, &c, contact);
     for (size_t done = 0; done < n; done += block) {
         double speed[block], sliding[block], own_ez[block], own_ex[block];
         const double *v_n = normal_speeds + done, *v_t = sliding_speeds + done;

@@ -110,9 +110,8 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
     for (size_t i = 0; i < count; i++)
         if (!materials[i]) return rst_report(error, RESTITUTE_ERROR_NULL, "materials[%zu] is NULL", i);
     int status = rst_table_take_options(options, &own, error);
-    if (!status) status = RST_CHECK(scene, scene, error);
+    if (!status) status = RST_TAKE(scene, &all, scene, error);
     if (status) return status;
-    RST_TAKE(scene, &all, scene);
     struct work w = {materials, &all, &own, progress, data, NULL, 0, count * (count + 1) / 2, 0};
     w.failed = w.count;
     w.job = calloc(w.count, sizeof *w.job);

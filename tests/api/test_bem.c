@@ -170,6 +170,9 @@ static void history_and_snapshots(void **state)
     (void)state;
     assert_int_equal(restitute_bem_recorder_create(3, &recorder, &error), RESTITUTE_OK);
     assert_true(restitute_bem_recorder_count(recorder) == 0);
+    restitute_bem_snapshot_init(&shot);
+    assert_int_equal(restitute_bem_recorder_get(recorder, 0, &shot, &error), RESTITUTE_ERROR_DOMAIN);
+    assert_non_null(strstr(error.message, "no snapshots"));
     restitute_options options = options_of(20, 0.1);
     options.method = restitute_bem_recorder_method(recorder);
     assert_string_equal(restitute_method_name(options.method), "bem");
@@ -186,7 +189,6 @@ static void history_and_snapshots(void **state)
     for (int i = 0; i < samples; i++)
         CHECK(stick[i] <= radius[i] && (i == 0 || time[i] > time[i - 1]), "sample %d", i);
     assert_int_equal(restitute_bem_recorder_count(recorder), 3);
-    restitute_bem_snapshot_init(&shot);
     assert_int_equal(restitute_bem_recorder_get(recorder, 1, &shot, &error), RESTITUTE_OK);
     CHECK_NEAR(shot.time, result.contact_time / 2, 2 * result.time_step, "the middle one");
     double sum = 0;

@@ -269,7 +269,7 @@ static void what_is_no_impact_is_refused(void **state)
     wrong = collision, wrong.friction = -1;
     refuse(a, b, wrong, "friction");
     wrong = collision, wrong.material = NULL;
-    refuse(a, b, wrong, "material");
+    refuse(a, b, wrong, "collision.material is NULL");
     wrong = collision, wrong.touch_gap = -1;
     refuse(a, b, wrong, "touch_gap");
     CHECK(restitute_collide(solver, &collision, &a, NULL, NULL, NULL) == RESTITUTE_ERROR_NULL, "NULL");

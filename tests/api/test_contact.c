@@ -131,6 +131,8 @@ static void states_and_rates_of_another_law_are_refused(void **unused)
     refuse_motion(&d, "rates");
     drive_set_step(&d, 1e-2);
     refuse_motion(&d, "state");
+    d.rates.step = NAN;
+    refuse_motion(&d, "rates.step = nan s: must be in [1e-60, 1e+60]");
     restitute_error error;
     const double up[3] = {0, 0, 1};
     assert_int_equal(restitute_contact_peek(other, up, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
@@ -266,7 +268,7 @@ static void many_steps_are_single_steps(void **unused)
     }
     assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, batch, stride, many, statuses, &error),
                      RESTITUTE_ERROR_DOMAIN);
-    CHECK(strstr(error.message, "contact[7]: motion.friction = -1") != NULL, "%s", error.message);
+    CHECK(strstr(error.message, "motions[7]: motion.friction = -1") != NULL, "%s", error.message);
     assert_memory_equal(single, batch, sizeof single);
     for (int i = 0; i < n; i++) {
         assert_int_equal(statuses[i], i == 7 ? RESTITUTE_ERROR_DOMAIN : 0);
@@ -274,7 +276,18 @@ static void many_steps_are_single_steps(void **unused)
     }
     assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, batch, 47, many, NULL, &error),
                      RESTITUTE_ERROR_DOMAIN);
-    assert_int_equal(restitute_contact_step_many(law, &d.rates, 0, NULL, NULL, 0, NULL, NULL, &error), 0);
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, 0, NULL, NULL, stride, NULL, NULL, &error), 0);
+    assert_int_equal(restitute_contact_step_many(NULL, &d.rates, 0, NULL, NULL, stride, NULL, NULL, &error),
+                     RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, NULL, stride, many, NULL, &error),
+                     RESTITUTE_ERROR_NULL);
+    assert_string_equal(error.message, "states is NULL");
+    memcpy(single, batch, sizeof single);
+    motions[3].struct_size += 8;
+    assert_int_equal(restitute_contact_step_many(law, &d.rates, n, motions, batch, stride, many, statuses, &error),
+                     RESTITUTE_ERROR_STRUCT_SIZE);
+    CHECK(strncmp(error.message, "motions[3].struct_size", 22) == 0, "%s", error.message);
+    assert_memory_equal(single, batch, sizeof single);
     restitute_contact_law_destroy(law);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/comma_locale.h"
 #include "../support/cvode.h"
 #include "../support/time_limit.h"
 
@@ -106,6 +107,27 @@ static void max_work_ends_with_the_best_result(void **state)
     }
 }
 
+/* The tolerance is the caller's, though slip that is left out takes a part of it. Numbers have a
+ * point in every locale. */
+static void limits_are_named_as_the_caller_gave_them(void **state)
+{
+    static const char *const names[][2] = {{"max_work = 1.5e-06: ", "too little for the normal motion"},
+                                           {"tolerance = 1e-08: ", "max_work = 0.001: "}};
+    const restitute_impact impact = impact_of(7.0 / 6, 1e-9, 1, 1);
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        restitute_options options = cvode_to(1e-8);
+        restitute_error error;
+        options.max_work = i ? 1e-3 : 1.5e-6;
+        restitute_solver *solver = make(options);
+        set_comma_locale();
+        restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
+        setlocale(LC_ALL, "C"); /* before anything can fail */
+        CHECK(strstr(error.message, names[i][0]) && strstr(error.message, names[i][1]), "%s", error.message);
+        restitute_solver_destroy(solver);
+    }
+}
+
 /* Without a limit: a minute. */
 static void time_limit_ends_with_the_best_result(void **state)
 {
@@ -149,7 +171,7 @@ static void arguments_are_checked(void **state)
 }
 
 /* capacity 0 tells how many there are; a short array gets the first ones. Of an impact that failed
- * there are none. */
+ * there are none; one whose input was refused was none. */
 static void events_may_be_counted_first(void **state)
 {
     const struct recording r = record_with(cvode_to(1e-3));
@@ -167,6 +189,11 @@ static void events_may_be_counted_first(void **state)
     events.capacity = 2;
     CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == 0, "%s", error.message);
     CHECK(events.count == count && few[1].kind == RESTITUTE_CVODE_EVENT_ENTRY && few[2].kind == 0, "%zu", events.count);
+    impact.chi = -1;
+    CHECK(restitute_solve(r.solver, &impact, NULL, NULL, NULL, NULL) == RESTITUTE_ERROR_DOMAIN, "chi");
+    CHECK(restitute_cvode_recorder_events(r.recorder, &events, &error) == 0 && events.count == count, "%zu",
+          events.count);
+    impact.chi = 7.0 / 6;
     end_recording(&r);
     restitute_options little = cvode_to(1e-3);
     little.max_work = 1e-5;
@@ -282,6 +309,7 @@ int main(void)
         cmocka_unit_test(failures_touch_nothing),
         cmocka_unit_test(status_follows_the_reported_estimate),
         cmocka_unit_test(max_work_ends_with_the_best_result),
+        cmocka_unit_test(limits_are_named_as_the_caller_gave_them),
         cmocka_unit_test(time_limit_ends_with_the_best_result),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(events_may_be_counted_first),

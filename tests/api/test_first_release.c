@@ -168,6 +168,7 @@ static void a_later_program_is_refused(void **state)
     (void)state;
     restitute_body_init(&plane);
     plane.radius = INFINITY, plane.normal[2] = 1;
+    CHECK(later.options->tolerance == 1e-3, "what both know has its default: cleaning up is safe");
     DONE(restitute_solver_create(NULL, &solver, NULL));
     REFUSED(restitute_solver_create(later.options, &none, &e));
     REFUSED(restitute_scene_numbers(later.scene, old.numbers, &e));

@@ -511,6 +511,8 @@ static void structs_of_other_sizes_are_refused_and_not_touched(void **state)
     points[2].scene = &scenes[2], points[3].struct_size += 8;
     refused(4, points, &options, RESTITUTE_ERROR_STRUCT_SIZE,
             "points[3].struct_size = 80: must be 72, as of the first");
+    CHECK(restitute_dma_fit(4, f, moduli, NULL, NULL, NULL, &series, e) == RESTITUTE_ERROR_NULL, "loss");
+    CHECK(strcmp(error.message, "loss is NULL") == 0, "%s", error.message);
 }
 
 /* The scenes may go, as the points and the options may. */

@@ -318,6 +318,36 @@ static void messages_have_a_point_in_every_locale(void **state)
     assert_int_equal(status, RESTITUTE_ERROR_DOMAIN);
     CHECK(strstr(error.message, "chi = 0.25: must be in [0.333"), "%s", error.message);
     CHECK(kept == ',', "the program's locale was changed");
+    for (int i = 0; i < 2; i++) {
+        restitute_options options = to_tolerance(1e-8);
+        restitute_solver *limited;
+        options.method = i ? restitute_method_sync() : restitute_method_euler();
+        options.max_work = 1.5e-6;
+        CHECK(restitute_solver_create(&options, &limited, NULL) == RESTITUTE_OK, "solver");
+        impact.chi = 1, impact.psi = 0.5;
+        set_comma_locale();
+        restitute_solve(limited, &impact, NULL, NULL, NULL, &error);
+        setlocale(LC_ALL, "C");
+        CHECK(strstr(error.message, "max_work = 1.5e-06: "), "%s", error.message);
+        restitute_solver_destroy(limited);
+    }
+}
+
+/* Slip that is left out takes 2 psi of it. */
+static void messages_name_the_callers_tolerance(void **state)
+{
+    restitute_options options = to_tolerance(1e-8);
+    restitute_impact impact;
+    restitute_solver *limited;
+    restitute_error error;
+    (void)state;
+    restitute_impact_init(&impact);
+    impact.psi = 1e-9, impact.delta1 = impact.gamma = 1;
+    options.max_work = 1e-2;
+    CHECK(restitute_solver_create(&options, &limited, NULL) == RESTITUTE_OK, "solver");
+    CHECK(restitute_solve(limited, &impact, NULL, NULL, NULL, &error) == RESTITUTE_TOLERANCE_NOT_REACHED, "euler");
+    CHECK(strncmp(error.message, "tolerance = 1e-08: ", 19) == 0, "%s", error.message);
+    restitute_solver_destroy(limited);
 }
 
 int main(void)
@@ -331,6 +361,7 @@ int main(void)
         cmocka_unit_test(options_are_checked),
         cmocka_unit_test(null_and_unprepared_outputs_are_refused),
         cmocka_unit_test(messages_have_a_point_in_every_locale),
+        cmocka_unit_test(messages_name_the_callers_tolerance),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

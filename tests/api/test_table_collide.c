@@ -193,7 +193,7 @@ static void refusals(void **state)
         odd.velocity[i] = 2 * b.velocity[i] - a.velocity[i];
     refuse(odd, b, NULL, "approach speed");
     restitute_table_contact_init(&contact);
-    refuse(a, b, &contact, "restitute_table_contact_set");
+    refuse(a, b, &contact, "contact is not set: restitute_table_contact_set fills it");
     assert_int_equal(restitute_table_contact_set(table, &scene, &contact, NULL), RESTITUTE_OK);
     contact.speed_factor = 1e190; /* times the ratio of the masses squared */
     odd = a, odd.mass = 1e-20;

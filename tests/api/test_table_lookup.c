@@ -235,6 +235,8 @@ static void factors_out_of_range(void **state)
     restitute_error error;
     (void)state;
     restitute_table_contact_init(&contact);
+    CHECK(restitute_table_pair(table, &contact, 1, 1, NULL, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "not set");
+    CHECK(strstr(error.message, "not set: restitute_table_contact_set"), "%s", error.message);
     assert_int_equal(restitute_table_contact_set(table, &scene, &contact, &error), RESTITUTE_OK);
     CHECK_NEAR(contact.speed_factor, 1, 1e-15, "the own contact");
     for (int i = 0; i < 2; i++) {

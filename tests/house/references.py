@@ -13,7 +13,7 @@ from pathlib import Path
 from tree import files_of, prose_of
 
 NOT_READ = ("CHANGELOG.md",)  # it names what was
-PLACEHOLDER = re.compile(r".*/file\.f90|.*NAME")
+PLACEHOLDER = re.compile(r".*/file\.f90|.*NAME.*")
 
 
 def sections_of(page):

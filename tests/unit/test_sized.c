@@ -32,14 +32,15 @@ static void init_writes_no_more_than_the_caller_has(void **state)
 {
     struct later x = {.struct_size = 99, .a = 99, .b = 99, .c = 99};
     (void)state;
+    rst_init(&x, sizeof(size_t) - 1, &defaults, sizeof defaults);
+    CHECK(x.struct_size == 99 && x.a == 99, "not even its size: %zu", x.struct_size);
     rst_init(&x, sizeof(struct older), &defaults, sizeof defaults);
     CHECK(x.struct_size == sizeof(struct older) && x.a == 1 && x.b == 99, "older: %zu, %g", x.struct_size, x.a);
     rst_init(&x, sizeof(struct ours), &defaults, sizeof defaults);
     CHECK(x.struct_size == sizeof(struct ours) && x.b == 2 && x.c == 99, "ours: %zu", x.struct_size);
-    x.a = 99;
-    rst_init(&x, sizeof x, &defaults,
-             sizeof defaults); /* what is behind our members has defaults that we do not know */
-    CHECK(x.struct_size == sizeof x && x.a == 99 && x.c == 99, "later: %zu, %g", x.struct_size, x.a);
+    x.a = x.b = 99;
+    rst_init(&x, sizeof x, &defaults, sizeof defaults); /* what is behind our members is unknown: 0 */
+    CHECK(x.struct_size == sizeof x && x.a == 1 && x.b == 2 && x.c == 0, "later: %zu, %g", x.struct_size, x.a);
     rst_init(NULL, sizeof x, &defaults, sizeof defaults);
 }
 
@@ -75,10 +76,27 @@ static void arrays_step_by_the_size_that_the_first_names(void **state)
     }
 }
 
+/* Else a write would end behind the array, or in its next struct. */
+static void structs_of_an_array_have_one_size(void **state)
+{
+    struct ours x[3] = {{sizeof x[0], 0, 0}, {sizeof x[0], 1, 0}, {sizeof x[0], 2, 0}};
+    restitute_error error;
+    (void)state;
+    CHECK(rst_check_array(&layout, NULL, 0, "things", &error) == RESTITUTE_OK, "none");
+    CHECK(rst_check_array(&layout, x, 3, "things", &error) == RESTITUTE_OK, "one size");
+    x[2].struct_size = sizeof(struct older);
+    CHECK(rst_check_array(&layout, x, 2, "things", &error) == RESTITUTE_OK, "before it");
+    CHECK(rst_check_array(&layout, x, 3, "things", &error) == RESTITUTE_ERROR_STRUCT_SIZE, "two sizes");
+    CHECK(strcmp(error.message, "things[2].struct_size = 16: must be 24, as of the first") == 0, "%s", error.message);
+    x[0].struct_size = 8;
+    CHECK(rst_check_array(&layout, x, 3, "things", &error) == RESTITUTE_ERROR_STRUCT_SIZE, "the first");
+}
+
 static void sizes_are_checked_in_words(void **state)
 {
-    static const char *const unprepared = "prepare the struct with restitute_thing_init", *const newer =
-                                                                                              "later headers";
+    static const char *const unprepared = "must be in [16, 24], a multiple of 8; prepare the struct with "
+                                          "restitute_thing_init",
+                             *const newer = "must be at most 24; the program was compiled with later headers";
     const struct {
         size_t size;
         const char *words; /* NULL: accepted */
@@ -86,9 +104,12 @@ static void sizes_are_checked_in_words(void **state)
                  {sizeof(struct ours), NULL},
                  {0, unprepared},
                  {sizeof(struct older) - 8, unprepared},
+                 {sizeof(struct older) + 4, unprepared},
                  {sizeof(struct later), newer},
+                 {3 * sizeof(struct ours), newer},
                  {sizeof(struct ours) + 1, unprepared},
-                 {(size_t)-1, unprepared}};
+                 {(size_t)-1, unprepared},
+                 {(size_t)-8, unprepared}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct later x = {.struct_size = cases[i].size};
@@ -129,6 +150,7 @@ int main(void)
         cmocka_unit_test(an_older_input_is_completed),
         cmocka_unit_test(an_older_output_gets_what_it_has_room_for),
         cmocka_unit_test(arrays_step_by_the_size_that_the_first_names),
+        cmocka_unit_test(structs_of_an_array_have_one_size),
         cmocka_unit_test(sizes_are_checked_in_words),
         cmocka_unit_test(a_method_of_another_version_is_refused),
     };

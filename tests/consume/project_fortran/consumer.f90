@@ -171,7 +171,7 @@ contains
     options%threads = 2
     status = restitute_solve_scene_many(scenes, options, results, statuses, error)
     good = good .and. status == RESTITUTE_ERROR_DOMAIN .and. all(statuses(:4) == status) .and. all(statuses(5:) == 0)
-    good = good .and. index(restitute_message(error), "scene[0]: normal_speed (m/s) = -3") == 1
+    good = good .and. index(restitute_message(error), "scenes[0]: normal_speed (m/s) = -3") == 1
     status = restitute_solve_scene_many(scenes, options, results(2:), error=error)
     good = good .and. status == RESTITUTE_ERROR_DOMAIN
     good = good .and. restitute_message(error) == "results: must have as many values as scenes, 6; has 5"

@@ -108,7 +108,8 @@ RESTITUTE_SINCE_0_1 void restitute_bem_recorder_destroy(restitute_bem_recorder *
 RESTITUTE_SINCE_0_1 const restitute_method *restitute_bem_recorder_method(
     const restitute_bem_recorder *recorder);
 
-/** Snapshots that the last impact left: `count`, or fewer if it had fewer steps; 0 before. */
+/** Snapshots that the last impact with a history left: `count`, or fewer if it had fewer steps; 0
+ *  before. A call whose input is refused leaves those of the impact before it. */
 RESTITUTE_SINCE_0_1 size_t restitute_bem_recorder_count(const restitute_bem_recorder *recorder);
 
 /** @param index     0 to the number of snapshots - 1

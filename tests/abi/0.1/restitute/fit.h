@@ -76,8 +76,7 @@ typedef enum restitute_fit_loss {
 /** What the data leave open, bits of restitute_fit_result.flags; the remarks say it with names and
  *  numbers. */
 typedef enum restitute_fit_flag {
-    RESTITUTE_FIT_FLAG_UNDETERMINED = 1, /**< constants, combinations of them or the model may be
-                                              another */
+    RESTITUTE_FIT_FLAG_UNDETERMINED = 1, /**< other constants or another model fit as well */
     RESTITUTE_FIT_FLAG_SIMPLER = 2,      /**< a model with fewer constants fits as well */
     RESTITUTE_FIT_FLAG_MISFIT = 4,       /**< the data do not follow the model */
     RESTITUTE_FIT_FLAG_LIMITS = 8,       /**< impacts beyond the limits of the contact model (@ref
@@ -96,10 +95,11 @@ typedef struct restitute_fit_point {
                                        reference */
     double ez;                    /**< in [0, 1] */
     double ex;                    /**< in [-1, 1], of the contact point */
-    double contact_time;          /**< s, > 0 */
-    double sigma_ez, sigma_ex;    /**< standard deviations, > 0; NaN (default): 1, a common one */
-    double sigma_contact_time;    /**< s, > 0; NaN: contact_time itself, so that its relative error
-                                       counts like e's */
+    double contact_time;          /**< s, in [1e-100, 1e100] */
+    double sigma_ez, sigma_ex;    /**< standard deviations, in [1e-100, 1e100]; NaN (default): 1, a
+                                       common one */
+    double sigma_contact_time;    /**< s, in [1e-100, 1e100]; NaN (default): contact_time itself,
+                                       so that its relative error counts like e's */
 } restitute_fit_point;
 
 /** Prepare with no scene and NaN for all that is measured. */
@@ -108,13 +108,15 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, fit_point)
 /** How to fit. */
 typedef struct restitute_fit_options {
     size_t struct_size;            /**< set by @ref restitute_fit_options_init */
-    int model;                     /**< a @ref restitute_fit_model */
-    size_t terms;                  /**< PRONY: 1 to 20 */
-    const double *relaxation_time; /**< PRONY: tau_k, s, no two alike; terms values, copied */
-    const double *known;           /**< optional: as many values as the solid has constants, NaN: to
-                                        be fitted; copied */
+    int model;                     /**< a @ref restitute_fit_model; default STANDARD_SOLID */
+    size_t terms;                  /**< PRONY: 1 to 20; required with it, else not read */
+    const double *relaxation_time; /**< PRONY: tau_k, s, in [1e-30, 1e30], no two alike; `terms`
+                                        values, copied; required with it, else not read */
+    const double *known;           /**< optional: as many values as the solid has constants, each in
+                                        [1e-30, 1e30], with PRONY also 0, or NaN: to be fitted;
+                                        copied */
     double poisson_ratio;          /**< in [0, 0.5]; default 0.5 */
-    int loss;                      /**< a @ref restitute_fit_loss */
+    int loss;                      /**< a @ref restitute_fit_loss; default SQUARES */
     int noise_known;               /**< nonzero: the sigmas, all given, are the noise itself;
                                         default 0: only weights */
     double confidence;             /**< of the intervals, in [0.5, 0.999]; default 0.95 */
@@ -162,7 +164,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, fit_result)
 
 /** Fit the constants of a solid to measured impacts. Twenty points take some tenths of a second.
  *
- *  @param n,points  the measurements, each prepared by @ref restitute_fit_point_init
+ *  @param n,points  1 to 1e6 measurements, each prepared by @ref restitute_fit_point_init
  *  @param options   NULL: the defaults
  *  @param result    prepared by @ref restitute_fit_result_init
  *  @param error     optional; names the point, e.g. "points[3].ez = 1.2: must be in [0, 1]"
@@ -246,9 +248,9 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, dma_result)
  *  The loss modulus gives a first series of two terms a decade. All times and moduli are refined
  *  together, then terms merged or removed as long as the Bayesian information criterion falls.
  *
- *  @param n                 rows, at least 3
- *  @param frequency         Hz, > 0: omega = 2 pi f
- *  @param storage,loss      Pa, > 0
+ *  @param n                 rows, 3 to 100000
+ *  @param frequency         Hz, in [1e-30, 1e30]: omega = 2 pi f
+ *  @param storage,loss      Pa, in [1e-30, 1e30]
  *  @param temperature       NULL: one temperature
  *
  *      restitute_dma_fit(n, f, storage, loss, NULL, NULL, &result, &error); */

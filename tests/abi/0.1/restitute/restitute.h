@@ -22,23 +22,25 @@
  *      scene.normal_speed = 0.2; scene.tangential_speed = 0.1;                      // m/s
  *      double ez, ex; restitute_scene_pair(&scene, &ez, &ex, NULL);
  *
- *  Rules that hold for every function of every header
+ *  Rules that hold for every function of every header, but for the exceptions at their end
  *  - What can fail returns a @ref restitute_status: 0 done, positive done with a remark, negative
  *    failed. A failed call leaves all its outputs untouched. Its last argument is an optional @ref
  *    restitute_error that names the offending value and its allowed range. Numbers in it have a
  *    decimal point, whatever the locale.
- *  - What returns a value (a number, a text, a method) cannot fail. It answers NULL and what is
- *    unknown with 0, NaN, NULL or a text, as stands beside it.
+ *  - What returns a value (a number, a text, a method) cannot fail. For NULL or unknown input it
+ *    returns 0, NaN, NULL or a text; its comment says which.
  *  - Arguments come in one order: the object, input, options, output, error. Arrays follow their
- *    length. Options that are NULL are the defaults; an output that is NULL is not wanted and not
- *    computed, unless it is all that the function is for.
+ *    length. Where the length may be 0, the arrays may then be NULL: object and options are checked
+ *    and nothing else is done. Options that are NULL are the defaults; an output that is NULL is
+ *    not wanted and not computed, unless it is all that the function is for.
  *  - Nothing is printed, nothing aborts, there is no global state.
- *  - Defaults add nothing: an elastic solid, a rigid partner, no friction, no spin, one thread.
+ *  - Defaults add nothing: an elastic solid, one rigid body, no friction, no spin, one thread.
  *    What a struct needs beyond them is marked as required.
  *  - A struct whose first member is `struct_size` is prepared by its `_init` function, which sets
  *    all defaults. It may grow at its end in later versions: a program that was compiled with older
- *    headers keeps working, and what it does not know keeps its default. In an array the
- *    `struct_size` of the first is the distance to the next. Other structs never change.
+ *    headers keeps working, and what it does not know keeps its default. All
+ *    structs of an array have one `struct_size`, that of the first, which is also their distance in
+ *    bytes. Other structs never change.
  *  - Numbers have the ranges that stand beside them, wider than any system of units needs; what is
  *    outside is refused. Within them nothing overflows: no call raises FE_INVALID, FE_DIVBYZERO or
  *    FE_OVERFLOW, which hosts may trap.
@@ -48,6 +50,14 @@
  *    restitute_impact.
  *  - Nothing is removed at once: a function is marked as deprecated, with what replaces it, for two
  *    minor versions before it goes.
+ *
+ *  Exceptions
+ *  - Calls for many cases (`_many`) that return the failure of one case have filled the outputs of
+ *    the others. A contact state that was corrupt before (contact.h) may have changed.
+ *  - OpenMP, FFTW (bem.h) and SUNDIALS (cvode.h) can end the program where there is no memory or no
+ *    thread left, and SUNDIALS may print then. Each header says when.
+ *  - FFTW's planner (bem.h) and GSL's error handler (fit.h) are global states of the process.
+ *  - GSL (fit.h) may raise floating-point exceptions.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */
@@ -133,21 +143,21 @@ RESTITUTE_SINCE_0_1 int restitute_material_maxwell(double modulus, double viscos
 /** The effective solid of two bodies of unlike materials, for a @ref restitute_scene in which one
  *  body deforms.
  *
- *  Compliances add (theory.md, 10): with E_i* = 2 G_i/(1-nu_i), the two chains in series are turned
- *  back into one Prony series. Exact if both are incompressible or nu_1 = nu_2 and elastically
- *  similar; for other pairs normal and tangential problem are coupled, which the model neglects, as
- *  usual. Dundurs' constant says how much:
+ *  Compliances add (theory.md, 10): with E_i = 2 G_i/(1-nu_i), the two chains in series are turned
+ *  back into one Prony series. The normal and the tangential problem of a pair are coupled, which
+ *  the model neglects, as usual. Dundurs' constant says how much:
  *
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
  *
- *  see @ref restitute_material_dundurs. The Poisson ratio of the effective solid is the one that
- *  has its ratio of tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z with 1/G_x = sum
- *  (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. Where that ratio and beta change with time (unlike nu of
- *  which one relaxes), the instantaneous moduli are taken.
+ *  see @ref restitute_material_dundurs. The model is exact where beta is 0 all the time: if both
+ *  bodies are incompressible, or if (1-2nu1)/G1 = (1-2nu2)/G2. The Poisson ratio of the effective
+ *  solid is the one that has its ratio of tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z
+ *  with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. If nu1 = nu2, it is nu1. Where that
+ *  ratio or beta changes with time, the instantaneous moduli are taken.
  *
  *  The work grows as the square of the number of terms: 1000 with 1000 take half a second.
  *
- *  @param material1,material2  any two materials; may be the same
+ *  @param material1,material2  any but effective ones; may be the same
  *  @param effective            the new solid, to be destroyed like any material
  *  @return ERROR_DOMAIN also if the solid leaves the ranges of a material, which takes moduli some
  *          60 decades apart
@@ -187,8 +197,8 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
 
 /* ---------------------------------------------------------------------------- what is to happen */
 
-/** One impact in dimensionless numbers (22),(23). Lengths in d0 = a_el^2/R, times in T = d0/v_z0,
- *  a_el by (24).
+/** One impact in dimensionless numbers (22),(23). Indentations in d0 = a_el^2/R, contact radii in
+ *  a_el by (24), times in T = d0/v_z0, tangential displacements in d0 mu (2-nu)/(2-2nu).
  *
  *      chi    = (1-nu)/(2-nu) (1 + m R^2/J)                 7/6: solid incompressible sphere
  *      psi    = (2-2nu)/(2-nu) |v_x0 + R w0|/(mu v_z0)      0: no slip (mu -> infinity)
@@ -200,17 +210,17 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
 typedef struct restitute_impact {
     size_t struct_size;                 /**< set by @ref restitute_impact_init */
     double chi;                         /**< in [1/3, 1000]; default 7/6 */
-    double psi;                         /**< in [0, 1e12] or infinity, within 1e-12 of 0 or 1 taken
-                                             as that; default infinity: no friction */
+    double psi;                         /**< in [0, 1e12] or infinity; values within 1e-12 of 0 or 1
+                                             count as 0 or 1; default infinity: no friction */
     double delta1;                      /**< in [0, 1e12], below 1e-50 taken as 0; default 0:
                                              elastic; not used with `material` */
     double gamma;                       /**< in [0, infinity], below 1e-50 taken as 0, above 1e50 as
                                              infinity; default infinity; not used with `material` */
     const restitute_material *material; /**< optional, any solid instead of (delta1, gamma): its
                                              moduli stand for G/G_r, its times for t/T, with a_el
-                                             formed with G_r; its nu is not used. Its parallel
-                                             viscosity is not above what delta1 allows, here and in
-                                             a scene */
+                                             formed with G_r; its nu is not used. A parallel
+                                             viscosity stronger than delta1 = 1e12 is refused, here
+                                             and in a scene */
 } restitute_impact;
 
 /** Prepare with the defaults named above: an elastic impact without friction. */
@@ -220,7 +230,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, impact)
  *  series: G_eff(t) = G(t)/2. Two unlike materials are one effective solid (@ref
  *  restitute_material_effective) and ONE_BODY_DEFORMS. */
 typedef enum restitute_deformable {
-    RESTITUTE_ONE_BODY_DEFORMS = 1,  /**< the partner is rigid */
+    RESTITUTE_ONE_BODY_DEFORMS = 1,  /**< the other is rigid; it does not matter which */
     RESTITUTE_BOTH_BODIES_DEFORM = 2 /**< both are of `material` */
 } restitute_deformable;
 
@@ -240,8 +250,9 @@ typedef struct restitute_scene {
     double radius1, mass1;              /**< m, kg; required, default 0 */
     double radius2, mass2;              /**< m, kg; infinity allowed; default infinity: a wall */
     double inertia1, inertia2;          /**< kg m^2, in [1e-150, 1e150]; default 0 stands for a
-                                             solid sphere, (2/5) m R^2; not used for a body of
-                                             infinite mass, which is held fast */
+                                             solid sphere, (2/5) m R^2. inertia2 must be 0 for a
+                                             wall; of a sphere with infinite mass2, which is held
+                                             fast, it is not used */
     int rotation_blocked;               /**< nonzero: the spheres cannot rotate; default 0 */
     double friction;                    /**< mu, 0 or >= 1e-30, infinity allowed (no slip); default
                                              0 */
@@ -254,7 +265,7 @@ typedef struct restitute_scene {
                                              1e100]; default 0: that of the denser sphere */
 } restitute_scene;
 
-/** Prepare with the defaults named above: a rigid wall, no friction, no spin. */
+/** Prepare with the defaults named above: a wall, one rigid body, no friction, no spin. */
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, scene)
 
 /** What a scene is in dimensionless numbers, and the scales that lead back to SI.
@@ -309,11 +320,13 @@ typedef struct restitute_options {
     size_t struct_size;             /**< set by @ref restitute_options_init */
     const restitute_method *method; /**< default @ref restitute_method_euler */
     double tolerance;               /**< absolute error of ez and of ex, in [1e-8, 0.1]; default
-                                         1e-3 */
+                                         1e-3. OK means that the estimates meet it. They are no
+                                         bounds: see docs/records/accuracy.md for true errors */
     int64_t elements;               /**< elements over the largest contact radius, 4 to 1e6; 0
-                                         (default): chosen. For `sync` points of collocation,
-                                         lowered to 6 times a power of two, from 24 to 1536, and
-                                         more where panels are halved; `cvode` takes up to 16384 */
+                                         (default): chosen. For `sync` points of collocation: 24,
+                                         48, 96, ... or 1536, the largest of them that is not above
+                                         the given number, or 24; there are more where panels are
+                                         halved. `cvode` takes up to 16384 */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene),
                                          in [1e-100, 1e100]; 0 (default): chosen. A step that cannot
                                          be stable is refused with the largest that is */
@@ -332,11 +345,11 @@ typedef struct restitute_options {
                                          TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
                                          0.1 s on it is kept within a factor of two; a history,
-                                         events and a ledger come on top. 0 (default): 1 s, but no
-                                         limit where `elements` or `time_step` is given, nor with
-                                         `bem`. infinity: no limit. A call that reaches it returns
-                                         its best with TOLERANCE_NOT_REACHED. That best depends on
-                                         the machine; with max_work it does not */
+                                         events and a ledger come on top. 0 (default): 1 s, or no
+                                         limit if `elements` or `time_step` is given or the method
+                                         is `bem`. infinity: no limit. A call that reaches it
+                                         returns its best with TOLERANCE_NOT_REACHED. That best
+                                         depends on the machine; with max_work it does not */
     double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >=
@@ -382,13 +395,13 @@ RESTITUTE_SINCE_0_1 const char *restitute_flag_text(int flag);
  *  restitute_solve_scene. */
 typedef struct restitute_result {
     size_t struct_size;        /**< set by @ref restitute_result_init */
-    double ez, ex;             /**< restitution pair. Its limits: ex = -1 for mu = 0; psi = 0 gives
-                                    the no-slip value; the sign is that of (26): ex > 0 if the
-                                    contact point turns back */
+    double ez, ex;             /**< restitution pair. ex > 0 if the contact point turns back, as in
+                                    (26). ex = -1 without friction (mu = 0). With psi = 0 it is the
+                                    value without slip */
     double error_ez, error_ex; /**< estimated absolute errors of ez and ex, the merging of terms
                                     included */
     double contact_time;       /**< T or s; infinity with NO_REBOUND, and of `sync` where ez is less
-                                    than 0.01 tolerance */
+                                    than 0.01 tolerance (not NO_REBOUND if G_inf > 0) */
     double max_indentation;    /**< d0 or m; with NO_REBOUND where the sphere was given up */
     double max_contact_radius; /**< a_el or m */
     double max_normal_force;   /**< m v_z0^2/d0 or N */
@@ -433,12 +446,14 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, ledger)
 
 /** Time history, into arrays of the caller; a NULL array is not wanted. Samples are evenly spaced,
  *  first touch and the end of contact included; of a sphere that sinks in (NO_REBOUND) the method
- *  sync gives first touch alone. Units as in @ref restitute_result; in the dimensionless case the
- *  tangential quantities are U' and the force over mu. In SI tangential quantities have the sign of
- *  the incoming contact-point velocity taken as positive. */
+ *  sync gives first touch alone. Units as in @ref restitute_result. In the dimensionless case the
+ *  tangential velocity is U' (theory.md, 2), and the tangential force is in units of mu m
+ *  v_z0^2/d0. In SI tangential quantities have the sign of the incoming contact-point velocity
+ *  taken as positive. */
 typedef struct restitute_history {
     size_t struct_size;          /**< set by @ref restitute_history_init */
-    size_t capacity;             /**< length of every array given, >= 2 */
+    size_t capacity;             /**< length of every array given, in [2, 1e9]; required, default
+                                      0 */
     size_t count;                /**< out: samples written; with the methods euler and bem not more
                                       than steps and one */
     double *time;
@@ -479,22 +494,22 @@ RESTITUTE_SINCE_0_1 int restitute_solve_scene(restitute_solver *solver,
  *  With the method `sync` cases that follow each other and differ in psi alone share their normal
  *  motion, as in a @ref restitute_plan.
  *
- *  A case that fails stops no other; its result stays as it was. For the message of each failed
- *  case, give it to @ref restitute_solve by itself. A long batch that is to show progress or to be
- *  stopped goes in pieces: a call costs no more than one solver a thread.
+ *  A case that fails stops no other: its result stays as it was, those of the others are filled,
+ *  though the call returns the failure. To get the message of a failed case, solve that case alone.
+ *  A long batch that is to show progress or to be stopped goes in pieces: a call costs no more than
+ *  one solver a thread.
  *
  *  @param n         number of cases; 0 is allowed
  *  @param impacts   n cases, each prepared by @ref restitute_impact_init
  *  @param options   for all cases, with the number of threads; NULL: the defaults
  *  @param results   optional: n results, each prepared by @ref restitute_result_init
  *  @param statuses  optional: n statuses, one a case
- *  @param error     optional: of the case that gave the return value, e.g. "impact[17]: psi = -1:
+ *  @param error     optional: of the case that gave the return value, e.g. "impacts[17]: psi = -1:
  *                   must be in [0, 1e+12] or inf"
  *  @return OK if all cases are OK; else the status of the first failed case by index; if none
  *          failed, that of the first with a remark. A call that is refused as a whole (ERROR_NULL,
- *          ERROR_MEMORY, ERROR_DOMAIN of options, ERROR_STRUCT_SIZE of options, impacts[0] or
- *          results[0], since the size is the distance to the next) touches nothing, neither results
- *          nor statuses, and its message names no case
+ *          ERROR_MEMORY, ERROR_DOMAIN of options, ERROR_STRUCT_SIZE of options or of any impact or
+ *          result) touches nothing, neither results nor statuses
  *
  *      restitute_impact impacts[100]; restitute_result results[100]; int statuses[100];
  *      for (int i = 0; i < 100; i++) {
@@ -507,7 +522,7 @@ RESTITUTE_SINCE_0_1 int restitute_solve_many(size_t n, const restitute_impact *i
     restitute_error *error);
 
 /** Solve many impacts in SI units, of any materials; otherwise like @ref restitute_solve_many
- *  ("scene[17]: ..."). */
+ *  ("scenes[17]: ..."). */
 RESTITUTE_SINCE_0_1 int restitute_solve_scene_many(size_t n, const restitute_scene *scenes,
     const restitute_options *options, restitute_result *results, int *statuses,
     restitute_error *error);
@@ -576,8 +591,8 @@ typedef struct restitute_body {
     double mass;        /**< kg; infinity: a sphere held fast; not used for a plane; required,
                              default 0 */
     double inertia;     /**< kg m^2; default 0 stands for a solid sphere */
-    double normal[3];   /**< of a plane: points out of it, of length 1e-100 to 1e100; not used for a
-                             sphere */
+    double normal[3];   /**< of a plane: points out of it, of length 1e-100 to 1e100; required for a
+                             plane, default 0; not used for a sphere */
 } restitute_body;
 
 /** Prepare a body at rest at the origin. */
@@ -591,9 +606,9 @@ typedef struct restitute_collision {
                                              */
     double friction;                    /**< mu, as in @ref restitute_scene; default 0 */
     double touch_gap;                   /**< how far apart, over the sum of the radii (the one
-                                             radius with a plane), bodies still touch; >= 0, default
-                                             1e-6. Overlaps up to a tenth are touch, too */
-    double wave_density;                /**< as in @ref restitute_scene */
+                                             radius with a plane), bodies still touch; in [0, 1],
+                                             default 1e-6. Overlaps up to a tenth are touch, too */
+    double wave_density;                /**< kg/m^3, as in @ref restitute_scene; default 0 */
 } restitute_collision;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, collision)

@@ -6,10 +6,10 @@
  *  material, one friction coefficient. It serves all speeds and angles; for solid spheres it serves
  *  all sizes and other friction coefficients, see @ref restitute_table_contact_set. It then answers
  *
- *      (normal speed, tangential speed)  ->  (ez, ex)
+ *      (normal speed, sliding speed)  ->  (ez, ex)
  *
- *  without allocation, lock or error number, from any number of threads at once. Files of tables:
- *  table_files.h.
+ *  without allocation or lock and without errno, from any number of threads at once. Files of
+ *  tables: table_files.h.
  *
  *  Five lines:
  *
@@ -26,8 +26,8 @@
  *  while it is built: at places between the nodes it is compared with impacts solved afresh.
  *
  *  Limits
- *  - Below the lowest and above the highest speed of the table the number is taken as that of the
- *    end: ez is constant there and ex depends on psi alone. psi itself has no ends.
+ *  - Below the lowest and above the highest speed of the table the solid answers as at that end,
+ *    with its delta1: ez is constant there and ex depends on psi alone. psi itself has no ends.
  *  - v_n -> 0 with v_t > 0: psi -> infinity, ex = -1. v_t = 0: psi = 0, the no-slip value, also
  *    with v_n = 0.
  *  - friction 0: ex = -1, even with v_t = 0. Friction infinity: psi = 0, ex is the no-slip value.
@@ -61,8 +61,8 @@ typedef struct restitute_table_options {
                               program whose threads it cannot start, and hangs in a child (fork) of
                               one that used them; 1 never enters it */
     int64_t max_impacts; /**< refinement ends at 0.8 of so many impacts, > 0; default 12000. Checks
-                              come on top: in all it is a tenth more at 12000, twice as many at some
-                              hundred. The build gives its best then, with TOLERANCE_NOT_REACHED, or
+                              add a tenth at 12000 and double the count at some hundred. The build
+                              gives its best then, with TOLERANCE_NOT_REACHED, or
                               ERROR_TOO_MUCH_WORK if the first columns take more */
     double time_limit;   /**< refinement ends likewise at 0.8 of so many seconds of elapsed time, >
                               0, default 20; infinity: no limit. A table that it ends depends on the
@@ -123,7 +123,8 @@ RESTITUTE_SINCE_0_1 void restitute_table_destroy(restitute_table *table);
  *  Filled by @ref restitute_table_contact_set; read-only but for `touch_gap`. */
 typedef struct restitute_table_contact {
     size_t struct_size;  /**< set by @ref restitute_table_contact_init */
-    double speed_factor; /**< speed in the table over speed of this contact */
+    double speed_factor; /**< speed in the table over speed of this contact; default 0: not set,
+                              refused */
     double psi_factor;   /**< psi v_n/|v_t| (22); 0: no slip, infinity: no friction */
     double radius, mass; /**< m, kg: effective ones (docs/theory.md, section 10) of this contact */
     double touch_gap;    /**< as in @ref restitute_collision; default 1e-6 */
@@ -150,31 +151,31 @@ RESTITUTE_SINCE_0_1 int restitute_table_contact_set(const restitute_table *table
 
 /** The pair of an impact.
  *
- *  @param contact           NULL: the table's own
- *  @param normal_speed      m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
- *  @param tangential_speed  m/s, of the contact point (v_x0 + R w0: spin included), in [-1e100,
- *                           1e100]; its sign does not matter
- *  @param ez,ex             either may be NULL: not wanted
+ *  @param contact        NULL: the table's own
+ *  @param normal_speed   m/s, approaching, in [0, 1e100]; what is below 1e-280 counts as 0
+ *  @param sliding_speed  m/s, of the contact point (v_x0 + R w0: spin included; that of a scene is
+ *                        of the centres), in [-1e100, 1e100]; its sign does not matter
+ *  @param ez,ex          either may be NULL: not wanted
  *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL, ERROR_STRUCT_SIZE
  *
- *      restitute_table_pair(table, NULL, 0.5, -0.2, &ez, &ex, &error); // after it: 0.5 ez, 0.2 ex */
+ *      restitute_table_pair(table, NULL, 0.5, -0.2, &ez, &ex, &error); // then 0.5 ez, 0.2 ex */
 RESTITUTE_SINCE_0_1 int restitute_table_pair(const restitute_table *table,
-    const restitute_table_contact *contact, double normal_speed, double tangential_speed,
-    double *ez, double *ex, restitute_error *error);
+    const restitute_table_contact *contact, double normal_speed, double sliding_speed, double *ez,
+    double *ex, restitute_error *error);
 
 /** Many pairs; each has the bits that @ref restitute_table_pair gives it. The calling thread does
  *  all.
  *
- *  @param contact            NULL: the table's own
- *  @param n                  number of impacts; 0 is allowed
- *  @param normal_speeds      n values
- *  @param tangential_speeds  n values
- *  @param ez,ex              n values each; either may be NULL: not wanted
+ *  @param contact         NULL: the table's own
+ *  @param n               number of impacts; 0 is allowed
+ *  @param normal_speeds   n values
+ *  @param sliding_speeds  n values
+ *  @param ez,ex           n values each, may be the arrays of the speeds; NULL: not wanted
  *  @return OK; ERROR_DOMAIN if any speed is out of its range: nothing is written then, and `error`
  *          names the first; ERROR_NULL, ERROR_STRUCT_SIZE */
 RESTITUTE_SINCE_0_1 int restitute_table_pair_many(const restitute_table *table,
     const restitute_table_contact *contact, size_t n, const double *normal_speeds,
-    const double *tangential_speeds, double *ez, double *ex, restitute_error *error);
+    const double *sliding_speeds, double *ez, double *ex, restitute_error *error);
 
 /** One impact of two bodies, by the table: what @ref restitute_collide does, with the pair from the
  *  table.
@@ -202,7 +203,7 @@ RESTITUTE_SINCE_0_1 int restitute_table_collide(const restitute_table *table,
  *                the options the table was built with. Outside the table's range those of its ends
  *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL */
 RESTITUTE_SINCE_0_1 int restitute_table_flags(const restitute_table *table, double normal_speed,
-    double tangential_speed, int *flags, restitute_error *error);
+    double sliding_speed, int *flags, restitute_error *error);
 
 /* ------------------------------------------------------------------------------ what a table is */
 
@@ -244,7 +245,7 @@ RESTITUTE_SINCE_0_1 int restitute_table_describe(const restitute_table *table,
 /* --------------------------------------------------------------------------- numbers of a table */
 
 /** All of a table in plain numbers, for those who store it elsewhere (table_files.h does) or draw
- *  it.
+ *  it. @ref restitute_table_create requires all of them.
  *
  *  Nodes are products of speeds and of places of psi. The axis of speed is s(v), log2(v) within
  *  7e-7; cells may have any width, and two equal speeds are a seam. psi has two panels of even
@@ -265,7 +266,7 @@ typedef struct restitute_table_data {
     double friction, radius, mass;           /**< m, kg: effective */
     double poisson_ratio, equilibrium_modulus, parallel_viscosity;
     double speed_limit, radius_limit, displacement_limit; /**< see @ref restitute_options */
-    int64_t terms;
+    int64_t terms;                           /**< in [0, 1e6] */
 
     int64_t speeds, stick_cells, slip_cells;
     const double *relaxation_time, *modulus; /**< [terms]; s, Pa */

@@ -42,7 +42,7 @@
  *  `slip_cells`, `terms`. The others are datasets of doubles. All are little-endian, in one piece,
  *  with attributes `units` and `description`:
  *
- *      speed [speeds]                                       nodes, m/s, ascending; two equal: a seam
+ *      speed [speeds]                                        m/s, ascending; two equal: a seam
  *      ez [speeds][2]                                        ez, d ez/ds
  *      ex [speeds][stick_cells + 1 + slip_cells + 1][4]      g, dg/ds, dg/dp, d2g/ds dp
  *      strain [speeds][3]                                    v/c_s, a_max/R, d_max/a_max
