@@ -37,11 +37,13 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 }
 
 /* Whether twice the elements, which take four times as long, are worth it: rounding adds twice as
- * much to the error. `left`: seconds before the last walk. */
-static int can_double(const struct rst_problem *problem, int64_t n, double left, struct rst_outcome *outcome)
+ * much to the error. Not after two walks, whose estimate is low if they agree by chance. `left`:
+ * seconds before the last walk. */
+static int can_double(const struct rst_problem *problem, int64_t n, int walked, double left,
+                      struct rst_outcome *outcome)
 {
     if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
-    if (4 * rst_rounding * (double)n > outcome->error_ex * problem->shear_speed) return 0;
+    if (walked > 2 && 4 * rst_rounding * (double)n > outcome->error_ex * problem->shear_speed) return 0;
     outcome->late = rst_lacks_time(problem, 4, left);
     return !outcome->late;
 }
@@ -80,7 +82,7 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex = (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
-        if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, left, outcome))
+        if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, walked, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;
     }

@@ -130,7 +130,8 @@ static int first_halvings(const struct rst_problem *problem)
             halvings++;
         return halvings;
     }
-    return 1 + (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
+    return 1 + (problem->chi > rst_usual_chi) +
+           (int)ceil(fmax(0, log2(rst_coarse_above / problem->tolerance) / rst_stages));
 }
 
 /* What is said of a result; `spent`: a limit kept it from being refined. */
@@ -183,7 +184,7 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
         if (++known < 2) continue;
         compare(problem, &coarse, fine, outcome);
         walks = fine->sticks_again || coarse.sticks_again;
-        if (walks && (problem->elements > 0 || ++tried > rst_trials_of_front)) break;
+        if (walks && (problem->elements > 0 || (++tried > rst_trials_of_front && fine->sticks_again))) break;
         if (!walks && (problem->elements > 0 || rst_meets(problem, outcome))) return RESTITUTE_OK;
         if (!walks && rst_larger_error(outcome) < rst_larger_error(&best)) best = *outcome;
     }
