@@ -47,7 +47,8 @@ static const double rst_noise = 0.01;
 /* Panels of the first run are at most (pi/2)/2^halvings wide: halvings = 1 for tolerances from that
  * on, one more for each factor of 64 below, by which halved panels gain. Twice: no effect.
  * One more above the largest usual chi, where U' keeps sqrt(chi) times the errors of A: without it
- * two coarse runs agreed by chance, beyond the tolerance 1e-3, in 12 of 3000 impacts with chi > 50 */
+ * two coarse runs agreed by chance, beyond the tolerance 1e-3, in 12 of 3000 impacts with
+ * chi > 50 */
 static const double rst_coarse_above = 3e-5, rst_usual_chi = 4;
 
 /* Newton's steps end when the next one would change velocities by less than that part of what

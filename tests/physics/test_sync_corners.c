@@ -98,8 +98,8 @@ static void two_results_at_large_chi_do_not_agree_by_chance(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct solution s = solve_impact(
-            sync_to(cases[i].tolerance), impact_of(cases[i].chi, cases[i].psi, cases[i].delta1, cases[i].gamma));
+        const struct solution s = solve_impact(sync_to(cases[i].tolerance),
+                                               impact_of(cases[i].chi, cases[i].psi, cases[i].delta1, cases[i].gamma));
         CHECK(estimate_keeps_tolerance(&s, cases[i].tolerance), "chi = %g: status %d", cases[i].chi, s.status);
         CHECK_NEAR(s.result.ex, cases[i].ex, s.result.error_ex + cases[i].error, "chi = %g", cases[i].chi);
     }
