@@ -22,7 +22,7 @@ struct restitute_method {
     int (*reserve)(double tolerance, struct rst_workspace *workspace);
     int takes_time_step;       /* 0: chooses its steps itself, restitute_options.time_step must be 0 */
     int takes_all_terms;       /* no merging: a fast term would become a dashpot, which this method cannot do */
-    int cheap_without_slip;    /* if following slip has a larger error than leaving it out, leave it out */
+    int cheap_without_slip;    /* the core may solve again without slip, where following it errs by more */
     int records_between_steps; /* samples of a history may be closer than its steps */
     /* Solve; `outcome` is valid if the status is not negative. keep_ledger: fill
      * outcome->ledger. */

@@ -29,11 +29,11 @@ struct rst_units {
 struct rst_problem {
     const restitute_method *method; /* that solves it: one function may serve several methods */
     double chi;
-    enum rst_mode mode; /* how friction acts, decided once: here, and where the solver leaves out slip */
+    enum rst_mode mode; /* how friction acts: set here, changed only where the solver leaves out slip */
     double psi;         /* (22), however friction acts: 0 without slip, infinite without friction */
     double shear_speed; /* U' at first touch: psi, or 1 without slip or friction, where U may have any unit */
     double shear_scale; /* caller's tangential unit / ours: 1, or psi if slip was left out */
-    double slip_bound;  /* what slip that was left out may change of e_x */
+    double slip_bound;  /* bound on the change of e_x by slip that was left out */
     struct rst_solid solid;
     double tolerance;      /* for the method to meet */
     double asked;          /* the caller's, for messages: larger where slip is left out */
@@ -78,7 +78,7 @@ static inline struct rst_limit rst_spent(const struct rst_problem *problem, int 
     return limit;
 }
 
-/* What a method returns, in the same units. Velocities are those after the impact. */
+/* What a method returns, in the same units. Velocities, D' and U', are those after the impact. */
 struct rst_outcome {
     double velocity, shear_velocity;
     double error_ez, error_ex;

@@ -316,7 +316,7 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
     status = run_once(problem, workspace, scout, 0, &updates, &beside, error);
     if (status) return status;
     change(problem, &told, &beside, &ez, &ex);
-    double factor = coarser ? estimate_slack : estimate_slack * 4 / 3; /* a quarter of the step keeps a quarter of it */
+    double factor = coarser ? estimate_slack : estimate_slack * 4 / 3; /* a quarter of the step keeps a quarter of the error */
     fill(problem, scout, &told, factor * ez, factor * fmax(ez, ex), updates, outcome);
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
