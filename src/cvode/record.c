@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/report.h"
+#include "cvode/elements.h"
 #include "cvode/solve.h"
 
 struct recorder {
