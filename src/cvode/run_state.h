@@ -14,12 +14,12 @@
 /* The scene and the accuracy of the run. */
 struct run_setup {
     const struct rst_problem *problem;
-    int64_t n_nodes;    /* elements; 0: the normal side alone */
-    double closeness;   /* relative error of a step */
-    double depth;       /* scale of the depth */
-    double radius;      /* largest, of the elements; 0 without elements */
-    double rebound;     /* D' at the end, where known: decides on slip to the end */
-    double rest_speed;  /* a sphere that cannot rebound faster than this has sunk in */
+    int64_t n_nodes;   /* elements; 0: the normal side alone */
+    double closeness;  /* relative error of a step */
+    double depth;      /* scale of the depth */
+    double radius;     /* largest, of the elements; 0 without elements */
+    double rebound;    /* D' at the end, where known: decides on slip to the end */
+    double rest_speed; /* a sphere that cannot rebound faster than this has sunk in */
     enum integrator_family family;
     int64_t budget;                  /* of updates: what this run may spend */
     double until;                    /* of the problem's clock: when this run has to end */
@@ -40,8 +40,8 @@ struct recovery {
 
 struct run {
     const struct run_setup *setup;
-    struct trace *trace;   /* of the compression: written by a run without elements, read by all */
-    struct event_log *log; /* NULL: not wanted */
+    struct trace *trace;             /* of the compression: written by a run without elements, read by all */
+    struct event_log *log;           /* NULL: not wanted */
     void (*sample)(struct run *run); /* after each part of a step, while run_look() can evaluate it; NULL: not called */
     void (*observe)(struct run *run, double from,
                     double to); /* then, with the memory at its end; again after an event */
