@@ -144,7 +144,7 @@ RESTITUTE_SINCE_0_1 int restitute_material_maxwell(double modulus, double viscos
  *  body deforms.
  *
  *  Compliances add (theory.md, 10): with E_i = 2 G_i/(1-nu_i), the two chains in series are turned
- *  back into one Prony series. The normal and the tangential problem of a pair are coupled, which
+ *  back into one Prony series. The normal and the tangential problem of a pair may be coupled, which
  *  the model neglects, as usual. Dundurs' constant says how much:
  *
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
@@ -217,8 +217,9 @@ typedef struct restitute_impact {
     double gamma;                       /**< in [0, infinity], below 1e-50 taken as 0, above 1e50 as
                                              infinity; default infinity; not used with `material` */
     const restitute_material *material; /**< optional, any solid instead of (delta1, gamma): its
-                                             moduli stand for G/G_r, its times for t/T, with a_el
-                                             formed with G_r; its nu is not used. A parallel
+                                             moduli stand for G/G_r, its times for t/T; G_r is your
+                                             choice here, a_el and T are formed with it; its nu is
+                                             not used. A parallel
                                              viscosity stronger than delta1 = 1e12 is refused, here
                                              and in a scene */
 } restitute_impact;
@@ -271,7 +272,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, scene)
 /** What a scene is in dimensionless numbers, and the scales that lead back to SI.
  *
  *  The reference modulus G_r of the scales is G_inf of the effective solid if that is > 0 (it is G1
- *  in (24)); with G_inf = 0 it is G_inf + sum G_k, and for a mere dashpot the modulus that makes
+ *  in (24)); with G_inf = 0 it is sum G_k, and for a mere dashpot the modulus that makes
  *  eta/(G_r T) = 1. */
 typedef struct restitute_numbers {
     size_t struct_size;        /**< set by @ref restitute_numbers_init */
@@ -340,7 +341,8 @@ typedef struct restitute_options {
                                          infinity allowed; default 10. It is counted (@ref
                                          restitute_result.work), not measured: a nominal second
                                          takes about one second of a core of the year 2020, and the
-                                         same call ends at the same place on every machine. A call
+                                         same call ends at the same place on every machine, if
+                                         time_limit is infinite. A call
                                          that reaches it before the tolerance returns its best with
                                          TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
@@ -410,8 +412,8 @@ typedef struct restitute_result {
     int64_t terms_merged;      /**< relaxation times that were merged: too fast or too slow to
                                     matter */
     int64_t elements, steps;   /**< of the run that gave the pair: elements over the largest radius,
-                                    time steps; of `sync` without elements its points of
-                                    collocation, there and in the whole contact */
+                                    time steps; of `sync`, if no elements were stepped, its points
+                                    of collocation, up to that radius and in the whole contact */
     double element_spacing;    /**< dx: a_el or m */
     double time_step;          /**< T or s */
     double work;               /**< spent, all runs together, in nominal seconds; see
@@ -447,9 +449,9 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, ledger)
 /** Time history, into arrays of the caller; a NULL array is not wanted. Samples are evenly spaced,
  *  first touch and the end of contact included; of a sphere that sinks in (NO_REBOUND) the method
  *  sync gives first touch alone. Units as in @ref restitute_result. In the dimensionless case the
- *  tangential velocity is U' (theory.md, 2), and the tangential force is in units of mu m
- *  v_z0^2/d0. In SI tangential quantities have the sign of the incoming contact-point velocity
- *  taken as positive. */
+ *  tangential velocity is U' (theory.md, 2), for psi = 0 or infinity over its value at first touch,
+ *  and the tangential force is in units of mu m v_z0^2/d0. In SI the tangential velocity is positive
+ *  along the incoming sliding, and the force if it brakes that. */
 typedef struct restitute_history {
     size_t struct_size;          /**< set by @ref restitute_history_init */
     size_t capacity;             /**< length of every array given, in [2, 1e9]; required, default
@@ -489,7 +491,7 @@ RESTITUTE_SINCE_0_1 int restitute_solve_scene(restitute_solver *solver,
 /* --------------------------------------------------------------------------------- many impacts */
 
 /** Solve many dimensionless impacts, by several threads. Every case gives the bits that @ref
- *  restitute_solve gives it, whatever the number of threads.
+ *  restitute_solve gives it, whatever the number of threads, unless time_limit ends it.
  *
  *  With the method `sync` cases that follow each other and differ in psi alone share their normal
  *  motion, as in a @ref restitute_plan.
