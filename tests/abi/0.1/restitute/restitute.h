@@ -239,10 +239,10 @@ typedef enum restitute_deformable {
  *  2.
  *
  *  Signs: the sphere moves with tangential_speed along x; a spin is positive if it adds to the
- *  sliding of the contact point, tangential_speed + radius1*spin1 + radius2*spin2: spin1 > 0 moves
- *  the surface of sphere 1 at the contact along +x, spin2 > 0 that of sphere 2 along -x. Spheres
- *  that turn the same way about the same axis have equal signs. Backspin is negative. All speeds
- *  are relative (1 minus 2). Radii, masses and speeds are in [1e-50, 1e50]. */
+ *  velocity of the contact point along +x, tangential_speed + radius1*spin1 + radius2*spin2: spin1 >
+ *  0 moves the surface of sphere 1 at the contact along +x, spin2 > 0 that of sphere 2 along -x.
+ *  Spheres that turn the same way about the same axis have equal signs. With tangential_speed > 0
+ *  backspin is negative. All speeds are relative (1 minus 2). Radii, masses and speeds are in [1e-50, 1e50]. */
 typedef struct restitute_scene {
     size_t struct_size;                 /**< set by @ref restitute_scene_init */
     const restitute_material *material; /**< required; default NULL */
