@@ -251,20 +251,17 @@ const char *ContactModel::advance(const Contact &contact, double density, bool o
     const double solid_sphere = 3.5; /* 1 + m R^2/J */
     restitute_contact_force found;
     motion.overlap = contact.overlap;
-    motion.normal_velocity = dot(contact.velocity, contact.normal);
-    for (int i = 0; i < 3; i++) {
-        motion.normal[i] = contact.normal[i];
-        motion.displacement[i] = rates.step * contact.velocity[i];
-    }
-    motion.half_step_over_mass = 0.5 * rates.step * contact.inverse_mass;
-    motion.half_step_over_tangential_mass = solid_sphere * motion.half_step_over_mass;
+    std::copy_n(contact.normal, 3, motion.normal);
+    std::copy_n(contact.velocity, 3, motion.velocity);
+    motion.inverse_mass = contact.inverse_mass;
+    motion.inverse_tangential_mass = solid_sphere * motion.inverse_mass;
     motion.radius = contact.radius;
     if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return error.message;
     to_force(found, contact.normal, force);
     if (is_new) history[0] = label;
     if (!on_record) return nullptr;
     record.steps++;
-    if (is_new) note_first_touch(contact, motion.normal_velocity, density);
+    if (is_new) note_first_touch(contact, dot(contact.velocity, contact.normal), density);
     const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = contact.overlap; /* = a^2/R */
     if (depth > largest * largest * contact.radius) record.largest[RADIUS] = std::sqrt(depth / contact.radius);
     if (depth > limit * limit * contact.radius && history[0] > 0) {

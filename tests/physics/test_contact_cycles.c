@@ -111,9 +111,8 @@ static void follow_path(const double normal[3], const double along[3], const dou
         const double approach = i < 15 ? overlap / 10 : i < 30 ? 0 : -overlap / 15;
         const double x = 2e-5 * cos(0.4 * i), y = 1e-5 * sin(1.3 * i);
         d.motion.overlap += approach;
-        d.motion.normal_velocity = approach / d.rates.step;
         for (int k = 0; k < 3; k++)
-            d.motion.displacement[k] = x * along[k] + y * across[k];
+            d.motion.velocity[k] = (approach * normal[k] + x * along[k] + y * across[k]) / d.rates.step;
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
         const double *f = d.force.tangential;
         forces[i][0] = f[0] * along[0] + f[1] * along[1] + f[2] * along[2];
@@ -154,7 +153,7 @@ static void force_turns_with_the_normal(void **unused)
     const double degree = acos(-1.0) / 180;
     double jumped[most_state], old[3] = {0, 0, 1};
     memcpy(jumped, d.state, sizeof jumped);
-    d.motion.normal_velocity = d.motion.displacement[0] = d.motion.displacement[1] = 0;
+    d.motion.velocity[0] = d.motion.velocity[1] = d.motion.velocity[2] = 0;
     for (int i = 1; i <= 90; i++) { /* from z to x: what pointed along x points along -z, y stays */
         d.motion.normal[0] = sin(i * degree), d.motion.normal[2] = cos(i * degree);
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
@@ -176,16 +175,16 @@ static void stored_energy_is_the_work(void **unused)
     (void)unused;
     restitute_contact_law *law = elastic_law(8);
     struct drive d = drive_of(law, 1e-3, friction);
-    restitute_contact_energies e;
-    restitute_contact_energies_init(&e);
+    restitute_contact_details e;
+    restitute_contact_details_init(&e);
     drive_steps(&d, 2000, overlap, 0, 0);
-    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
+    assert_int_equal(restitute_contact_details_get(law, 1, d.state, &e, NULL), 0);
     CHECK_NEAR(e.stored / (0.4 * d.force.normal * overlap), 1, 0.01, "stored");
     CHECK_NEAR((e.stored + e.viscous + e.friction) / d.work, 1, 1e-12, "the three are the work");
     const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
     drive_steps(&d, 2000, 0, 4 * reach, 0); /* three quarters of it in gross slip */
-    const restitute_contact_energies before = e;
-    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
+    const restitute_contact_details before = e;
+    assert_int_equal(restitute_contact_details_get(law, 1, d.state, &e, NULL), 0);
     CHECK(e.friction > 3 * limit * reach && e.friction < 4 * limit * reach, "friction %g of %g", e.friction,
           4 * limit * reach);
     CHECK_NEAR(e.viscous - before.viscous, 0, 0.01 * limit * reach, "nothing is viscous");
