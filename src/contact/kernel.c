@@ -627,16 +627,12 @@ INLINE void shear(const struct rst_law *restrict law, const struct rst_rates *re
  * plane. */
 INLINE void open_states(double step, const struct rst_batch *in, struct work *s)
 {
-    for (int l = 0; l < LANES; l++) {
-        s->width[l] = in->state[l][at_width];
+    for (int l = 0; l < LANES; l++)
         s->before[l] = in->state[l][at_overlap];
-        for (int i = 0; i < 3; i++)
-            s->axis[i][l] = in->state[l][at_axis + i];
-    }
     EACH_LANE
     {
         const double nx = in->normal[0][l], ny = in->normal[1][l], nz = in->normal[2][l], turn = step * in->turn[l];
-        double ax = s->axis[0][l], ay = s->axis[1][l], az = s->axis[2][l];
+        double ax = in->axis[0][l], ay = in->axis[1][l], az = in->axis[2][l];
         const double bx = ny * az - nz * ay, by = nz * ax - nx * az, bz = nx * ay - ny * ax;
         ax += turn * bx;
         ay += turn * by;
@@ -652,6 +648,7 @@ INLINE void open_states(double step, const struct rst_batch *in, struct work *s)
         s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
         s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
         s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
+        s->width[l] = in->width[l];
         s->scale[l] = s->width[l] * s->width[l] / in->radius[l];
         s->approach[l] = nx * in->velocity[0][l] + ny * in->velocity[1][l] + nz * in->velocity[2][l];
     }
