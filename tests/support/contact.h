@@ -28,8 +28,8 @@ struct dem_impact {
 
 struct dem_result {
     int status;
-    double ez, ex, across; /* across: velocity across the sliding direction over the incoming one */
-    double work;           /* of the contact on the sphere, over the kinetic energy */
+    double ez, ex, across;           /* across: velocity across the sliding direction over the incoming one */
+    double work;                     /* of the contact on the sphere, over the kinetic energy */
     restitute_contact_details spent; /* with details: in units of the kinetic energy */
     long steps;
 };
@@ -89,7 +89,8 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
     restitute_contact_force force = {0};
     restitute_error error;
     double state[most_state] = {0};
-    const double h = impact->time_step, incoming = impact->psi * impact_friction * (2 - impact_nu) / (2 - 2 * impact_nu);
+    const double h = impact->time_step,
+                 incoming = impact->psi * impact_friction * (2 - impact_nu) / (2 - 2 * impact_nu);
     const double along[2] = {cos(impact->angle), sin(impact->angle)};
     double v[3] = {incoming * along[0], incoming * along[1], 1}, half[3];
     const double mass[3] = {impact->tangential_mass, impact->tangential_mass, impact->mass};
