@@ -4,7 +4,6 @@
 #include "host.h"
 
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "memory.h"
 #include "update.h"
@@ -18,31 +17,28 @@ using namespace FixConst;
 using restitute_dem::Contact;
 using restitute_dem::Record;
 
-static const char *const shapes[] = {"xplane", "yplane", "zplane", "zcylinder"};
-static const double nowhere = 1e99; /* of the plane that there is not */
-
-/* fix ID group wall/restitute FILE friction MU [...] xplane|yplane|zplane LOW HIGH [shear AXIS V]
- *                                                    zcylinder RADIUS [shear z V] */
+/* fix ID group wall/restitute FILE friction MU [...]
+ *     xplane|yplane|zplane LOW HIGH  or  xcylinder|ycylinder|zcylinder RADIUS  or  region ID
+ *     [shear AXIS V | move AXIS V | wiggle AXIS AMPLITUDE PERIOD]  [contacts] */
 FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-    char **end = arg + narg;
-    char **place = std::find_first_of(arg + 3, end, shapes, shapes + 4, [](auto a, auto b) { return !strcmp(a, b); });
-    model = make_model(lmp, "fix wall/restitute", arg + 3, place);
-    if (place == end) error->all(FLERR, "fix wall/restitute: needs xplane, yplane, zplane or zcylinder");
-    shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
-    const int numbers = shape == Z_CYLINDER ? 1 : 2;
-    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} needs a position", *place);
-    const auto at = [&](int k) {
-        return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere;
-    };
-    low = at(1) == nowhere ? -nowhere : at(1);
-    high = at(numbers);
-    read_shear(place + numbers + 1, (int)(end - place) - numbers - 1);
-    if (shape == Z_CYLINDER ? domain->xperiodic || domain->yperiodic : domain->periodicity[shape])
-        error->all(FLERR, "fix wall/restitute: the box is periodic across the wall");
-    restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = 1;
+    char **end = arg + narg, **word = std::find_if(arg + 3, end, names_wall);
+    model = make_model(lmp, "fix wall/restitute", arg + 3, word);
+    if (word == end)
+        error->all(FLERR,
+                   "fix wall/restitute: needs xplane, yplane, zplane, xcylinder, ycylinder, zcylinder or region");
+    shape = make_wall(lmp, word, end);
+    peratom_flag = word != end && !strcmp(*word, "contacts");
+    if (word + peratom_flag != end)
+        error->all(FLERR,
+                   "fix wall/restitute: '{}': must be one of shear, move, wiggle (a region has its own motion), then "
+                   "contacts",
+                   word[peratom_flag]);
+    size_peratom_cols = 8;
+    restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = peratom_freq = 1;
+    virial_global_flag = virial_peratom_flag = 1;
     size_vector = 7;
-    maxexchange = history_size = model->history_size();
+    history_size = model->history_size();
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
@@ -55,17 +51,7 @@ FixWallRestitute::~FixWallRestitute()
 {
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);
-    memory->destroy(history);
-}
-
-void FixWallRestitute::read_shear(char **word, int words)
-{
-    if (words == 0) return;
-    const std::string axis = words == 3 && !strcmp(word[0], "shear") ? word[1] : "";
-    const int k = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : -1;
-    if (k < 0 || (shape == Z_CYLINDER ? k != 2 : k == (int)shape))
-        error->all(FLERR, "fix wall/restitute: '{}': must be shear AXIS V, with an axis along the wall", word[0]);
-    velocity[k] = utils::numeric(FLERR, word[2], false, lmp);
+    memory->destroy(array_atom);
 }
 
 int FixWallRestitute::setmask()
@@ -76,6 +62,8 @@ int FixWallRestitute::setmask()
 void FixWallRestitute::init()
 {
     frozen = check_host(lmp, "fix wall/restitute");
+    shape->init();
+    maxexchange = 1 + shape->faces() * history_size;
     model->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
     reset_dt();
@@ -93,56 +81,120 @@ void FixWallRestitute::reset_dt()
 
 /* ---- a time step */
 
-/* The nearest point of the wall; false: there is none. */
-bool FixWallRestitute::nearest(const double *x, double *point) const
-{
-    std::copy_n(x, 3, point);
-    if (shape != Z_CYLINDER) {
-        point[shape] = x[shape] - low < high - x[shape] ? low : high;
-        return std::fabs(point[shape]) < nowhere;
-    }
-    const double r = std::sqrt(x[0] * x[0] + x[1] * x[1]);
-    for (int k = 0; k < 2; k++)
-        point[k] *= low / r;
-    return r > 0;
-}
-
-void FixWallRestitute::post_force(int)
+void FixWallRestitute::post_force(int vflag)
 {
     const Spheres spheres(atom, frozen);
-    double point[3];
+    double f[3];
+    if (!update->setupflag) time += update->dt;
+    shape->place(time, update->dt);
+    v_init(vflag);
     std::fill_n(force_on_wall, 3, 0.0);
     for (int i = 0; i < atom->nlocal; i++) {
+        double largest = 0;
+        if (peratom_flag) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
         if (!(atom->mask[i] & groupbit)) continue;
-        const double *x = atom->x[i];
-        const auto square = [&](int k) { return (point[k] - x[k]) * (point[k] - x[k]); };
-        if (nearest(x, point) && square(0) + square(1) + square(2) < atom->radius[i] * atom->radius[i])
-            compute_contact(i, spheres, point);
-        else if (history[i][0] != 0)
-            set_arrays(i);
+        find_touches(i, spheres);
+        if (!update->setupflag) forget_others(i);
+        for (const Touch &touch : touches) {
+            compute_contact(i, spheres, touch, f);
+            apply(i, touch, f);
+            if (peratom_flag) show(i, touch, f, largest);
+        }
     }
     warn(lmp, model->record, warned);
 }
 
-/* Body 1 is the sphere. */
-void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const double *point)
+/* Body 1 is the sphere. The effective radius is that of a sphere on one of the mean curvature of
+ * the wall. */
+void FixWallRestitute::find_touches(int i, const Spheres &spheres)
 {
-    static const double still[3] = {};
-    double f[3];
-    Contact c;
-    if (!touching(spheres.body(i), {point, velocity, still, 0, 0}, c)) return;
-    const char *problem = update->setupflag ? model->repeat(c, history[i], f)
-                                            : model->advance(c, spheres.density(i), true, history[i], f);
+    const double radius = atom->radius[i];
+    points.clear();
+    touches.clear();
+    shape->touch(atom->x[i], radius, points);
+    for (const WallPoint &point : points) {
+        Touch touch = {point, {}};
+        if (!touching(spheres.body(i), {point.position, point.velocity, point.spin, 0, 0}, touch.contact)) continue;
+        const double flatter = 1 + radius * point.curvature;
+        if (!(flatter > 0))
+            error->one(FLERR,
+                       "restitute: atom {} and wall {} at step {}: radius {:.6g}: must be below the radius of "
+                       "curvature of the wall, {:.6g}",
+                       atom->tag[i], id, update->ntimestep, radius, -1 / point.curvature);
+        touch.contact.radius /= flatter;
+        touches.push_back(touch);
+    }
+}
+
+/* Of a contact; NULL: it is new. */
+double *FixWallRestitute::find_history(int i, int label)
+{
+    for (size_t k = 0; k < histories[i].size(); k += history_size)
+        if (std::fabs(histories[i][k]) == label) return &histories[i][k];
+    return nullptr;
+}
+
+/* Deletes the histories of contacts that have ended. */
+void FixWallRestitute::forget_others(int i)
+{
+    std::vector<double> &all = histories[i];
+    for (size_t k = 0; k < all.size();) {
+        const auto is_its = [&](const Touch &touch) { return touch.point.label == std::fabs(all[k]); };
+        if (std::any_of(touches.begin(), touches.end(), is_its))
+            k += history_size;
+        else
+            all.erase(all.begin() + k, all.begin() + k + history_size);
+    }
+}
+
+/* The force on the sphere. */
+void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const Touch &touch, double f[3])
+{
+    const int label = touch.point.label;
+    const char *problem = nullptr;
+    double *history = find_history(i, label);
+    if (update->setupflag) {
+        std::fill_n(f, 3, 0.0);
+        if (history) problem = model->repeat(touch.contact, history, f);
+    } else {
+        if (!history) {
+            histories[i].resize(histories[i].size() + history_size);
+            history = &histories[i].back() + 1 - history_size;
+        }
+        problem = model->advance(touch.contact, spheres.density(i), true, history, f, label);
+    }
     if (problem)
         error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
                    problem);
-    const double *n = c.normal;
+}
+
+void FixWallRestitute::apply(int i, const Touch &touch, const double f[3])
+{
+    const double *n = touch.contact.normal, *x = atom->x[i], *point = touch.point.position;
+    const double r[3] = {x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+    double virial[6] = {r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]};
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         atom->f[i][k] += f[k];
-        atom->torque[i][k] += c.arm1 * (n[l] * f[m] - n[m] * f[l]);
+        atom->torque[i][k] += touch.contact.arm1 * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
     }
+    if (vflag_either) v_tally(i, virial);
+}
+
+/* As LAMMPS's `contacts`: 1, force on the sphere (3), contact point (3), radius. Of several contacts
+ * the forces are added, and the point is that of the largest. */
+void FixWallRestitute::show(int i, const Touch &touch, const double f[3], double &largest)
+{
+    double *row = array_atom[i];
+    const double square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+    row[0] = 1;
+    row[7] = atom->radius[i];
+    for (int k = 0; k < 3; k++)
+        row[1 + k] += f[k];
+    if (square < largest) return;
+    largest = square;
+    std::copy_n(touch.point.position, 3, row + 4);
 }
 
 /* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s. */
@@ -162,40 +214,44 @@ void FixWallRestitute::post_run()
     if (comm->me == 0) utils::logmesg(lmp, "fix {} wall/restitute:\n{}", id, all.text(model->limits));
 }
 
-/* ---- states of contacts, one an atom */
+/* ---- histories of contacts */
 
 void FixWallRestitute::grow_arrays(int nmax)
 {
-    memory->grow(history, nmax, history_size, "wall/restitute:history");
+    histories.resize(nmax);
+    if (peratom_flag) memory->grow(array_atom, nmax, size_peratom_cols, "wall/restitute:array_atom");
 }
 
 void FixWallRestitute::copy_arrays(int i, int j, int)
 {
-    std::copy_n(history[i], history_size, history[j]);
+    histories[j] = histories[i];
 }
 
 void FixWallRestitute::set_arrays(int i)
 {
-    std::fill_n(history[i], history_size, 0.0);
+    histories[i].clear();
+    if (peratom_flag) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
 }
 
+/* How many numbers follow, and these. */
 int FixWallRestitute::pack_exchange(int i, double *buffer)
 {
-    std::copy_n(history[i], history_size, buffer);
-    return history_size;
+    buffer[0] = (double)histories[i].size();
+    std::copy(histories[i].begin(), histories[i].end(), buffer + 1);
+    return 1 + (int)histories[i].size();
 }
 
 int FixWallRestitute::unpack_exchange(int i, double *buffer)
 {
-    std::copy_n(buffer, history_size, history[i]);
-    return history_size;
+    histories[i].assign(buffer + 1, buffer + 1 + (int)buffer[0]);
+    return 1 + (int)buffer[0];
 }
 
 /* LAMMPS wants the length first, itself included. */
 int FixWallRestitute::pack_restart(int i, double *buffer)
 {
     buffer[0] = size_restart(i);
-    std::copy_n(history[i], history_size, buffer + 1);
+    std::copy(histories[i].begin(), histories[i].end(), buffer + 1);
     return size_restart(i);
 }
 
@@ -204,36 +260,45 @@ void FixWallRestitute::unpack_restart(int i, int nth)
     const double *values = atom->extra[i];
     for (int k = 0; k < nth; k++)
         values += (int)*values;
-    std::copy_n(values + 1, history_size, history[i]);
+    histories[i].assign(values + 1, values + (int)*values);
 }
 
-int FixWallRestitute::size_restart(int)
+int FixWallRestitute::size_restart(int i)
 {
-    return history_size + 1;
+    return 1 + (int)histories[i].size();
 }
 
 int FixWallRestitute::maxsize_restart()
 {
-    return history_size + 1;
+    return 1 + shape->faces() * history_size;
 }
+
+struct FixState {
+    uint64_t hash;
+    double time;
+};
 
 void FixWallRestitute::write_restart(FILE *file)
 {
-    const uint64_t hash = model->hash();
-    const int size = sizeof hash;
+    const FixState state = {model->hash(), time};
+    const int size = sizeof state;
     if (comm->me) return;
     fwrite(&size, sizeof size, 1, file);
-    fwrite(&hash, sizeof hash, 1, file);
+    fwrite(&state, sizeof state, 1, file);
 }
 
 void FixWallRestitute::restart(char *buffer)
 {
-    uint64_t hash;
-    memcpy(&hash, buffer, sizeof hash);
-    check_law(lmp, std::string("fix ") + id + " wall/restitute", hash, *model);
+    FixState state;
+    memcpy(&state, buffer, sizeof state);
+    check_law(lmp, std::string("fix ") + id + " wall/restitute", state.hash, *model);
+    time = state.time;
 }
 
 double FixWallRestitute::memory_usage()
 {
-    return (double)atom->nmax * history_size * sizeof(double);
+    double bytes = 0;
+    for (const std::vector<double> &its : histories)
+        bytes += (double)(sizeof its + its.capacity() * sizeof(double));
+    return bytes;
 }

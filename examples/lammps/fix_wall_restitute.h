@@ -1,5 +1,4 @@
-/* fix wall/restitute: viscoelastic contacts of spheres with planes and with the inside of a
- * cylinder.
+/* fix wall/restitute: viscoelastic contacts of spheres with planes, cylinders and regions.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef LMP_FIX_WALL_RESTITUTE_H
 #define LMP_FIX_WALL_RESTITUTE_H
@@ -7,8 +6,10 @@
 #include "fix.h"
 
 #include "contact_model.h"
+#include "wall_shapes.h"
 
 #include <memory>
+#include <vector>
 
 namespace LAMMPS_NS
 {
@@ -40,17 +41,24 @@ class FixWallRestitute : public Fix
     double memory_usage() override;
 
   private:
-    enum Shape { X_PLANE, Y_PLANE, Z_PLANE, Z_CYLINDER };
+    struct Touch {
+        WallPoint point;
+        restitute_dem::Contact contact;
+    };
 
-    void read_shear(char **word, int words);
-    bool nearest(const double *x, double *point) const;
-    void compute_contact(int i, const class Spheres &spheres, const double *point);
+    void find_touches(int i, const class Spheres &spheres);
+    double *find_history(int i, int label);
+    void forget_others(int i);
+    void compute_contact(int i, const Spheres &spheres, const Touch &touch, double f[3]);
+    void apply(int i, const Touch &touch, const double f[3]);
+    void show(int i, const Touch &touch, const double f[3], double &largest);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
-    Shape shape;
-    double low, high;        /* where the planes are; low: the radius of the cylinder */
-    double velocity[3] = {}; /* of the wall, along itself */
-    double **history = nullptr;
+    std::unique_ptr<WallShape> shape;
+    double time = 0;                            /* of this wall, which moves from its start */
+    std::vector<std::vector<double>> histories; /* of each atom: those of its contacts, one after the other */
+    std::vector<WallPoint> points;
+    std::vector<Touch> touches; /* of one sphere */
     double force_on_wall[3] = {};
     int history_size, frozen = 0;
     bool warned[restitute_dem::RATIOS] = {};
