@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <stdexcept>
 
 namespace restitute_dem
@@ -15,28 +16,6 @@ namespace restitute_dem
 static double dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-bool touching(const Body &first, const Body &second, Contact &c)
-{
-    const double *a = first.position, *b = second.position, *v = first.velocity, *w = second.velocity;
-    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
-    const double sum = first.radius + second.radius;
-    c.inverse_mass = first.inverse_mass + second.inverse_mass;
-    if (!(square < sum * sum) || square == 0 || c.inverse_mass == 0) return false;
-    const double distance = std::sqrt(square), inverse = 1 / distance, n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
-    c.overlap = sum - distance;
-    c.arm1 = first.radius - 0.5 * c.overlap; /* the arms add up to the distance: angular momentum is conserved */
-    c.arm2 = second.radius > 0 ? second.radius - 0.5 * c.overlap : 0;
-    c.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
-    const double turn0 = c.arm1 * first.spin[0] + c.arm2 * second.spin[0];
-    const double turn1 = c.arm1 * first.spin[1] + c.arm2 * second.spin[1];
-    const double turn2 = c.arm1 * first.spin[2] + c.arm2 * second.spin[2];
-    c.normal[0] = n0, c.normal[1] = n1, c.normal[2] = n2;
-    c.velocity[0] = v[0] - w[0] + turn1 * n2 - turn2 * n1;
-    c.velocity[1] = v[1] - w[1] + turn2 * n0 - turn0 * n2;
-    c.velocity[2] = v[2] - w[2] + turn0 * n1 - turn1 * n0;
-    return true;
 }
 
 /* ---- record */
@@ -92,8 +71,9 @@ void ContactModel::note(Ratio which, double ratio)
  * 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide lost contacts of hard
  * spheres at rest. v/c_s as for one impact of the library: with the modulus at the time scale of
  * the impact. */
-void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
+void ContactModel::note_first_touch(const restitute_contact_motion &contact, double density)
 {
+    const double speed = dot(contact.velocity, contact.normal);
     double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
@@ -238,48 +218,69 @@ const char *ContactModel::set_step(double step)
     return restitute_contact_rates_set(law, step, &rates, &error) < 0 ? error.message : nullptr;
 }
 
+std::unique_ptr<Batch> ContactModel::make_batch() const
+{
+    auto batch = std::make_unique<Batch>();
+    std::fill_n(batch->motion, Batch::SIZE, motion);
+    return batch;
+}
+
 static void to_force(const restitute_contact_force &f, const double *normal, double force[3])
 {
     for (int i = 0; i < 3; i++)
         force[i] = f.tangential[i] - f.normal * normal[i];
 }
 
-const char *ContactModel::advance(const Contact &contact, double density, bool on_record, double *history,
-                                  double force[3], double label)
+int ContactModel::advance(Batch &b, const char **problem)
 {
-    const bool is_new = history[0] == 0;
-    const double solid_sphere = 3.5; /* 1 + m R^2/J */
-    restitute_contact_force found;
-    motion.overlap = contact.overlap;
-    motion.normal_velocity = dot(contact.velocity, contact.normal);
-    for (int i = 0; i < 3; i++) {
-        motion.normal[i] = contact.normal[i];
-        motion.displacement[i] = rates.step * contact.velocity[i];
+    double *states[Batch::SIZE];
+    restitute_contact_force found[Batch::SIZE];
+    int status[Batch::SIZE];
+    bool is_new[Batch::SIZE];
+    for (int k = 0; k < b.n; k++) {
+        states[k] = b.history[k] + 1;
+        is_new[k] = b.history[k][0] == 0;
     }
-    motion.half_step_over_mass = 0.5 * rates.step * contact.inverse_mass;
-    motion.half_step_over_tangential_mass = solid_sphere * motion.half_step_over_mass;
-    motion.radius = contact.radius;
-    if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return error.message;
-    to_force(found, contact.normal, force);
-    if (is_new) history[0] = label;
-    if (!on_record) return nullptr;
-    record.steps++;
-    if (is_new) note_first_touch(contact, motion.normal_velocity, density);
-    const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = contact.overlap; /* = a^2/R */
-    if (depth > largest * largest * contact.radius) record.largest[RADIUS] = std::sqrt(depth / contact.radius);
-    if (depth > limit * limit * contact.radius && history[0] > 0) {
-        history[0] = -history[0];
-        record.beyond[RADIUS]++;
+    if (restitute_contact_step_many(law, &rates, b.n, b.motion, states, found, status, &error) < 0) {
+        const char *its = std::strstr(error.message, ": "); /* after the number of the contact */
+        *problem = its ? its + 2 : error.message;
+        return (int)(std::find_if(status, status + b.n, [](int one) { return one < 0; }) - status);
     }
-    return nullptr;
+    for (int k = 0; k < b.n; k++)
+        to_force(found[k], b.motion[k].normal, b.force[k]);
+    note(b, is_new);
+    return -1;
 }
 
-const char *ContactModel::repeat(const Contact &contact, const double *history, double force[3])
+void ContactModel::note(Batch &b, const bool *is_new)
+{
+    const double limit = limits[RADIUS] * limits[RADIUS];
+    double deepest = 0;
+    for (int k = 0; k < b.n; k++) {
+        double &label = b.history[k][0];
+        if (is_new[k]) label = b.label[k];
+        if (!b.on_record[k]) continue;
+        record.steps++;
+        if (is_new[k]) note_first_touch(b.motion[k], b.density[k]);
+        const double depth = b.motion[k].overlap / b.motion[k].radius; /* = (a/R)^2 */
+        deepest = std::max(deepest, depth);
+        if (depth > limit && label > 0) {
+            label = -label;
+            record.beyond[RADIUS]++;
+        }
+    }
+    record.largest[RADIUS] = std::max(record.largest[RADIUS], std::sqrt(deepest));
+}
+
+int ContactModel::repeat(Batch &b, const char **problem)
 {
     restitute_contact_force found;
-    if (restitute_contact_peek(law, contact.normal, history + 1, &found, &error) < 0) return error.message;
-    to_force(found, contact.normal, force);
-    return nullptr;
+    for (int k = 0; k < b.n; k++) {
+        *problem = error.message;
+        if (restitute_contact_peek(law, b.motion[k].normal, b.history[k] + 1, &found, &error) < 0) return k;
+        to_force(found, b.motion[k].normal, b.force[k]);
+    }
+    return -1;
 }
 
 const char *ContactModel::turn(const double from[3], const double to[3], double *history)

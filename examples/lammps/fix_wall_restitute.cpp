@@ -14,7 +14,7 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using restitute_dem::Contact;
+using restitute_dem::Batch;
 using restitute_dem::Record;
 
 /* fix ID group wall/restitute FILE friction MU [...]
@@ -34,6 +34,8 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
                    "fix wall/restitute: '{}': must be one of shear, move, wiggle (a region has its own motion), then "
                    "contacts",
                    word[peratom_flag]);
+    batch = model->make_batch();
+    std::fill_n(batch->on_record, Batch::SIZE, true);
     size_peratom_cols = 8;
     restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = peratom_freq = 1;
     virial_global_flag = virial_peratom_flag = 1;
@@ -83,100 +85,106 @@ void FixWallRestitute::reset_dt()
 
 void FixWallRestitute::post_force(int vflag)
 {
-    const Spheres spheres(atom, frozen);
-    double f[3];
     if (!update->setupflag) time += update->dt;
     shape->place(time, update->dt);
     v_init(vflag);
     std::fill_n(force_on_wall, 3, 0.0);
-    for (int i = 0; i < atom->nlocal; i++) {
-        double largest = 0;
-        if (peratom_flag) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
-        if (!(atom->mask[i] & groupbit)) continue;
-        find_touches(i, spheres);
-        if (!update->setupflag) forget_others(i);
-        for (const Touch &touch : touches) {
-            compute_contact(i, spheres, touch, f);
-            apply(i, touch, f);
-            if (peratom_flag) show(i, touch, f, largest);
-        }
-    }
+    if (peratom_flag && atom->nlocal) std::fill_n(array_atom[0], atom->nlocal * size_peratom_cols, 0.0);
+    for (int i = 0; i < atom->nlocal; i++)
+        if (atom->mask[i] & groupbit) collect(i);
+    compute_batch();
     warn(lmp, model->record, warned);
 }
 
-/* Body 1 is the sphere. The effective radius is that of a sphere on one of the mean curvature of
- * the wall. */
-void FixWallRestitute::find_touches(int i, const Spheres &spheres)
+/* Adds the contacts of a sphere to the batch, all of them to the same one. */
+void FixWallRestitute::collect(int i)
 {
-    const double radius = atom->radius[i];
+    Batch &b = *batch;
+    const Spheres spheres(atom, frozen);
     points.clear();
-    touches.clear();
-    shape->touch(atom->x[i], radius, points);
+    shape->touch(atom->x[i], atom->radius[i], points);
+    if (points.empty() && histories[i].empty()) return;
+    if ((int)points.size() > Batch::SIZE)
+        error->one(FLERR, "restitute: atom {} and wall {} at step {}: touches {} faces: must be at most {}",
+                   atom->tag[i], id, update->ntimestep, points.size(), (int)Batch::SIZE);
+    if (b.n + (int)points.size() > Batch::SIZE) compute_batch();
+    int last = b.n; /* body 1 is the sphere */
     for (const WallPoint &point : points) {
-        Touch touch = {point, {}};
-        if (!touching(spheres.body(i), {point.position, point.velocity, point.spin, 0, 0}, touch.contact)) continue;
-        const double flatter = 1 + radius * point.curvature;
-        if (!(flatter > 0))
-            error->one(FLERR,
-                       "restitute: atom {} and wall {} at step {}: radius {:.6g}: must be below the radius of "
-                       "curvature of the wall, {:.6g}",
-                       atom->tag[i], id, update->ntimestep, radius, -1 / point.curvature);
-        touch.contact.radius /= flatter;
-        touches.push_back(touch);
+        if (!touching(spheres.body(i), {point.position, point.velocity, point.spin, 0, 0}, b, last)) continue;
+        b.motion[last].radius = effective_radius(i, point);
+        b.first[last] = i;
+        b.label[last] = point.label;
+        b.density[last] = spheres.density(i);
+        std::copy_n(point.position, 3, places[last++]);
     }
+    find_histories(i, last);
 }
 
-/* Of a contact; NULL: it is new. */
-double *FixWallRestitute::find_history(int i, int label)
+/* As of a sphere on one of the mean curvature of the wall. */
+double FixWallRestitute::effective_radius(int i, const WallPoint &point) const
 {
-    for (size_t k = 0; k < histories[i].size(); k += history_size)
-        if (std::fabs(histories[i][k]) == label) return &histories[i][k];
-    return nullptr;
+    const double radius = atom->radius[i], flatter = 1 + radius * point.curvature;
+    if (!(flatter > 0))
+        error->one(FLERR,
+                   "restitute: atom {} and wall {} at step {}: radius {:.6g}: must be below the radius of curvature of "
+                   "the wall, {:.6g}",
+                   atom->tag[i], id, update->ntimestep, radius, -1 / point.curvature);
+    return radius / flatter;
 }
 
-/* Deletes the histories of contacts that have ended. */
-void FixWallRestitute::forget_others(int i)
+/* Of the contacts of a sphere, which are in the batch up to `last`. Histories of others have
+ * ended. */
+void FixWallRestitute::find_histories(int i, int last)
 {
+    Batch &b = *batch;
     std::vector<double> &all = histories[i];
-    for (size_t k = 0; k < all.size();) {
-        const auto is_its = [&](const Touch &touch) { return touch.point.label == std::fabs(all[k]); };
-        if (std::any_of(touches.begin(), touches.end(), is_its))
-            k += history_size;
-        else
+    const double *labels = b.label + b.n, *end = b.label + last;
+    for (size_t k = all.size(); k > 0;) {
+        k -= history_size;
+        if (std::find(labels, end, std::fabs(all[k])) == end)
             all.erase(all.begin() + k, all.begin() + k + history_size);
     }
-}
-
-/* The force on the sphere. */
-void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const Touch &touch, double f[3])
-{
-    const int label = touch.point.label;
-    const char *problem = nullptr;
-    double *history = find_history(i, label);
-    if (update->setupflag) {
-        std::fill_n(f, 3, 0.0);
-        if (history) problem = model->repeat(touch.contact, history, f);
-    } else {
-        if (!history) {
-            histories[i].resize(histories[i].size() + history_size);
-            history = &histories[i].back() + 1 - history_size;
-        }
-        problem = model->advance(touch.contact, spheres.density(i), true, history, f, label);
+    const auto find = [&](double label) {
+        size_t k = 0;
+        while (k < all.size() && std::fabs(all[k]) != label)
+            k += history_size;
+        return k;
+    };
+    size_t place[Batch::SIZE];
+    for (int k = b.n; k < last; k++) {
+        place[k] = find(b.label[k]);
+        if (place[k] == all.size()) all.resize(all.size() + history_size);
     }
-    if (problem)
-        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
-                   problem);
+    for (int k = b.n; k < last; k++)
+        b.history[k] = &all[place[k]];
+    b.n = last;
 }
 
-void FixWallRestitute::apply(int i, const Touch &touch, const double f[3])
+void FixWallRestitute::compute_batch()
 {
-    const double *n = touch.contact.normal, *x = atom->x[i], *point = touch.point.position;
-    const double r[3] = {x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+    Batch &b = *batch;
+    const char *problem;
+    const int bad = update->setupflag ? model->repeat(b, &problem) : model->advance(b, &problem);
+    if (bad >= 0)
+        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[b.first[bad]], id,
+                   update->ntimestep, problem);
+    for (int k = 0; k < b.n; k++)
+        apply(k);
+    if (peratom_flag) show();
+    b.n = 0;
+}
+
+void FixWallRestitute::apply(int of_batch)
+{
+    const int i = batch->first[of_batch];
+    const double *n = batch->motion[of_batch].normal, *f = batch->force[of_batch], *x = atom->x[i],
+                 *at = places[of_batch];
+    const double r[3] = {x[0] - at[0], x[1] - at[1], x[2] - at[2]};
     double virial[6] = {r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]};
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         atom->f[i][k] += f[k];
-        atom->torque[i][k] += touch.contact.arm1 * (n[l] * f[m] - n[m] * f[l]);
+        atom->torque[i][k] += batch->arm1[of_batch] * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
     }
     if (vflag_either) v_tally(i, virial);
@@ -184,17 +192,22 @@ void FixWallRestitute::apply(int i, const Touch &touch, const double f[3])
 
 /* As LAMMPS's `contacts`: 1, force on the sphere (3), contact point (3), radius. Of several contacts
  * the forces are added, and the point is that of the largest. */
-void FixWallRestitute::show(int i, const Touch &touch, const double f[3], double &largest)
+void FixWallRestitute::show()
 {
-    double *row = array_atom[i];
-    const double square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
-    row[0] = 1;
-    row[7] = atom->radius[i];
-    for (int k = 0; k < 3; k++)
-        row[1 + k] += f[k];
-    if (square < largest) return;
-    largest = square;
-    std::copy_n(touch.point.position, 3, row + 4);
+    const Batch &b = *batch;
+    double largest = 0;
+    for (int k = 0; k < b.n; k++) {
+        const double *f = b.force[k], square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        double *row = array_atom[b.first[k]];
+        if (k == 0 || b.first[k] != b.first[k - 1]) largest = 0;
+        row[0] = 1;
+        row[7] = atom->radius[b.first[k]];
+        for (int l = 0; l < 3; l++)
+            row[1 + l] += f[l];
+        if (square < largest) continue;
+        largest = square;
+        std::copy_n(places[k], 3, row + 4);
+    }
 }
 
 /* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s. */

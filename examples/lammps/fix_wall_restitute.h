@@ -41,24 +41,20 @@ class FixWallRestitute : public Fix
     double memory_usage() override;
 
   private:
-    struct Touch {
-        WallPoint point;
-        restitute_dem::Contact contact;
-    };
-
-    void find_touches(int i, const class Spheres &spheres);
-    double *find_history(int i, int label);
-    void forget_others(int i);
-    void compute_contact(int i, const Spheres &spheres, const Touch &touch, double f[3]);
-    void apply(int i, const Touch &touch, const double f[3]);
-    void show(int i, const Touch &touch, const double f[3], double &largest);
+    void collect(int i);
+    double effective_radius(int i, const WallPoint &point) const;
+    void find_histories(int i, int last);
+    void compute_batch();
+    void apply(int of_batch);
+    void show();
 
     std::unique_ptr<restitute_dem::ContactModel> model;
+    std::unique_ptr<restitute_dem::Batch> batch;
+    double places[restitute_dem::Batch::SIZE][3]; /* of the wall, where the contacts of the batch are */
     std::unique_ptr<WallShape> shape;
     double time = 0;                            /* of this wall, which moves from its start */
     std::vector<std::vector<double>> histories; /* of each atom: those of its contacts, one after the other */
-    std::vector<WallPoint> points;
-    std::vector<Touch> touches; /* of one sphere */
+    std::vector<WallPoint> points;              /* of one sphere */
     double force_on_wall[3] = {};
     int history_size, frozen = 0;
     bool warned[restitute_dem::RATIOS] = {};

@@ -19,7 +19,7 @@
 #include <map>
 
 using namespace LAMMPS_NS;
-using restitute_dem::Contact;
+using restitute_dem::Batch;
 using restitute_dem::ContactModel;
 using restitute_dem::Record;
 
@@ -91,8 +91,11 @@ void PairRestitute::init_style()
     models.clear();
     for (const Model &its : table)
         if (its && std::find(models.begin(), models.end(), its) == models.end()) models.push_back(its);
-    for (const Model &its : models)
+    batches.clear();
+    for (const Model &its : models) {
         its->record = Record();
+        batches.push_back(its->make_batch());
+    }
     std::fill_n(warned, restitute_dem::RATIOS, false);
     keep_history();
     /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run,
@@ -214,6 +217,21 @@ double PairRestitute::init_one(int i, int j)
 
 /* ---- a time step */
 
+/* Of the model of two types. */
+int PairRestitute::number(int i, int j)
+{
+    return (int)(std::find(models.begin(), models.end(), model(i, j)) - models.begin());
+}
+
+static void prefetch(const double *place)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(place, 1);
+#else
+    (void)place;
+#endif
+}
+
 void PairRestitute::compute(int eflag, int vflag)
 {
     const Spheres spheres(atom, frozen);
@@ -221,6 +239,7 @@ void PairRestitute::compute(int eflag, int vflag)
     ev_init(eflag, vflag);
     histories->restart_global = 1;
     const double change = change_of_box();
+    const bool several = models.size() > 1;
     for (const Model &its : models)
         its->drift = change;
     for (int ii = 0; ii < list->inum; ii++) {
@@ -234,13 +253,16 @@ void PairRestitute::compute(int eflag, int vflag)
             const double sum = radius[i] + radius[j];
             if (dx * dx + dy * dy + dz * dz < sum * sum) {
                 touched[jj] = 1;
-                compute_contact(spheres, i, j, history);
+                const int its = several ? number(atom->type[i], atom->type[j]) : 0;
+                collect(*models[its], *batches[its], i, j, history);
             } else if (touched[jj]) {
                 touched[jj] = 0;
                 std::fill_n(history, history_size, 0.0);
             }
         }
     }
+    for (size_t k = 0; k < models.size(); k++)
+        compute_batch(*models[k], *batches[k]);
     const Record own = record(); /* for `compute ID all pair restitute` */
     const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS],
                              own.beyond[restitute_dem::SPEED]};
@@ -277,26 +299,40 @@ void PairRestitute::check_radius(int i)
 }
 
 /* The atom with the smaller tag is body 1: in every list, on every process. */
-void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double *history)
+void PairRestitute::collect(ContactModel &its, Batch &b, int i, int j, double *history)
 {
-    const tagint *tag = atom->tag;
-    const int first = tag[i] < tag[j] ? i : j, second = first == i ? j : i;
-    Contact contact;
-    double f[3];
-    if (!touching(spheres.body(first), spheres.body(second), contact)) return;
-    ContactModel &its = *model(atom->type[i], atom->type[j]);
+    const bool ordered = atom->tag[i] < atom->tag[j];
+    b.first[b.n] = ordered ? i : j;
+    b.second[b.n] = ordered ? j : i;
+    b.history[b.n] = history;
+    for (int k = 0; k < history_size; k += 8)
+        prefetch(history + k);
+    if (++b.n == Batch::SIZE) compute_batch(its, b);
+}
+
+void PairRestitute::compute_batch(ContactModel &its, Batch &b)
+{
+    const Spheres spheres(atom, frozen);
     const char *problem;
-    if (update->setupflag) {
-        problem = its.repeat(contact, history, f);
-    } else {
-        const double density = history[0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
-        const bool twice = j >= atom->nlocal && !force->newton_pair; /* the owner of j computes this contact, too */
-        problem = its.advance(contact, density, !twice || first == i, history, f, (double)tag[i] + tag[j]);
+    int n = 0;
+    for (int k = 0; k < b.n; k++) {
+        const int i = b.first[k], j = b.second[k];
+        if (!touching(spheres.body(i), spheres.body(j), b, n)) continue;
+        const bool twice = std::max(i, j) >= atom->nlocal && !force->newton_pair; /* the owner of the other, too */
+        b.first[n] = i, b.second[n] = j;
+        b.history[n] = b.history[k];
+        b.label[n] = (double)atom->tag[i] + atom->tag[j];
+        b.density[n] = b.history[k][0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
+        b.on_record[n++] = !twice || i < atom->nlocal;
     }
-    if (problem)
-        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep,
-                   problem);
-    apply(contact, f, first, second);
+    b.n = n;
+    const int bad = update->setupflag ? its.repeat(b, &problem) : its.advance(b, &problem);
+    if (bad >= 0)
+        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", atom->tag[b.first[bad]],
+                   atom->tag[b.second[bad]], update->ntimestep, problem);
+    for (int k = 0; k < b.n; k++)
+        apply(b, k);
+    b.n = 0;
 }
 
 static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
@@ -307,15 +343,17 @@ static void add_to(double *force, double *torque, double sign, const double *f, 
     }
 }
 
-void PairRestitute::apply(const Contact &c, const double f[3], int first, int second)
+void PairRestitute::apply(const Batch &batch, int k)
 {
-    const double *n = c.normal, *a = atom->x[first], *b = atom->x[second];
+    const int first = batch.first[k], second = batch.second[k];
+    const double *n = batch.motion[k].normal, *f = batch.force[k];
     const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
     const bool all = force->newton_pair;
-    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, c.arm1, turn);
-    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, c.arm2, turn);
-    if (evflag)
-        ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, batch.arm1[k], turn);
+    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, batch.arm2[k], turn);
+    if (!evflag) return;
+    const double *a = atom->x[first], *b = atom->x[second];
+    ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 Record PairRestitute::record() const

@@ -43,12 +43,15 @@ class PairRestitute : public Pair
     void find_largest_radii();
     void check_radius(int i);
     double change_of_box();
-    void compute_contact(const class Spheres &spheres, int i, int j, double *history);
-    void apply(const restitute_dem::Contact &contact, const double force[3], int first, int second);
+    int number(int i, int j);
+    void collect(restitute_dem::ContactModel &its, restitute_dem::Batch &batch, int i, int j, double *history);
+    void compute_batch(restitute_dem::ContactModel &its, restitute_dem::Batch &batch);
+    void apply(const restitute_dem::Batch &batch, int k);
     restitute_dem::Record record() const;
 
     int width = 0; /* of the table */
     std::vector<Model> table, models;
+    std::vector<std::unique_ptr<restitute_dem::Batch>> batches; /* of the models */
     std::vector<uint64_t> restarted; /* hashes of the laws in the restart file; empty: none, or checked */
     std::vector<double> largest_radius, box;
     class FixNeighHistory *histories = nullptr;

@@ -17,10 +17,10 @@
 #define RST_LAST_collision wave_density
 
 /* contact.h */
-#define RST_LAST_contact_law_options energies
+#define RST_LAST_contact_law_options details
 #define RST_LAST_contact_rates values
 #define RST_LAST_contact_motion friction
-#define RST_LAST_contact_energies viscous
+#define RST_LAST_contact_details viscous_power
 
 /* table.h */
 #define RST_LAST_table_options displacement_limit

@@ -16,7 +16,8 @@ RST_DEFAULTS(contact_rates, 0)
 static int check_options(const restitute_contact_law_options *o, restitute_error *error)
 {
     if (o->deformable != RESTITUTE_ONE_BODY_DEFORMS && o->deformable != RESTITUTE_BOTH_BODIES_DEFORM)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.deformable = %d: must be 1 or 2 bodies", o->deformable);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.deformable = %d: must be 1 or 2 bodies",
+                          o->deformable);
     if (o->elements < 8 || o->elements > rst_most_nodes || o->elements % 8)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.elements = %d: must be 8, 16, 24 or 32", o->elements);
     if (o->terms < 1 || o->terms > rst_most_terms)
@@ -64,7 +65,7 @@ static int take_series(const restitute_material *material, const restitute_conta
     struct rst_law *k = &law->kernel;
     const size_t n = restitute_material_terms(material);
     if (n <= (size_t)options->terms) {
-        k->n_terms = (int64_t)n;
+        k->n_terms = (int)n;
         restitute_material_series(material, &k->g_inf, &k->eta, k->tau, k->g, NULL);
         return RESTITUTE_OK;
     }
@@ -84,7 +85,7 @@ static void halve(struct rst_law *k)
 {
     k->g_inf /= 2;
     k->eta /= 2;
-    for (int64_t i = 0; i < k->n_terms; i++)
+    for (int i = 0; i < k->n_terms; i++)
         k->g[i] /= 2;
 }
 
@@ -102,8 +103,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
                                  restitute_contact_law **law, restitute_error *error)
 {
     restitute_contact_law_options own;
-    if (!material || !law)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "law" : "material");
+    if (!material || !law) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "law" : "material");
     int status = RST_TAKE(contact_law_options, &own, options, error);
     if (!status) status = check_options(&own, error);
     if (status) return status;
@@ -118,7 +118,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     const double nu = restitute_material_poisson_ratio(material);
     k->n = own.elements;
     k->slips = !own.frictionless;
-    k->accounts = own.energies != 0;
+    k->details = own.details != 0;
     k->surface = k->eta > 0 || !(k->g_inf > 0);
     k->normal = 4 / (1 - nu);
     k->tangential = 8 / (2 - nu);
@@ -126,8 +126,9 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     if (made->halved) halve(k);
     k->compliance = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
-    made->size = (size_t)k->size;
+    made->size = (size_t)(rst_at_details(k) + (k->details ? rst_details : 0));
     made->hash = hash_of(k);
+    rst_choose_kernels(&made->step_one, &made->step_lanes);
     *law = made;
     return status ? status : rst_done(error);
 }
@@ -157,7 +158,7 @@ int restitute_contact_law_series(const restitute_contact_law *law, double *equil
     if (equilibrium_modulus) *equilibrium_modulus = whole * k->g_inf;
     if (parallel_viscosity) *parallel_viscosity = whole * k->eta;
     if (n_terms) *n_terms = (size_t)k->n_terms;
-    for (int64_t i = 0; i < k->n_terms; i++) {
+    for (int i = 0; i < k->n_terms; i++) {
         if (relaxation_time) relaxation_time[i] = k->tau[i];
         if (modulus) modulus[i] = whole * k->g[i];
     }
@@ -180,20 +181,31 @@ int restitute_contact_rates_set(const restitute_contact_law *law, double step, r
     if (!status) status = check_positive(step, "step (s)", error);
     if (status) return status;
     restitute_contact_rates_init(&made);
-    rst_law_rates(&law->kernel, step, &made);
+    rst_law_rates(&law->kernel, step, (struct rst_rates *)made.values);
+    made.step = step;
     made.law = law->hash;
     RST_GIVE(&made, rates);
+    return rst_done(error);
+}
+
+int restitute_contact_time_scale(const restitute_contact_law *law, double mass, double radius, double speed,
+                                 double *scale, restitute_error *error)
+{
+    if (!law || !scale) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "scale" : "law");
+    int status = check_positive(mass, "mass (kg)", error);
+    if (!status) status = check_positive(radius, "radius (m)", error);
+    if (!status) status = check_positive(speed, "speed (m/s)", error);
+    if (status) return status;
+    *scale = rst_law_largest_overlap(&law->kernel, mass, radius, speed) / speed;
     return rst_done(error);
 }
 
 int restitute_contact_time_step_limit(const restitute_contact_law *law, double mass, double radius, double speed,
                                       double *limit, restitute_error *error)
 {
+    double scale;
     if (!law || !limit) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "limit" : "law");
-    int status = check_positive(mass, "mass (kg)", error);
-    if (!status) status = check_positive(radius, "radius (m)", error);
-    if (!status) status = check_positive(speed, "speed (m/s)", error);
-    if (status) return status;
-    *limit = rst_law_contact_time(&law->kernel, mass, speed, radius) / 50;
-    return rst_done(error);
+    const int status = restitute_contact_time_scale(law, mass, radius, speed, &scale, error);
+    if (!status) *limit = RST_ELASTIC_CONTACT_TIME * scale / 50;
+    return status;
 }

@@ -104,7 +104,8 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
     *error_bound = INFINITY;
     if (!(modulus(series, longest) > nothing * modulus(series, 0))) return;
     for (int trial = 0; trial < reach_count * reach_count; trial++) {
-        const double fastest = shortest * reaches[trial / reach_count], slowest = longest / reaches[trial % reach_count];
+        const double fastest = shortest * reaches[trial / reach_count],
+                     slowest = longest / reaches[trial % reach_count];
         double tau[rst_most_terms], matrix[unknowns][unknowns] = {{0}}, right[unknowns] = {0}, x[unknowns] = {0};
         for (int k = 0; k < terms; k++)
             tau[k] = between(fastest, slowest, k, terms);
@@ -122,6 +123,6 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
                 law->g[law->n_terms++] = x[k];
             }
     }
-    for (int64_t k = law->n_terms; k < rst_most_terms; k++)
+    for (int k = law->n_terms; k < rst_most_terms; k++)
         law->tau[k] = law->g[k] = 0;
 }

@@ -1,154 +1,14 @@
-/* Steps of contacts: checks of the input, and the mark of the law in the state.
+/* Steps of contacts. Those that are good are collected and advanced in lanes; all else is rare and
+ * done before: contacts that begin, outgrow their grid or are refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/report.h"
 #include "base/sized.h"
 #include "contact/law.h"
 
-/* The first number of a state is the grid width. Its lowest bits are replaced by bits of the hash
- * of the law, since a width does not need all its digits. */
-static const uint64_t mark_bits = (1u << 24) - 1;
-
-static uint64_t bits_of(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static void mark(const restitute_contact_law *law, double *width)
-{
-    const uint64_t bits = (bits_of(*width) & ~mark_bits) | (law->hash & mark_bits);
-    memcpy(width, &bits, sizeof bits);
-}
-
-static int is_own(const restitute_contact_law *law, const double *state)
-{
-    return bits_of(state[0]) == 0 || ((bits_of(state[0]) ^ law->hash) & mark_bits) == 0;
-}
-
-static int is_unit(const double v[3])
-{
-    return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
-}
-
-/* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
-static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 1e30, largest_friction = 1e6;
-static const double least_step = 1e-60, largest_step = 1e60;
-
 RST_DEFAULTS(contact_motion, .normal = {0, 0, 1})
-
-RST_DEFAULTS(contact_energies, 0)
-
-/* Motions and rates are read in place, since those of every caller have what a step needs. One test
- * for all: comparisons are false for NaN. */
-static int is_good(const restitute_contact_rates *rates, const restitute_contact_motion *m)
-{
-    if (!RST_IS_SIZED(contact_motion, m)) return 0;
-    const double *u = m->displacement, r = m->radius;
-    return r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r &&
-           fabs(m->normal_velocity) <= r / rates->step && fabs(u[0]) <= r && fabs(u[1]) <= r && fabs(u[2]) <= r &&
-           m->half_step_over_mass >= 0 && m->half_step_over_mass <= largest_mobility &&
-           m->half_step_over_tangential_mass >= 0 && m->half_step_over_tangential_mass <= largest_mobility &&
-           m->friction >= 0 && m->friction <= largest_friction && is_unit(m->normal);
-}
-
-/* A call on a state: nothing NULL (`other` is called `name`), and the state one of this law. */
-static int check_state(const restitute_contact_law *law, const double *state, const void *other, const char *name,
-                       restitute_error *error)
-{
-    if (!law || !state || !other)
-        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", !law ? "law" : !state ? "state" : name);
-    if (is_own(law, state)) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "state[0] = %.17g: is of another law than the one with hash %016llx, or has lost digits", state[0],
-                      (unsigned long long)law->hash);
-}
-
-static int check_unit(const double *v, const char *name, restitute_error *error)
-{
-    if (!v) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", name);
-    if (is_unit(v)) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1], v[2]);
-}
-
-/* Report the first wrong value of a motion that failed the test. */
-static int refuse(const restitute_contact_rates *rates, const restitute_contact_motion *m, restitute_error *error)
-{
-    const int status = RST_CHECK(contact_motion, m, error);
-    if (status) return status;
-    if (!(rates->step >= least_step && rates->step <= largest_step))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "rates.step = %g s: must be in [%g, %g]; restitute_contact_rates_set fills rates",
-                          rates->step, least_step, largest_step);
-    const double r = m->radius, fastest = r / rates->step, *u = m->displacement;
-    const struct {
-        const char *name;
-        double value, low, high;
-    } numbers[] = {{"radius", r, least_radius, largest_radius},
-                   {"overlap", m->overlap, -r, r},
-                   {"normal_velocity", m->normal_velocity, -fastest, fastest},
-                   {"displacement[0]", u[0], -r, r},
-                   {"displacement[1]", u[1], -r, r},
-                   {"displacement[2]", u[2], -r, r},
-                   {"half_step_over_mass", m->half_step_over_mass, 0, largest_mobility},
-                   {"half_step_over_tangential_mass", m->half_step_over_tangential_mass, 0, largest_mobility},
-                   {"friction", m->friction, 0, largest_friction}};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,
-                              numbers[i].value, numbers[i].low, numbers[i].high);
-    return check_unit(m->normal, "motion.normal", error);
-}
-
-static int refuse_step(int64_t why, const restitute_contact_rates *rates, const restitute_contact_motion *motion,
-                       restitute_error *error)
-{
-    if (why == rst_step_too_long)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
-                          "restitute_contact_time_step_limit",
-                          rates->step, motion->normal_velocity);
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "motion.normal = (%g, %g, %g): has turned too far since the last step; use restitute_contact_turn",
-                      motion->normal[0], motion->normal[1], motion->normal[2]);
-}
-
-static int is_finite(const restitute_contact_force *f)
-{
-    return fabs(f->normal) <= DBL_MAX && fabs(f->tangential[0]) <= DBL_MAX && fabs(f->tangential[1]) <= DBL_MAX &&
-           fabs(f->tangential[2]) <= DBL_MAX;
-}
-
-/* Within their ranges all inputs give finite forces. */
-static int refuse_corrupt(restitute_error *error)
-{
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
-}
-
-/* A checked step. A refused step changes nothing. */
-static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
-                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
-                   restitute_error *error)
-{
-    restitute_contact_force found;
-    int64_t why;
-    if (!is_good(rates, motion)) return refuse(rates, motion, error);
-    if (!is_own(law, state)) return check_state(law, state, state, "state", error);
-    if (bits_of(state[0]) == 0 && motion->overlap <= 0) { /* not yet a contact */
-        *force = (restitute_contact_force){0};
-        return RESTITUTE_OK;
-    }
-    rst_law_step(&law->kernel, rates, motion, state, &found, &why);
-    if (why != rst_step_done) return refuse_step(why, rates, motion, error);
-    if (!is_finite(&found)) return refuse_corrupt(error);
-    mark(law, &state[0]);
-    *force = found;
-    return RESTITUTE_OK;
-}
 
 static int check_rates(const restitute_contact_law *law, const restitute_contact_rates *rates, restitute_error *error)
 {
@@ -158,6 +18,68 @@ static int check_rates(const restitute_contact_law *law, const restitute_contact
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "rates: are of another law; make them with restitute_contact_rates_set");
     return RESTITUTE_OK;
+}
+
+/* A contact that the kernel cannot take as it is: one that begins or outgrows its grid is made
+ * ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
+static int prepare(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                   const restitute_contact_motion *m, double *state, restitute_contact_force *force, int *status,
+                   restitute_error *error)
+{
+    const double *n = m->normal, *v = m->velocity, area = m->overlap * m->radius;
+    *status = rst_check_motion(rates->step, m, error);
+    if (!*status) *status = rst_check_state(law, state, error);
+    if (!*status && !rst_is_new(state)) *status = rst_check_turn(n, state, error);
+    if (*status) return 0;
+    if (rst_is_new(state) && m->overlap <= 0) {
+        *force = (restitute_contact_force){0};
+        return 0;
+    }
+    if (rst_is_new(state) && !rst_contact_begin(&law->kernel, rates->step, m, state)) {
+        *status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                             "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
+                             "restitute_contact_time_step_limit",
+                             rates->step, n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+        return 0;
+    }
+    if (area > state[at_width] * state[at_width]) rst_contact_stretch(&law->kernel, area, state);
+    rst_mark(law, &state[at_width]);
+    return 1;
+}
+
+static void put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
+{
+    for (int i = 0; i < 3; i++) {
+        batch->normal[i][lane] = m->normal[i];
+        batch->velocity[i][lane] = m->velocity[i];
+        batch->axis[i][lane] = state[at_axis + i];
+    }
+    batch->overlap[lane] = m->overlap;
+    batch->turn[lane] = m->spin;
+    batch->inverse_mass[0][lane] = m->inverse_mass;
+    batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
+    batch->radius[lane] = m->radius;
+    batch->friction[lane] = m->friction;
+    batch->width[lane] = state[at_width];
+    batch->state[lane] = state;
+}
+
+/* The force, if it is finite: within their ranges all motions give a finite one. */
+static int take(const struct rst_batch *batch, int lane, restitute_contact_force *force, restitute_error *error)
+{
+    const restitute_contact_force found = {
+        batch->force[lane], {batch->tangential[0][lane], batch->tangential[1][lane], batch->tangential[2][lane]}};
+    if (!(fabs(found.normal) + fabs(found.tangential[0]) + fabs(found.tangential[1]) + fabs(found.tangential[2]) <=
+          DBL_MAX))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
+    *force = found;
+    return RESTITUTE_OK;
+}
+
+static const struct rst_rates *kernel_rates(const restitute_contact_rates *rates)
+{
+    _Static_assert(sizeof(struct rst_rates) == sizeof rates->values, "values of the public struct");
+    return (const struct rst_rates *)rates->values;
 }
 
 /* `plural`: how the names of the arguments end. */
@@ -172,79 +94,64 @@ static int check_places(const void *motion, const void *state, const void *force
                       plural);
 }
 
+static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
+                   restitute_error *error)
+{
+    struct rst_batch batch;
+    int status;
+    put(motion, state, 0, &batch);
+    if (!rst_all_good(law, rates->step, &batch, 1)) {
+        if (!prepare(law, rates, motion, state, force, &status, error)) return status;
+        put(motion, state, 0, &batch);
+    }
+    law->step_one(&law->kernel, kernel_rates(rates), rates->step, &batch);
+    return take(&batch, 0, force, error);
+}
+
 int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
                            const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                            restitute_error *error)
 {
     int status = check_rates(law, rates, error);
     if (!status) status = check_places(motion, state, force, "", error);
+    if (!status && !RST_IS_SIZED(contact_motion, motion)) status = RST_CHECK(contact_motion, motion, error);
     if (!status) status = advance(law, rates, motion, state, force, error);
     return status ? status : rst_done(error);
 }
 
+/* As many contacts as there are lanes; 0: one of them has to be looked at. */
+static int advance_lanes(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                         const restitute_contact_motion *motions, double *const *states, struct rst_batch *batch)
+{
+    for (int l = 0; l < rst_lanes; l++)
+        put(rst_at(motions, (size_t)l), states[l], l, batch);
+    if (!rst_all_good(law, rates->step, batch, rst_lanes)) return 0;
+    law->step_lanes(&law->kernel, kernel_rates(rates), rates->step, batch);
+    return 1;
+}
+
 int restitute_contact_step_many(const restitute_contact_law *law, const restitute_contact_rates *rates, size_t n,
-                                const restitute_contact_motion *motions, double *states, size_t stride,
+                                const restitute_contact_motion *motions, double *const *states,
                                 restitute_contact_force *forces, int *statuses, restitute_error *error)
 {
-    int first = RESTITUTE_OK;
+    struct rst_batch batch;
     restitute_error its;
-    int status = check_rates(law, rates, error);
+    int first = RESTITUTE_OK, status = check_rates(law, rates, error);
     if (!status && n > 0) status = check_places(motions, states, forces, "s", error);
     if (!status) status = RST_CHECK_ARRAY(contact_motion, motions, n, "motions", error);
+    for (size_t i = 0; i < n && !status; i++)
+        if (!states[i]) status = rst_report(error, RESTITUTE_ERROR_NULL, "states[%zu] is NULL", i);
     if (status) return status;
-    if (stride < law->size)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "stride = %zu: must be at least the size of a state, %zu",
-                          stride, law->size);
-    for (size_t i = 0; i < n; i++) {
-        const int one = advance(law, rates, rst_at(motions, i), states + i * stride, &forces[i], &its);
-        if (statuses) statuses[i] = one;
-        if (one && !first) first = rst_report(error, one, "motions[%zu]: %.220s", i, its.message);
+    for (size_t i = 0, end; i < n; i = end) {
+        end = n - i < rst_lanes ? n : i + rst_lanes;
+        const int done = end - i == rst_lanes && advance_lanes(law, rates, rst_at(motions, i), states + i, &batch);
+        for (size_t j = i; j < end; j++) {
+            status = done ? take(&batch, (int)(j - i), &forces[j], &its)
+                          : advance(law, rates, rst_at(motions, j), states[j], &forces[j], &its);
+            if (statuses) statuses[j] = status;
+            if (status && !first) first = rst_report(error, status, "motions[%zu]: %.220s", j, its.message);
+        }
     }
     return first ? first : rst_done(error);
-}
-
-int restitute_contact_peek(const restitute_contact_law *law, const double normal[3], const double *state,
-                           restitute_contact_force *force, restitute_error *error)
-{
-    int status = check_state(law, state, force, "force", error);
-    if (!status) status = check_unit(normal, "normal", error);
-    if (status) return status;
-    restitute_contact_force found;
-    rst_law_force(normal, state, &found);
-    if (!is_finite(&found)) return refuse_corrupt(error);
-    *force = found;
-    return rst_done(error);
-}
-
-int restitute_contact_energies_get(const restitute_contact_law *law, double radius, const double *state,
-                                   restitute_contact_energies *energies, restitute_error *error)
-{
-    int status = check_state(law, state, energies, "energies", error);
-    if (!status) status = RST_CHECK(contact_energies, energies, error);
-    if (status) return status;
-    if (!law->kernel.accounts)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without energies");
-    if (!(radius >= least_radius && radius <= largest_radius))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "radius = %.17g m: must be in [%g, %g]", radius, least_radius,
-                          largest_radius);
-    const double *account = state + law->size - 2, stored = rst_law_stored(&law->kernel, radius, state);
-    const restitute_contact_energies found = {
-        .struct_size = sizeof found,
-        .stored = stored,
-        .friction = account[1],
-        .viscous = account[0] - stored - account[1],
-    };
-    RST_GIVE(&found, energies);
-    return rst_done(error);
-}
-
-int restitute_contact_turn(const restitute_contact_law *law, const double from[3], const double to[3], double *state,
-                           restitute_error *error)
-{
-    int status = check_state(law, state, law, "law", error);
-    if (!status) status = check_unit(from, "from", error);
-    if (!status) status = check_unit(to, "to", error);
-    if (status) return status;
-    rst_law_turn(from, to, state);
-    return rst_done(error);
 }

@@ -1,0 +1,743 @@
+/* One step of LANES contacts (docs/contact.md): vectors over the elements of a contact for what there is one of an element, over
+ * the lanes for what there is one of a contact. Branches are selections, and no sum runs across lanes, so that a contact has the
+ * same bits in every lane, batch and width of vectors.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "contact/kernel.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#define INLINE static inline __attribute__((always_inline))
+#define RARE static __attribute__((noinline, cold))
+#define SIMD _Pragma("omp simd")
+#define EACH_LANE SIMD for (int l = 0; l < LANES; l++)
+#define EACH_ELEMENT SIMD for (int i = 0; i < n; i++)
+
+enum { most_n = rst_most_nodes, most_k = rst_most_terms };
+static const double beyond = 1e30;  /* in y of the grid: no rim is there */
+static const double fastest = 1e80; /* m/s: squares of viscous forces are not to overflow */
+
+typedef double lanes[LANES];
+
+/* What a compiler is to know of a law. */
+struct shape {
+    int n, terms, surface, slips, details;
+};
+
+/* What a step is of. */
+struct call {
+    const struct rst_law *law;
+    const struct rst_rates *r;
+    struct rst_batch *in;
+    double step;
+    struct shape at;
+};
+
+/* Of each Maxwell arm over the step; an element that enters has less time. */
+struct arms {
+    double decay[most_k][most_n], gain[most_k][most_n];
+};
+
+/* Elements of a contact. Force densities in units of law.normal and law.tangential. */
+struct rows {
+    const struct arms *arms;
+    struct arms own;
+    double touch[most_n];                       /* part of the step in contact, 0 outside */
+    double f[most_n];                           /* normal */
+    double trial[2][most_n];                    /* tangential, if all sticks */
+    double q[2][most_n];                        /* within the limit of friction */
+    double spent[most_n];                       /* by dashpots in the step, normal */
+    double at_rest[most_n], by_move[2][most_n]; /* likewise tangential: without displacement, by a unit of it */
+};
+
+struct work {
+    struct arms even;
+    struct rows row[LANES];
+    int last[LANES]; /* outermost element in contact, counted from 1; 0: none */
+    lanes scale;     /* width^2/radius */
+    lanes width, before, approach, sum, force;
+    /* the rim: places of the last element, f and w there; edge: contact radius in grid widths; weights of the last, cut cell: of
+     * the last element, beside its own, and of the rim; f at the rim, and w there over w of the last element */
+    lanes x, y, y_before, next, per_cell, outwards, f_last, f_before, virgin, touches;
+    lanes w_last[most_k], ratio[most_k], edge, inner, outer, at_rim;
+    /* tangential: the frame, displacement and velocity at the end of the step, integrals over the contact radius in widths */
+    lanes axis[3], other[3], move[2], speed[2], limit_ratio, total[2], sticking, slipped, spent, back[2], rim[2];
+    lanes q_last[2], q_before[2], wt_last[2][most_k], stuck, last_sticks, both_stick;
+};
+
+INLINE double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+INLINE double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+INLINE double if_so(bool is)
+{
+    return is ? 1.0 : 0.0;
+}
+
+/* The sum over elements, in an order that suits every width of vectors. */
+INLINE double sum_of(const double *p, int n)
+{
+    double sum = 0;
+    for (const double *q = p; q < p + n; q += 8)
+        sum += ((q[0] + q[4]) + (q[2] + q[6])) + ((q[1] + q[5]) + (q[3] + q[7]));
+    return sum;
+}
+
+/* exp(x) for -700 <= x <= 0 within 2e-16 relative, in lanes: x = k ln 2 + r, and Taylor's series of r. */
+INLINE double exp_of(double x)
+{
+    const double shift = 0x1.8p52 + 1023, t = x * 1.4426950408889634 + shift, k = t - shift;
+    const double r = (x - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;
+    double p = 1, scale;
+    for (int i = 13; i > 0; i--)
+        p = p * r * (1.0 / i) + 1;
+    uint64_t bits;
+    memcpy(&bits, &t, sizeof bits);
+    bits <<= 52;
+    memcpy(&scale, &bits, sizeof scale);
+    return p * scale;
+}
+
+/* Change of the velocity until the end of the step by a unit force that holds it back, with a damping of that force over velocity.
+ * Such that a mere dashpot decays by exp(-damping dt/m) in a velocity-Verlet step, however strong it is. */
+INLINE double velocity_response(double half_step_over_mass, double damping)
+{
+    const double z = 2 * half_step_over_mass * damping, safe = smaller(larger(z, 1e-3), 700);
+    const double share = z < 1e-3 ? 0.5 + z / 12 : 1 / (1 - exp_of(-safe)) - 1 / larger(z, 1e-3);
+    return 2 * half_step_over_mass * share / (1 + z * share);
+}
+
+/* ------------------------------------------------------------------------------------------------- normal problem */
+
+/* Elements that were reached within the step: their arms have had only a part of it. */
+RARE void enter(const struct rst_law *restrict law, double step, const struct arms *even, const double *gap,
+                const double *pressed, struct rows *row)
+{
+    for (int k = 0; k < law->n_terms; k++) {
+        memcpy(row->own.decay[k], even->decay[k], (size_t)law->n * sizeof(double));
+        memcpy(row->own.gain[k], even->gain[k], (size_t)law->n * sizeof(double));
+    }
+    row->arms = &row->own;
+    for (int i = 0; i < law->n; i++) {
+        if (!(gap[i] < 0 && pressed[i] > 0)) continue;
+        row->touch[i] = larger(1e-9, pressed[i] / (pressed[i] - gap[i]));
+        for (int k = 0; k < law->n_terms; k++) {
+            const struct rst_arm arm = rst_arm_of(row->touch[i] * step, law->tau[k]);
+            row->own.decay[k][i] = arm.decay;
+            row->own.gain[k][i] = arm.gain;
+        }
+    }
+}
+
+/* The outermost element whose bit is in the sum. */
+INLINE int outermost(double bits)
+{
+    const uint32_t in = (uint32_t)(int64_t)bits;
+    return in ? 32 - __builtin_clz(in) : 0;
+}
+
+/* Every element follows the sphere or, where that would pull, its own free surface, whichever is larger: entry, exit and re-entry on
+ * a surface that has not relaxed are one line. An element enters where the profile reaches its free surface. */
+INLINE void follow_profile(const struct call c, int l, struct work *s)
+{
+    const int n = c.at.n;
+    const double scale = s->scale[l], before = s->before[l], overlap = c.in->overlap[l];
+    const double dashpot = c.at.surface ? c.law->eta * s->approach[l] : 0;
+    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
+    struct rows *const row = &s->row[l];
+    double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], pressed[most_n], f[most_n], part[most_n];
+    EACH_ELEMENT held[i] = pull[i] = 0;
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k], later = c.law->g[k] * c.r->decay[k];
+        EACH_ELEMENT
+        {
+            held[i] += g * w[k * n + i];
+            pull[i] += later * w[k * n + i];
+        }
+    }
+    EACH_ELEMENT
+    {
+        const double y = c.law->y[i] * scale, old = before - y;
+        u[i] = c.at.surface ? surface[i] : larger(old, -held[i] * c.law->compliance);
+        const double loose = -(c.law->g_inf * u[i] + pull[i]) * c.r->compliance;
+        gap[i] = old - u[i];
+        pressed[i] = overlap - y - u[i] - loose;
+        moved[i] = loose + larger(pressed[i], 0);
+        row->touch[i] = if_so(pressed[i] > 0);
+        part[i] = row->touch[i] * smaller(gap[i], 0);
+    }
+    row->arms = &s->even;
+    if (sum_of(part, n) < 0) enter(c.law, c.step, &s->even, gap, pressed, row);
+    EACH_ELEMENT f[i] = c.law->g_inf * (u[i] + moved[i]) + dashpot;
+    if (c.at.surface) EACH_ELEMENT surface[i] = u[i] + moved[i];
+    if (c.at.details) EACH_ELEMENT row->spent[i] = c.law->eta / c.step * moved[i] * moved[i];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+        const double *const spent = c.r->spent[k];
+        EACH_ELEMENT
+        {
+            const double before = w[k * n + i];
+            w[k * n + i] = decay[i] * before + gain[i] * moved[i];
+            f[i] += g * w[k * n + i];
+            if (c.at.details)
+                row->spent[i] += spent[0] * before * before + (spent[1] * before + spent[2] * moved[i]) * moved[i];
+        }
+    }
+    if (c.at.details) {
+        EACH_ELEMENT part[i] = c.law->weight[i] * row->spent[i];
+        s->spent[l] = c.law->normal * s->width[l] * sum_of(part, n);
+    }
+    EACH_ELEMENT
+    {
+        row->f[i] = larger(f[i], 0) * if_so(pressed[i] > 0);
+        part[i] = c.law->weight[i] * row->f[i];
+    }
+    s->sum[l] = sum_of(part, n);
+    EACH_ELEMENT part[i] = c.law->bit[i] * if_so(pressed[i] > 0);
+    s->last[l] = outermost(sum_of(part, n));
+}
+
+/* What the rim needs of the last element of a contact, and whether the next one has ever been touched. */
+INLINE void look_at_last(const struct call c, int l, struct work *s)
+{
+    const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
+    const double *const state = c.in->state[l], *const w = state + at_arrays;
+    s->touches[l] = if_so(last > 0);
+    s->x[l] = c.law->x[j];
+    s->y[l] = c.law->y[j];
+    s->y_before[l] = c.law->y[before];
+    s->next[l] = last < n ? c.law->y[j + 1] : beyond;
+    s->per_cell[l] = c.law->per_cell[j];
+    s->outwards[l] = c.law->outwards[j];
+    s->f_last[l] = s->row[l].f[j];
+    s->f_before[l] = s->row[l].f[before];
+    bool virgin = true;
+    for (int k = 0; k < c.at.terms; k++) {
+        s->w_last[k][l] = w[k * n + j];
+        virgin &= last == n || w[k * n + last] == 0;
+    }
+    if (c.at.surface) virgin &= last == n || state[rst_at_surface(c.law) + last] == 0;
+    s->virgin[l] = if_so(virgin);
+}
+
+/* Where the contact ends beyond its last element, f there, and the whole force. A contact that grows over virgin elements ends where
+ * the sphere does. Behind its rim elongations rise within tau times the velocity, which may be less than a cell: w ~ 1 - exp(-z), z
+ * from the rim in tau v. The value at the rim is the one whose linear interpolation has the integral of that over the cell,
+ * 2/(1 - exp(-z)) - 2/z - 1 of w at the last element, within 0.007; z is known from w there, the part q = (1 - exp(-z))/z of the
+ * cell. Any other contact ends where f, extrapolated, is zero. */
+INLINE void close_rim(const struct call c, const double *approach, struct work *s)
+{
+    lanes cell, per, rise;
+    EACH_LANE
+    {
+        cell[l] = c.in->overlap[l] - s->y[l] * s->scale[l];
+        per[l] = 1 / larger(cell[l], DBL_MIN);
+        rise[l] = c.law->eta * approach[l];
+    }
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k];
+        EACH_LANE
+        {
+            const double w = s->w_last[k][l], q = larger(0, smaller(w, cell[l])) * per[l];
+            const double grows = if_so(s->approach[l] > 0) * s->virgin[l] * s->touches[l];
+            const double ratio = grows * (1 - q) / (1 + q * (1 + q * (2.83 - 1.83 * q)));
+            s->ratio[k][l] = ratio;
+            rise[l] += g * w * ratio;
+        }
+    }
+    EACH_LANE
+    {
+        const double y = s->y[l], x = s->x[l], f = s->f_last[l], next = s->next[l], touches = s->touches[l];
+        const double slope = (s->f_before[l] - f) * s->per_cell[l], soft = c.law->g_inf * s->scale[l];
+        const double free = c.in->overlap[l] / s->scale[l], several = if_so(s->per_cell[l] > 0);
+        const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
+        const double fall = slope > 0 ? slope : soft;
+        const bool ends = (f < fall * (free - y)) & !grows;
+        const double divisor = ends ? fall : 1, reached = y + f / divisor, place = ends ? reached : free;
+        const double risen = larger(0, rise[l]), held = larger(0, f - slope * (free - y)) * several * if_so(!ends);
+        const double here = grows ? risen : held,
+                     there = larger(0, f - slope * (next - y)) * several * if_so(place > next);
+        const double at_rim = here > 0 ? here : there;
+        const double edge = sqrt(larger(smaller(place, next), y));
+        const double third = larger(edge - x, 0) / (3 * larger(edge + x, DBL_MIN));
+        s->at_rim[l] = touches * at_rim;
+        s->edge[l] = edge;
+        s->inner[l] = touches * (third * (2 * edge + x) - s->outwards[l]);
+        s->outer[l] = touches * third * (2 * x + edge);
+        s->force[l] = c.law->normal * s->width[l] * (s->sum[l] + s->inner[l] * f + s->outer[l] * s->at_rim[l]);
+    }
+}
+
+/* The viscous force at the velocity of the end of the step. An element that this would make pull springs back at once. */
+INLINE void feel_end_velocity(const struct call c, double change, int l, struct work *s)
+{
+    const int n = c.at.n;
+    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
+    struct rows *const row = &s->row[l];
+    double back[most_n], moved[most_n], part[most_n], bits[most_n];
+    EACH_ELEMENT
+    {
+        moved[i] = if_so(row->touch[i] > 0) * change;
+        const double f = row->f[i] + c.r->viscosity * moved[i], pushes = larger(f, 0), stays = if_so(f > 0);
+        back[i] = (pushes - f) * c.r->compliance;
+        row->touch[i] = stays * row->touch[i];
+        row->f[i] = pushes;
+        part[i] = c.law->weight[i] * pushes;
+        bits[i] = c.law->bit[i] * stays;
+    }
+    if (c.at.surface) EACH_ELEMENT surface[i] += back[i];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double bend = c.r->bend[k], gain = c.r->gain[k];
+        EACH_ELEMENT w[k * n + i] += bend * moved[i] + gain * back[i];
+    }
+    s->sum[l] = sum_of(part, n);
+    s->last[l] = outermost(sum_of(bits, n));
+}
+
+INLINE void press(const struct call c, struct work *s)
+{
+    for (int l = 0; l < LANES; l++) {
+        follow_profile(c, l, s);
+        look_at_last(c, l, s);
+    }
+    close_rim(c, s->approach, s);
+    if (c.at.terms + c.at.surface == 0 || !(c.r->viscosity > 0)) return;
+    lanes change, later;
+    EACH_LANE
+    {
+        /* The equilibrium spring carries what does not accelerate, such as a weight at rest. */
+        const double rim = s->width[l] * s->edge[l];
+        const double carried =
+            c.law->normal * c.law->g_inf * rim * (c.in->overlap[l] - rim * rim / (3 * c.in->radius[l]));
+        const double response =
+            velocity_response(0.5 * c.step * c.in->inverse_mass[0][l], c.law->normal * rim * c.r->viscosity);
+        change[l] = -s->touches[l] * response * (s->force[l] - carried);
+        later[l] = s->approach[l] + change[l];
+    }
+    for (int l = 0; l < LANES; l++) {
+        feel_end_velocity(c, change[l], l, s);
+        look_at_last(c, l, s);
+    }
+    close_rim(c, later, s);
+}
+
+/* --------------------------------------------------------------------------------------------- tangential problem */
+
+/* Elements if all stick: displaced by the step. */
+INLINE void stick(const struct call c, double per_step, int l, struct work *s)
+{
+    const int n = c.at.n;
+    struct rows *const row = &s->row[l];
+    if (c.at.details) EACH_ELEMENT row->at_rest[i] = row->by_move[0][i] = row->by_move[1][i] = 0;
+    for (int d = 0; d < 2; d++) {
+        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
+                                                                               d * c.at.terms * n;
+        double *const trial = row->trial[d];
+        const double move = s->move[d][l], dashpot = c.law->eta * per_step * move;
+        EACH_ELEMENT
+        {
+            u[i] += row->touch[i] * move;
+            trial[i] = c.law->g_inf * u[i] + if_so(row->touch[i] > 0) * dashpot;
+        }
+        for (int k = 0; k < c.at.terms; k++) {
+            const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+            EACH_ELEMENT
+            {
+                const double before = w[k * n + i];
+                w[k * n + i] = decay[i] * before + gain[i] * (row->touch[i] * move);
+                trial[i] += g * w[k * n + i];
+                if (c.at.details) row->at_rest[i] += c.r->spent[k][0] * before * before;
+                if (c.at.details) row->by_move[d][i] += c.r->spent[k][1] * before;
+            }
+        }
+    }
+}
+
+/* The velocity of the end of the step differs by `change`. */
+INLINE void feel_end_slide(const struct call c, const double *change, int l, struct work *s)
+{
+    const int n = c.at.n;
+    struct rows *const row = &s->row[l];
+    for (int d = 0; d < 2; d++) {
+        double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        EACH_ELEMENT row->trial[d][i] += c.r->viscosity * change[d] * row->touch[i];
+        for (int k = 0; k < c.at.terms; k++)
+            EACH_ELEMENT w[k * n + i] += c.r->bend[k] * change[d] * row->touch[i];
+    }
+}
+
+/* Forces within the limit of friction, radially, and their integral up to the last element. */
+INLINE void cut_to_limit(const struct call c, int viscous, int l, struct work *s)
+{
+    const int n = c.at.n;
+    struct rows *const row = &s->row[l];
+    const double ratio = s->limit_ratio[l];
+    double x[most_n], y[most_n], bits[most_n], part[most_n];
+    EACH_ELEMENT
+    {
+        const double tx = row->trial[0][i], ty = row->trial[1][i];
+        const double limit = ratio * row->f[i], size = sqrt(tx * tx + ty * ty);
+        const double kept = limit / larger(larger(size, limit), DBL_MIN), sticks = if_so(size <= limit);
+        row->q[0][i] = tx * kept;
+        row->q[1][i] = ty * kept;
+        x[i] = c.law->weight[i] * row->q[0][i];
+        y[i] = c.law->weight[i] * row->q[1][i];
+        bits[i] = c.law->bit[i] * sticks;
+        part[i] = viscous ? c.law->weight[i] * sticks * if_so(row->touch[i] > 0) : 0;
+    }
+    s->total[0][l] = sum_of(x, n);
+    s->total[1][l] = sum_of(y, n);
+    s->stuck[l] = sum_of(bits, n);
+    if (viscous) s->sticking[l] = sum_of(part, n);
+}
+
+/* What the rim needs of the last element. */
+INLINE void look_at_last_slide(const struct call c, int l, struct work *s)
+{
+    const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
+    const struct rows *const row = &s->row[l];
+    for (int d = 0; d < 2; d++) {
+        const double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        const double back = (row->trial[d][j] - row->q[d][j]) * c.r->compliance;
+        s->q_last[d][l] = row->q[d][j];
+        s->q_before[d][l] = row->q[d][before];
+        s->back[d][l] = back;
+        for (int k = 0; k < c.at.terms; k++)
+            s->wt_last[d][k][l] = w[k * n + j] - c.r->gain[k] * back;
+    }
+    const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
+    s->last_sticks[l] = stuck >> j & 1;
+    s->both_stick[l] = last > 1 ? stuck >> j & stuck >> before & 1 : 0;
+}
+
+/* The force density at the rim: where w rises from zero there (close_rim), that of the last element by as much; else the same part
+ * of the limit. */
+INLINE void hold_rim(const struct call c, struct work *s)
+{
+    lanes x, y, rises;
+    EACH_LANE
+    {
+        x[l] = c.law->eta * s->speed[0][l];
+        y[l] = c.law->eta * s->speed[1][l];
+        rises[l] = if_so(c.law->eta > 0);
+    }
+    if (c.at.terms) EACH_LANE rises[l] = larger(rises[l], if_so(s->ratio[0][l] > 0));
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k];
+        EACH_LANE
+        {
+            x[l] += g * s->ratio[k][l] * s->wt_last[0][k][l];
+            y[l] += g * s->ratio[k][l] * s->wt_last[1][k][l];
+        }
+    }
+    EACH_LANE
+    {
+        const double part = s->at_rim[l] / larger(s->f_last[l], DBL_MIN);
+        const double x_as_last = part * s->q_last[0][l], y_as_last = part * s->q_last[1][l];
+        const double rim_x = rises[l] > 0 ? x[l] : x_as_last, rim_y = rises[l] > 0 ? y[l] : y_as_last;
+        const double limit = s->limit_ratio[l] * s->at_rim[l], size = sqrt(rim_x * rim_x + rim_y * rim_y);
+        const double kept = limit / larger(larger(size, limit), DBL_MIN);
+        s->rim[0][l] = rim_x * kept;
+        s->rim[1][l] = rim_y * kept;
+        s->total[0][l] += s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l];
+        s->total[1][l] += s->inner[l] * s->q_last[1][l] + s->outer[l] * s->rim[1][l];
+    }
+}
+
+/* int p dx from x1 to x2 if p is linear in x^2, 1 at x1 and 0 at x2, whichever is larger. */
+INLINE double weight_of(double x1, double x2)
+{
+    return fabs(x2 - x1) * (2 * x2 + x1) / larger(3 * (x1 + x2), DBL_MIN);
+}
+
+/* Slip begins between an element that sticks, at y_in, as the one behind does, at y_behind, and y_out, where it slips: there the
+ * margin to the limit, extrapolated from the sticking side, is zero. The quadrature took it to fall to zero at y_out with the weight
+ * `weight`. Returns what it lacks. */
+INLINE double lacking(double margin, double behind, double x_in, double y_in, double y_behind, double y_out,
+                      double weight)
+{
+    const double change = behind - margin;
+    const bool extrapolates = (margin > 0) & (change > 0);
+    const double divisor = extrapolates ? change : 1, y = y_in + margin * (y_in - y_behind) / divisor;
+    const double kept = if_so(extrapolates) * if_so((y_out - y) * (y_out - y_in) > 0) * if_so(y > 0);
+    return kept * margin * (weight - weight_of(x_in, sqrt(larger(y, 0))));
+}
+
+/* What the integral lacks where stick turns to slip between two elements. */
+INLINE void add_kinks(const struct call c, int l, struct work *s)
+{
+    const struct rows *const row = &s->row[l];
+    const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
+    const int last = s->last[l];
+    const uint32_t before_last = last > 0 ? (1u << (last - 1)) - 1 : 0;
+    for (uint32_t turns = (stuck ^ stuck >> 1) & before_last; turns; turns &= turns - 1) {
+        const int j = __builtin_ctz(turns), inwards = !(stuck >> j & 1); /* 1: slip within, stick without */
+        const int in = j + inwards, out = j + !inwards, behind = 2 * in - out;
+        if (behind < 0 || behind >= last || !(stuck >> behind & 1)) continue;
+        const double *const f = row->f, *const qx = row->q[0], *const qy = row->q[1], ratio = s->limit_ratio[l];
+        const double limit = ratio * f[out];
+        if (!(limit > 0)) continue;
+        const double x = qx[out] / limit, y = qy[out] / limit;
+        const double weight = inwards ? c.law->weight[in] - c.law->outwards[in] : c.law->outwards[in];
+        const double more =
+            lacking(ratio * f[in] - (x * qx[in] + y * qy[in]), ratio * f[behind] - (x * qx[behind] + y * qy[behind]),
+                    c.law->x[in], c.law->y[in], c.law->y[behind], c.law->y[out], weight);
+        s->total[0][l] += more * x;
+        s->total[1][l] += more * y;
+    }
+}
+
+/* Likewise if the last elements stick and slip begins between them and the rim. */
+INLINE void add_kink_at_rim(struct work *s)
+{
+    EACH_LANE
+    {
+        const double limit = s->limit_ratio[l] * s->at_rim[l], edge = s->edge[l] * s->edge[l], y_in = s->y[l];
+        const double reach = (edge - y_in) * s->per_cell[l];
+        const double qx = s->q_last[0][l], qy = s->q_last[1][l], px = s->q_before[0][l], py = s->q_before[1][l];
+        const double bx = qx + reach * (qx - px), by = qy + reach * (qy - py), size = sqrt(bx * bx + by * by);
+        const bool slips = (s->both_stick[l] > 0) & (reach > 0) & (size > limit);
+        const double length = slips ? size : 1, x = bx / length, y = by / length;
+        const double margin = s->limit_ratio[l] * s->f_last[l] - (x * qx + y * qy);
+        const double behind = s->limit_ratio[l] * s->f_before[l] - (x * px + y * py);
+        const double lacks = lacking(margin, behind, s->x[l], y_in, s->y_before[l], edge, s->inner[l] + s->outwards[l]);
+        const double more = larger(lacks, 0) * if_so(slips), outer = s->outer[l] * if_so(more > 0);
+        s->total[0][l] += more * x + outer * (limit * x - s->rim[0][l]);
+        s->total[1][l] += more * y + outer * (limit * y - s->rim[1][l]);
+    }
+}
+
+/* What is beyond the limit springs back. Outside the contact the limit is zero: the same line lets the springs relax. */
+INLINE void spring_back(const struct call c, int l, struct work *s)
+{
+    const int n = c.at.n;
+    struct rows *const row = &s->row[l];
+    double back[most_n], slipped[most_n], by_square = c.law->eta / c.step;
+    for (int k = 0; k < c.at.terms; k++)
+        by_square += c.r->spent[k][2];
+    if (c.at.details) EACH_ELEMENT slipped[i] = 0;
+    for (int d = 0; d < 2; d++) {
+        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
+                                                                               d * c.at.terms * n;
+        EACH_ELEMENT
+        {
+            back[i] = (row->trial[d][i] - row->q[d][i]) * c.r->compliance;
+            u[i] -= back[i];
+        }
+        for (int k = 0; k < c.at.terms; k++) {
+            const double gain = c.r->gain[k];
+            EACH_ELEMENT w[k * n + i] -= gain * back[i];
+        }
+        if (c.at.details) EACH_ELEMENT
+            {
+                const double moved = row->touch[i] * s->move[d][l] - back[i];
+                row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
+                slipped[i] += c.law->weight[i] * row->q[d][i] * back[i];
+            }
+    }
+    if (!c.at.details) return;
+    s->slipped[l] = sum_of(slipped, n);
+    EACH_ELEMENT slipped[i] = c.law->weight[i] * row->at_rest[i];
+    s->spent[l] += c.law->tangential * s->width[l] * sum_of(slipped, n);
+}
+
+/* Elements of a contact within the limit of friction; `viscous`: the velocity of the end of the step is still to be felt. */
+INLINE void slide(const struct call c, int viscous, int l, struct work *s)
+{
+    cut_to_limit(c, viscous, l, s);
+    look_at_last_slide(c, l, s);
+    if (!viscous) spring_back(c, l, s);
+}
+
+/* The integral over the contact radius. */
+INLINE void close_slide(const struct call c, struct work *s)
+{
+    hold_rim(c, s);
+    for (int l = 0; l < LANES; l++)
+        add_kinks(c, l, s);
+    add_kink_at_rim(s);
+}
+
+INLINE void shear(const struct call c, struct work *s)
+{
+    const double per_step = 1 / c.step, normal_over_tangential = c.law->normal / c.law->tangential;
+    EACH_LANE
+    {
+        for (int d = 0; d < 2; d++) {
+            const double *const e[3] = {d ? s->other[0] : s->axis[0], d ? s->other[1] : s->axis[1],
+                                        d ? s->other[2] : s->axis[2]};
+            s->speed[d][l] =
+                e[0][l] * c.in->velocity[0][l] + e[1][l] * c.in->velocity[1][l] + e[2][l] * c.in->velocity[2][l];
+            s->move[d][l] = c.step * s->speed[d][l];
+        }
+        s->limit_ratio[l] = c.in->friction[l] * normal_over_tangential;
+    }
+    const int viscous = c.at.terms + c.at.surface > 0 && c.r->viscosity > 0;
+    for (int l = 0; l < LANES; l++) {
+        stick(c, per_step, l, s);
+        slide(c, viscous, l, s);
+    }
+    close_slide(c, s);
+    if (viscous) {
+        lanes change[2];
+        EACH_LANE
+        {
+            const double scale = c.law->tangential * s->width[l];
+            const double sticking = s->sticking[l] + s->last_sticks[l] * (s->inner[l] + s->outer[l]);
+            const double response =
+                scale * velocity_response(0.5 * c.step * c.in->inverse_mass[1][l], scale * sticking * c.r->viscosity);
+            const double x = -response * s->total[0][l], y = -response * s->total[1][l];
+            const double kept = smaller(1, fastest / larger(larger(fabs(x), fabs(y)), DBL_MIN)) * s->touches[l];
+            change[0][l] = kept * x;
+            change[1][l] = kept * y;
+            s->speed[0][l] += change[0][l];
+            s->speed[1][l] += change[1][l];
+        }
+        for (int l = 0; l < LANES; l++) {
+            feel_end_slide(c, (const double[]){change[0][l], change[1][l]}, l, s);
+            slide(c, 0, l, s);
+        }
+        close_slide(c, s);
+    }
+    EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit */
+    {
+        const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
+        const double x = scale * s->total[0][l], y = scale * s->total[1][l], size = sqrt(x * x + y * y);
+        const double kept = limit / larger(larger(size, limit), DBL_MIN);
+        s->total[0][l] = x * kept;
+        s->total[1][l] = y * kept;
+        s->slipped[l] += (s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l]) * s->back[0][l] +
+                         (s->inner[l] * s->q_last[1][l] + s->outer[l] * s->rim[1][l]) * s->back[1][l];
+        s->slipped[l] *= scale * s->touches[l];
+    }
+}
+
+/* -------------------------------------------------------------------------------------------------------- a step */
+
+/* The heads of the states. The first tangential axis turns with the bodies about the normal and is brought back into the tangential
+ * plane. */
+INLINE void open_states(const struct call c, struct work *s)
+{
+    for (int l = 0; l < LANES; l++)
+        s->before[l] = c.in->state[l][at_overlap];
+    EACH_LANE
+    {
+        const double nx = c.in->normal[0][l], ny = c.in->normal[1][l], nz = c.in->normal[2][l],
+                     turn = c.step * c.in->turn[l];
+        double ax = c.in->axis[0][l], ay = c.in->axis[1][l], az = c.in->axis[2][l];
+        const double bx = ny * az - nz * ay, by = nz * ax - nx * az, bz = nx * ay - ny * ax;
+        ax += turn * bx;
+        ay += turn * by;
+        az += turn * bz;
+        const double out = nx * ax + ny * ay + nz * az;
+        ax -= out * nx;
+        ay -= out * ny;
+        az -= out * nz;
+        const double per = 1 / sqrt(ax * ax + ay * ay + az * az);
+        s->axis[0][l] = ax * per;
+        s->axis[1][l] = ay * per;
+        s->axis[2][l] = az * per;
+        s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
+        s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
+        s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
+        s->width[l] = c.in->width[l];
+        s->scale[l] = s->width[l] * s->width[l] / c.in->radius[l];
+        s->approach[l] = nx * c.in->velocity[0][l] + ny * c.in->velocity[1][l] + nz * c.in->velocity[2][l];
+    }
+}
+
+/* Radius up to which elements stick: where slip begins behind it, the margin to the limit, linear in y, is zero. */
+INLINE double stick_radius(const struct call c, int l, const struct work *s)
+{
+    const struct rows *const row = &s->row[l];
+    const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
+    double y = s->edge[l] * s->edge[l], margin[2];
+    int j = 0;
+    while (j < s->last[l] && stuck >> j & 1)
+        j++;
+    if (j == 0) return 0;
+    if (j == s->last[l]) return s->width[l] * s->edge[l];
+    for (int i = 0; i < 2; i++)
+        margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
+    y = smaller(y,
+                c.law->y[j - 1] + (c.law->y[j] - c.law->y[j - 1]) * margin[0] / larger(margin[0] - margin[1], DBL_MIN));
+    return s->width[l] * sqrt(y);
+}
+
+/* The work of the bodies by the trapezoid, as velocity Verlet has it, and what became of it; `state` is still of before. */
+INLINE void keep_details(const struct call c, int l, const struct work *s)
+{
+    double *const state = c.in->state[l], *const kept = state + rst_at_details(c.law);
+    kept[0] += 0.5 * ((c.in->overlap[l] - s->before[l]) * (state[at_force] + s->force[l]) +
+                      s->move[0][l] * (state[at_force + 1] + s->total[0][l]) +
+                      s->move[1][l] * (state[at_force + 2] + s->total[1][l]));
+    kept[1] += larger(s->slipped[l], 0);
+    kept[2] += s->spent[l];
+    kept[3] = larger(s->slipped[l], 0) / c.step;
+    kept[4] = s->spent[l] / c.step;
+    kept[5] = s->touches[l] * s->width[l] * s->edge[l];
+    kept[6] = c.law->slips ? stick_radius(c, l, s) : 0;
+}
+
+INLINE void close_states(const struct call c, struct work *s)
+{
+    for (int l = 0; l < LANES; l++) {
+        double *const state = c.in->state[l];
+        if (c.at.details) keep_details(c, l, s);
+        state[at_overlap] = c.in->overlap[l];
+        state[at_force] = s->force[l];
+        for (int d = 0; d < 2; d++)
+            state[at_force + 1 + d] = s->total[d][l];
+        for (int i = 0; i < 3; i++)
+            state[at_axis + i] = s->axis[i][l];
+    }
+    EACH_LANE
+    {
+        c.in->force[l] = s->force[l];
+        for (int i = 0; i < 3; i++)
+            c.in->tangential[i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
+    }
+}
+
+INLINE void advance(const struct call c)
+{
+    struct work s;
+    for (int k = 0; k < c.at.terms; k++)
+        for (int i = 0; i < c.at.n; i++) {
+            s.even.decay[k][i] = c.r->decay[k];
+            s.even.gain[k][i] = c.r->gain[k];
+        }
+    open_states(c, &s);
+    press(c, &s);
+    if (c.at.slips)
+        shear(c, &s);
+    else
+        EACH_LANE s.total[0][l] = s.total[1][l] = s.move[0][l] = s.move[1][l] = s.slipped[l] = 0;
+    close_states(c, &s);
+}
+
+/* The usual shapes are compiled on their own. */
+void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
+          struct rst_batch *restrict batch)
+{
+    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->details}};
+    const int kind = c.at.n == 8 && c.at.slips && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
+    if (kind == 0)
+        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0}});
+    else if (kind == 10)
+        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0}});
+    else if (kind == 1)
+        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0}});
+    else if (kind == 3)
+        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0}});
+    else
+        advance(c);
+}
