@@ -98,7 +98,16 @@ static bool contains(Region *region, bool flip, const double *x)
 
 void RegionWall::touch(const double *x, double distance, std::vector<WallPoint> &points)
 {
-    if (contains(region, false, x)) collect(region, false, x, distance, points);
+    const size_t before = points.size();
+    collect(region, false, x, distance, points);
+    if (points.size() > before && !contains(region, false, x)) points.resize(before);
+}
+
+/* LAMMPS looks between an ellipsoid and one whose axes are shorter or longer by as much as it is told
+ * to look. Where they are oblique to the surface that is less far: by a fifth for axes of 1 to 4. */
+static double reach(const Region *region, double distance)
+{
+    return strcmp(region->style, "ellipsoid") ? distance : 2 * distance;
 }
 
 /* The surface of a union is that of its parts, as far as no other part covers it. That of an
@@ -110,10 +119,10 @@ void RegionWall::collect(Region *region, bool flip, const double *x, double dist
         const auto same = [&](const Part &part) { return part.region == region; };
         const Part &part = *std::find_if(parts.begin(), parts.end(), same);
         region->interior ^= (int)flip;
-        const int n = region->surface(x[0], x[1], x[2], distance);
+        const int n = region->surface(x[0], x[1], x[2], reach(region, distance));
         region->interior ^= (int)flip;
         for (int k = 0; k < n; k++)
-            add_point(part, k, x, distance, points);
+            if (region->contact[k].r < distance) add_point(part, k, x, distance, points);
         return;
     }
     const bool inside = (region->interior != 0) != flip, joins = (*region->style == 'u') == inside;
@@ -139,8 +148,15 @@ static void cross(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* LAMMPS's radius of curvature is that of the mean curvature: the radius of a sphere, twice that of
- * a cylinder, 0 for a plane. */
+/* LAMMPS's radius is that of the mean curvature of a sphere and of a cylinder, for which it is twice
+ * its radius, and 0 for flat faces. For an ellipsoid it is not set. For a cone it does not depend on
+ * its angle, and has the wrong sign outside: both count as flat. */
+static double curvature(const Region &region, const Region::Contact &contact)
+{
+    const bool is_known = !strcmp(region.style, "sphere") || !strcmp(region.style, "cylinder");
+    return is_known && contact.radius != 0 ? 1 / contact.radius : 0;
+}
+
 void RegionWall::add_point(const Part &part, int n, const double *x, double distance,
                            std::vector<WallPoint> &points) const
 {
@@ -149,7 +165,7 @@ void RegionWall::add_point(const Part &part, int n, const double *x, double dist
     double middle[3]; /* half-way through the overlap, where the force acts */
     WallPoint point = {};
     point.label = part.first_label + c.iwall;
-    if (c.radius != 0) point.curvature = 1 / c.radius;
+    point.curvature = curvature(*part.region, c);
     for (int k = 0; k < 3; k++) {
         point.position[k] = x[k] - away[k];
         middle[k] = point.position[k] - to_middle * away[k];
@@ -161,7 +177,7 @@ void RegionWall::add_point(const Part &part, int n, const double *x, double dist
 /* Mean over the step of the velocity of the material that is now in the middle of the contact.
  * LAMMPS's Region::velocity_contact() has the velocity at the end of a step, not of parts of a
  * union, and for an axis that is no unit vector a wrong one. */
-void RegionWall::set_velocity(const Part &part, int n, double *middle, WallPoint &point) const
+void RegionWall::set_velocity(const Part &part, int n, const double *middle, WallPoint &point) const
 {
     Region &its = *part.region;
     double arm[3], turn[3], *v = point.velocity, *spin = point.spin;
@@ -176,5 +192,5 @@ void RegionWall::set_velocity(const Part &part, int n, double *middle, WallPoint
     cross(spin, turn, arm);
     for (int k = 0; k < 3; k++)
         v[k] -= 0.5 * step * arm[k];
-    if (its.varshape && its.contact[n].varflag) its.velocity_contact_shape(v, middle);
+    if (its.varshape && its.contact[n].varflag) its.velocity_contact_shape(v, point.position);
 }

@@ -36,7 +36,7 @@ class RegionWall : public WallShape
     void add_parts(Region *region);
     void collect(Region *region, bool flip, const double *x, double distance, std::vector<WallPoint> &points);
     void add_point(const Part &part, int n, const double *x, double distance, std::vector<WallPoint> &points) const;
-    void set_velocity(const Part &part, int n, double *middle, WallPoint &point) const;
+    void set_velocity(const Part &part, int n, const double *middle, WallPoint &point) const;
 
     LAMMPS *lmp;
     std::string name;

