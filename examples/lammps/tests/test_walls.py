@@ -128,10 +128,13 @@ near("a bowl", bowl, motion(f"xplane NULL {WIDE}", (WIDE - flat, 0, 0), radius=f
                             density=2000 * (RADIUS / flat)**3, **head_on), ROUNDING)
 
 # Without friction the three faces of a corner act each on its own direction.
-corner = motion("region r block 0 0.4 0 0.4 0 0.4 units box\nregion r", (RADIUS,) * 3, (-SPEED, -ALONG, -0.02), words=SMOOTH)
-for k, speed in enumerate((SPEED, ALONG, 0.02)):
-    one = motion("xplane 0 NULL", v=(-speed, 0, 0), words=SMOOTH)
-    near(f"a corner, {'xyz'[k]}", ((), corner[1][k:k + 1], ()), ((), one[1][:1], ()), ROUNDING)
+PLANES = "".join(f"region {k} plane 0 0 0 {n}\n" for k, n in (("a", "1 0 0"), ("b", "0 1 0"), ("c", "0 0 1")))
+for name, lines in (("block", "region r block 0 0.4 0 0.4 0 0.4 units box\n"),
+                    ("intersection", PLANES + "region r intersect 3 a b c\n")):
+    corner = motion(lines + "region r", (RADIUS,) * 3, (-SPEED, -ALONG, -0.02), words=SMOOTH)
+    for k, speed in enumerate((SPEED, ALONG, 0.02)):
+        one = motion("xplane 0 NULL", v=(-speed, 0, 0), words=SMOOTH)
+        near(f"a corner of one {name}, {'xyz'[k]}", ((), corner[1][k:k + 1], ()), ((), one[1][:1], ()), ROUNDING)
 
 # More contacts than a batch has.
 edge = "region r block 0 0.4 0 0.4 -0.5 0.5 units box"
