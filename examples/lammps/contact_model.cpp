@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "contact_model.h"
 
-#include <restitute/files.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 namespace restitute_dem
 {
@@ -23,8 +19,9 @@ bool touching(const Body &first, const Body &second, Contact &c)
     const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
     const double sum = first.radius + second.radius;
     c.inverse_mass = first.inverse_mass + second.inverse_mass;
-    if (!(square < sum * sum) || square == 0 || c.inverse_mass == 0) return false;
-    const double distance = std::sqrt(square), inverse = 1 / distance, n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
+    if (!(square < sum * sum) || c.inverse_mass == 0) return false;
+    const double distance = std::sqrt(square), inverse = distance > 0 ? 1 / distance : 0;
+    const double n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
     c.overlap = sum - distance;
     c.arm1 = first.radius - 0.5 * c.overlap; /* the arms add up to the distance: angular momentum is conserved */
     c.arm2 = second.radius > 0 ? second.radius - 0.5 * c.overlap : 0;
@@ -36,6 +33,9 @@ bool touching(const Body &first, const Body &second, Contact &c)
     c.velocity[0] = v[0] - w[0] + turn1 * n2 - turn2 * n1;
     c.velocity[1] = v[1] - w[1] + turn2 * n0 - turn0 * n2;
     c.velocity[2] = v[2] - w[2] + turn0 * n1 - turn1 * n0;
+    for (int i = 0; i < 3; i++)
+        c.spin[i] = first.spin[i] - second.spin[i];
+    c.mean_spin = 0.5 * (dot(first.spin, c.normal) + dot(second.spin, c.normal));
     return true;
 }
 
@@ -66,17 +66,25 @@ std::string Record::text(const double limits[RATIOS]) const
     return all;
 }
 
+/* To three digits, so that a ratio beyond 1 does not read as 1. */
+static double rounded_up(double ratio)
+{
+    const double unit = std::pow(10, std::floor(std::log10(ratio)) - 2);
+    return std::ceil(ratio / unit) * unit;
+}
+
 std::string Record::warning(Ratio which, long long step) const
 {
-    char line[200] = "";
+    char line[300] = "";
     if (which == STEP && beyond[STEP] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld that needs a time step shorter by a factor of %.3g",
-                      step, largest[STEP]);
+                      step, rounded_up(largest[STEP]));
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
-                      "spheres were created with an overlap, or their contact was lost or found late",
+                      "spheres were created with an overlap, or their contact was lost or found late; see 'Spheres "
+                      "that overlap' in the README of this adapter",
                       step, largest[DEPTH]);
     return line;
 }
@@ -94,141 +102,15 @@ void ContactModel::note(Ratio which, double ratio)
  * the impact. */
 void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
 {
-    double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
+    const double mass = 1 / contact.inverse_mass;
+    double scale;
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
-    if (restitute_contact_time_step_limit(law, 1 / contact.inverse_mass, contact.radius, speed, &limit, nullptr) < 0)
+    if (restitute_contact_time_scale(law, mass, contact.radius, speed, &scale, nullptr) < 0)
         return; /* no speed of approach: bodies were put into each other */
-    const double modulus = restitute_material_modulus(material, limit * 50 / 2.9433);
+    const double modulus = restitute_material_modulus(material, scale);
     note(SPEED, speed / std::sqrt(modulus / std::max(density, file_density)));
-    note(STEP, rates.step / limit);
-}
-
-/* ---- words of a script */
-
-static double number(const std::string &word)
-{
-    double value = NAN;
-    const char *end = word.data() + word.size();
-    const auto read = std::from_chars(word.data(), end, value); /* whatever the locale */
-    if (read.ec != std::errc() || read.ptr != end || std::isnan(value))
-        throw std::invalid_argument("'" + word + "': must be a number");
-    return value;
-}
-
-static void demand(int status, const restitute_error &error)
-{
-    if (status < 0) throw std::invalid_argument(error.message);
-}
-
-ContactModel::ContactModel(const std::vector<std::string> &words, const Units &units) : words(words)
-{
-    restitute_contact_law_options options;
-    std::string partner;
-    restitute_contact_law_options_init(&options);
-    restitute_contact_motion_init(&motion);
-    restitute_contact_rates_init(&rates);
-    try {
-        read(units, options, partner);
-        options.deformable = partner == "" ? RESTITUTE_BOTH_BODIES_DEFORM : RESTITUTE_ONE_BODY_DEFORMS;
-        if (partner != "" && partner != "rigid") join(partner, units);
-        demand(restitute_contact_law_create(material, &options, &law, &error), error);
-        remark = error.message;
-    } catch (...) {
-        restitute_material_destroy(material);
-        throw;
-    }
-}
-
-ContactModel::~ContactModel()
-{
-    restitute_contact_law_destroy(law);
-    restitute_material_destroy(material);
-}
-
-void ContactModel::read(const Units &units, restitute_contact_law_options &options, std::string &partner)
-{
-    size_t i = 0;
-    const auto next = [&]() {
-        if (++i >= words.size()) throw std::invalid_argument("'" + words[i - 1] + "': something must follow");
-        return words[i];
-    };
-    if (words.empty()) throw std::invalid_argument("the file of a material is missing");
-    for (motion.friction = -1, i = 1; i < words.size(); i++) {
-        const std::string &word = words[i];
-        if (word == "friction")
-            motion.friction = number(next());
-        else if (word == "partner")
-            partner = next();
-        else if (word == "elements")
-            options.elements = (int)number(next());
-        else if (word == "terms")
-            options.terms = (int)number(next());
-        else if (word == "window")
-            options.shortest = number(next()), options.longest = number(next());
-        else if (word == "limits")
-            limits[RADIUS] = number(next()), limits[SPEED] = number(next());
-        else
-            throw std::invalid_argument("'" + word + "': must be friction, partner, elements, terms, window or limits");
-    }
-    if (!(motion.friction >= 0 && motion.friction <= 1e6))
-        throw std::invalid_argument("'friction MU' is required, with MU in [0, 1e6]");
-    options.frictionless = motion.friction == 0;
-    open(words[0], units, &material);
-}
-
-/* A material in units of the host. */
-void ContactModel::open(const std::string &file, const Units &units, restitute_material **opened)
-{
-    restitute_material *si;
-    restitute_material_info info;
-    double g_inf, eta;
-    restitute_material_info_init(&info);
-    demand(restitute_material_read(file.c_str(), &si, &info, &error), error);
-    if (info.density > 0) file_density = std::max(file_density, info.density / units.density);
-    const size_t n = restitute_material_terms(si);
-    std::vector<double> tau(n + 1), g(n + 1);
-    restitute_material_series(si, &g_inf, &eta, tau.data(), g.data(), nullptr);
-    for (double &modulus : g)
-        modulus /= units.stress;
-    const int status = restitute_material_prony(g_inf / units.stress, eta / units.stress, n, tau.data(), g.data(),
-                                                restitute_material_poisson_ratio(si), opened, &error);
-    restitute_material_destroy(si);
-    demand(status, error);
-}
-
-/* Makes one solid of the material and that of the partner. */
-void ContactModel::join(const std::string &partner, const Units &units)
-{
-    restitute_material *other, *effective;
-    open(partner, units, &other);
-    const int status = restitute_material_effective(material, other, &effective, &error);
-    restitute_material_destroy(other);
-    demand(status, error);
-    restitute_material_destroy(material);
-    material = effective;
-}
-
-std::string ContactModel::about() const
-{
-    size_t kept;
-    double bound;
-    char text[200];
-    restitute_contact_law_series(law, nullptr, nullptr, &kept, nullptr, nullptr, &bound, nullptr);
-    std::snprintf(text, sizeof text, ": law %016llx, %zu of %zu terms, G(t) within %.2g %%, %d numbers a contact",
-                  (unsigned long long)hash(), kept, restitute_material_terms(material), 100 * bound, history_size());
-    const std::string warning = remark.empty() ? "" : "WARNING: restitute: " + words[0] + ": " + remark + "\n";
-    return "restitute: " + words[0] + text + "\n" + warning;
-}
-
-uint64_t ContactModel::hash() const
-{
-    return restitute_contact_law_hash(law);
-}
-
-int ContactModel::history_size() const
-{
-    return 1 + (int)restitute_contact_law_state_size(law);
+    note(STEP, rates.step / step_limit(mass, contact.radius, speed));
 }
 
 /* ---- time steps */
@@ -238,48 +120,128 @@ const char *ContactModel::set_step(double step)
     return restitute_contact_rates_set(law, step, &rates, &error) < 0 ? error.message : nullptr;
 }
 
+double ContactModel::step_limit(double mass, double radius, double speed) const
+{
+    double limit = 0;
+    restitute_contact_time_step_limit(law, mass, radius, speed, &limit, nullptr);
+    return limit;
+}
+
 static void to_force(const restitute_contact_force &f, const double *normal, double force[3])
 {
     for (int i = 0; i < 3; i++)
         force[i] = f.tangential[i] - f.normal * normal[i];
 }
 
+void ContactModel::describe(const Contact &contact)
+{
+    const double solid_sphere = 3.5; /* 1 + m R^2/J */
+    motion.overlap = contact.overlap;
+    for (int i = 0; i < 3; i++) {
+        motion.normal[i] = contact.normal[i];
+        motion.velocity[i] = contact.velocity[i];
+    }
+    motion.spin = contact.mean_spin;
+    motion.inverse_mass = contact.inverse_mass;
+    motion.inverse_tangential_mass = solid_sphere * contact.inverse_mass;
+    motion.radius = contact.radius;
+}
+
 const char *ContactModel::advance(const Contact &contact, double density, bool on_record, double *history,
                                   double force[3], double label)
 {
-    const bool is_new = history[0] == 0;
-    const double solid_sphere = 3.5; /* 1 + m R^2/J */
     restitute_contact_force found;
-    motion.overlap = contact.overlap;
-    motion.normal_velocity = dot(contact.velocity, contact.normal);
-    for (int i = 0; i < 3; i++) {
-        motion.normal[i] = contact.normal[i];
-        motion.displacement[i] = rates.step * contact.velocity[i];
-    }
-    motion.half_step_over_mass = 0.5 * rates.step * contact.inverse_mass;
-    motion.half_step_over_tangential_mass = solid_sphere * motion.half_step_over_mass;
-    motion.radius = contact.radius;
-    if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return error.message;
+    describe(contact);
+    if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return refusal(contact);
     to_force(found, contact.normal, force);
+    settle(contact, density, on_record, found, history, label);
+    return nullptr;
+}
+
+/* What follows a step of the law. */
+void ContactModel::settle(const Contact &c, double density, bool on_record, const restitute_contact_force &force,
+                          double *history, double label)
+{
+    const bool is_new = history[0] == 0;
     if (is_new) history[0] = label;
-    if (!on_record) return nullptr;
+    if (has_resistance()) {
+        Turning turning = {{}, {}, c.radius, std::sqrt(c.overlap * c.radius), force.normal, rates.step};
+        std::copy_n(c.normal, 3, turning.normal);
+        std::copy_n(c.spin, 3, turning.spin);
+        resistance.advance(turning, history + history_size() - resistance.history_size());
+    }
+    if (!on_record) return;
     record.steps++;
-    if (is_new) note_first_touch(contact, motion.normal_velocity, density);
-    const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = contact.overlap; /* = a^2/R */
-    if (depth > largest * largest * contact.radius) record.largest[RADIUS] = std::sqrt(depth / contact.radius);
-    if (depth > limit * limit * contact.radius && history[0] > 0) {
+    if (is_new) note_first_touch(c, dot(c.velocity, c.normal), density);
+    const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = c.overlap; /* = a^2/R */
+    if (depth > largest * largest * c.radius) record.largest[RADIUS] = std::sqrt(depth / c.radius);
+    if (depth > limit * limit * c.radius && history[0] > 0) {
         history[0] = -history[0];
         record.beyond[RADIUS]++;
     }
-    return nullptr;
+}
+
+/* The library names its own arguments. This says what to do in a DEM code. */
+const char *ContactModel::refusal(const Contact &c)
+{
+    char *text = error.message;
+    const size_t size = sizeof error.message;
+    const std::string said = text;
+    const auto is_about = [&said](const char *words) { return said.find(words) != std::string::npos; };
+    const double *n = c.normal, *v = c.velocity, speed = dot(v, n);
+    if (dot(n, n) == 0)
+        std::snprintf(text, size, "the centers coincide, or a center lies on a wall: there is no normal");
+    else if (c.overlap > c.radius)
+        std::snprintf(
+            text, size,
+            "an overlap of %.6g: must be at most the effective radius, %.6g. Separate spheres that overlap at "
+            "the start first, see 'Spheres that overlap' in the README of this adapter",
+            c.overlap, c.radius);
+    else if (is_about("another law"))
+        std::snprintf(text, size,
+                      "the contact began under another law: types of spheres or words of the law have changed since. "
+                      "Change them while the bodies are apart, or delete all contacts first (LAMMPS: pair_style none)");
+    else if (is_about("has turned too far"))
+        std::snprintf(text, size,
+                      "the normal has turned by more than 60 degrees in a step: were spheres in contact displaced?");
+    else if (is_about("less than ten steps"))
+        std::snprintf(text, size,
+                      "a contact that begins with speed %.6g would last less than ten steps of %.6g: take a time step "
+                      "of at most %.3g",
+                      speed, rates.step, step_limit(1 / c.inverse_mass, c.radius, speed));
+    else if (is_about("motion.velocity"))
+        std::snprintf(text, size,
+                      "relative velocity (%.6g, %.6g, %.6g): must be at most the effective radius %.6g in a step of "
+                      "%.6g either way",
+                      v[0], v[1], v[2], c.radius, rates.step);
+    return text;
+}
+
+const char *ContactModel::repeat(const Contact &contact, const double *history, restitute_contact_force &force)
+{
+    const bool failed = restitute_contact_peek(law, contact.normal, history + 1, &force, &error) < 0;
+    return failed ? refusal(contact) : nullptr;
 }
 
 const char *ContactModel::repeat(const Contact &contact, const double *history, double force[3])
 {
     restitute_contact_force found;
-    if (restitute_contact_peek(law, contact.normal, history + 1, &found, &error) < 0) return error.message;
+    if (const char *problem = repeat(contact, history, found)) return problem;
     to_force(found, contact.normal, force);
     return nullptr;
+}
+
+const double *ContactModel::couple(const double *history) const
+{
+    return has_resistance() ? history + history_size() - resistance.history_size() : nullptr;
+}
+
+restitute_contact_details ContactModel::details(double radius, const double *history)
+{
+    restitute_contact_details found;
+    restitute_contact_details_init(&found);
+    if (has_details) restitute_contact_details_get(law, radius, history + 1, &found, &error);
+    return found;
 }
 
 const char *ContactModel::turn(const double from[3], const double to[3], double *history)

@@ -136,12 +136,13 @@ void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const doub
     if (problem)
         error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
                    problem);
-    const double *n = c.normal;
+    const double *n = c.normal, *couple = model->couple(history[i]);
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         atom->f[i][k] += f[k];
         atom->torque[i][k] += c.arm1 * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
+        if (couple) atom->torque[i][k] += couple[k];
     }
 }
 

@@ -61,6 +61,13 @@ void LAMMPS_NS::warn(LAMMPS *lmp, const Record &record, bool warned[restitute_de
     }
 }
 
+void LAMMPS_NS::warn_of_suffix(LAMMPS *lmp, const char *who)
+{
+    if (!lmp->suffix_enable || !lmp->suffix || lmp->comm->me) return;
+    lmp->error->warning(FLERR, "{}: has no variant for suffix {}; it runs on one thread of each process", who,
+                        lmp->suffix);
+}
+
 Record LAMMPS_NS::sum_of(const Record &record, MPI_Comm world)
 {
     using restitute_dem::RATIOS;

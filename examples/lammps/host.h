@@ -51,6 +51,9 @@ void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const rest
  * deep overlap. */
 void warn(LAMMPS *lmp, const restitute_dem::Record &record, bool warned[restitute_dem::RATIOS]);
 
+/* Warns if a suffix, as of `-sf omp`, asks for a variant of a style. There are none. */
+void warn_of_suffix(LAMMPS *lmp, const char *who);
+
 /* The record of all processes. */
 restitute_dem::Record sum_of(const restitute_dem::Record &record, MPI_Comm world);
 

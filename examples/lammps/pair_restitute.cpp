@@ -5,34 +5,36 @@
 #include "lammps_declarations.h"
 
 #include "comm.h"
-#include "domain.h"
+#include "compute.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
-#include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 using namespace LAMMPS_NS;
-using restitute_dem::Contact;
 using restitute_dem::ContactModel;
 using restitute_dem::Record;
 
 PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 {
     restartinfo = 1;
-    single_enable = 0; /* LAMMPS refuses commands that need the force of one pair without its memory */
+    single_enable = 1;
     no_virial_fdotr_compute = 1;
     centroidstressflag = CENTROID_NOTAVAIL;
     finitecutflag = 1;
     nondefault_history_transfer = 1; /* a state is oriented by tags: the swap of two atoms copies it */
-    nextra = 4;
+    nextra = 7;
     pvector = new double[nextra];
+    single_extra = 17;
+    svector = new double[single_extra];
+    warn_of_suffix(lmp, "pair_style restitute");
     history_id = "NEIGH_HISTORY_RESTITUTE"; /* by this name a restart file finds its fix */
     while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
         history_id += "_MORE";                        /* of pair_style hybrid */
@@ -42,6 +44,7 @@ PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 PairRestitute::~PairRestitute()
 {
     delete[] pvector;
+    delete[] svector;
     modify->delete_fix(histories ? history_id : history_id + "_DUMMY");
     if (!allocated) return;
     memory->destroy(setflag);
@@ -86,6 +89,7 @@ void PairRestitute::coeff(int narg, char **arg)
 void PairRestitute::init_style()
 {
     frozen = check_host(lmp, "pair_style restitute");
+    check_computes();
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     check_restart();
     models.clear();
@@ -94,6 +98,9 @@ void PairRestitute::init_style()
     for (const Model &its : models)
         its->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
+    has_details = std::any_of(models.begin(), models.end(), [](const Model &its) { return its->has_details; });
+    beyond_contact = has_details; /* the fix shows contacts to compute() that end when lists are made */
+    shrink_pages();
     keep_history();
     /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run,
      * for which compute() sets this to 1. Between runs the fix has the contacts already, and the
@@ -103,6 +110,17 @@ void PairRestitute::init_style()
     change_pages();
     find_largest_radii();
     reset_dt();
+    report_limits();
+}
+
+/* These take forces of pairs along the line between the centers only. */
+void PairRestitute::check_computes()
+{
+    for (const char *style :
+         {"^group/group", "^stress/mop", "^stress/cartesian", "^stress/cylinder", "^stress/spherical"})
+        for (const Compute *found : modify->get_compute_by_style(style))
+            error->all(FLERR, "pair_style restitute: compute {} {}: is not supported, it leaves out tangential forces",
+                       found->id, found->style);
 }
 
 void PairRestitute::reset_dt()
@@ -132,7 +150,7 @@ void PairRestitute::keep_history()
                    history_size);
     if (histories) return;
     const std::string fix = history_id + " all NEIGH_HISTORY " + std::to_string(size);
-    histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
+    histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 0)); /* 0: no suffix */
     histories->pair = this;
     history_size = size;
     page = neighbor->pgsize, one = neighbor->oneatom;
@@ -157,6 +175,12 @@ void PairRestitute::check_tags()
                            atom->tag[i]);
         }
     }
+}
+
+/* The default, 100000, reserves 80 MB for a standard solid. LAMMPS demands ten times `one`. */
+void PairRestitute::shrink_pages()
+{
+    if (neighbor->pgsize == 100000) neighbor->pgsize = std::min(neighbor->pgsize, 10 * neighbor->oneatom);
 }
 
 /* The fix drops its pages, and the contacts in them, when `neigh_modify page` or `one` has
@@ -205,132 +229,40 @@ void PairRestitute::find_largest_radii()
             radius += 0.5 * neighbor->skin;
 }
 
+/* For each law with a speed: the limit of the time step for impacts of the lightest spheres of its
+ * types. */
+void PairRestitute::report_limits()
+{
+    const auto none = std::numeric_limits<double>::infinity();
+    std::vector<double> own(width, none), mass(width), radius(width);
+    for (int i = 0; i < atom->nlocal; i++)
+        own[atom->type[i]] = std::min(own[atom->type[i]], atom->rmass[i]);
+    MPI_Allreduce(own.data(), mass.data(), width, MPI_DOUBLE, MPI_MIN, world);
+    std::fill(own.begin(), own.end(), none);
+    for (int i = 0; i < atom->nlocal; i++)
+        if (const int type = atom->type[i]; atom->rmass[i] == mass[type])
+            own[type] = std::min(own[type], atom->radius[i]);
+    MPI_Allreduce(own.data(), radius.data(), width, MPI_DOUBLE, MPI_MIN, world);
+    for (int i = 1; i < width; i++)
+        for (int j = i; j < width; j++) {
+            const Model &its = model(i, j);
+            if (!its || its->speed == 0 || mass[i] == none || mass[j] == none || comm->me) continue;
+            const double limit =
+                its->step_limit(1 / (1 / mass[i] + 1 / mass[j]), 1 / (1 / radius[i] + 1 / radius[j]), its->speed);
+            utils::logmesg(lmp,
+                           "restitute: types {} {}, radii {:.6g} and {:.6g}, speed {:.6g}: time step at most {:.4g}\n",
+                           i, j, radius[i], radius[j], its->speed, limit);
+            if (update->dt > limit)
+                error->warning(FLERR, "restitute: types {} {}: the time step {:.6g} is longer than that, {:.4g}", i, j,
+                               update->dt, limit);
+        }
+}
+
 double PairRestitute::init_one(int i, int j)
 {
     if (!model(i, j))
         error->all(FLERR, "pair_coeff of restitute: none for types {} {}; two materials take 'partner FILE'", i, j);
     return largest_radius[i] + largest_radius[j];
-}
-
-/* ---- a time step */
-
-void PairRestitute::compute(int eflag, int vflag)
-{
-    const Spheres spheres(atom, frozen);
-    double **x = atom->x, *radius = atom->radius;
-    ev_init(eflag, vflag);
-    histories->restart_global = 1;
-    const double change = change_of_box();
-    for (const Model &its : models)
-        its->drift = change;
-    for (int ii = 0; ii < list->inum; ii++) {
-        const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
-        int *touched = histories->firstflag[i];
-        double *history = histories->firstvalue[i];
-        check_radius(i);
-        for (int jj = 0; jj < list->numneigh[i]; jj++, history += history_size) {
-            const int j = neighbors[jj] & NEIGHMASK;
-            const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-            const double sum = radius[i] + radius[j];
-            if (dx * dx + dy * dy + dz * dz < sum * sum) {
-                touched[jj] = 1;
-                compute_contact(spheres, i, j, history);
-            } else if (touched[jj]) {
-                touched[jj] = 0;
-                std::fill_n(history, history_size, 0.0);
-            }
-        }
-    }
-    const Record own = record(); /* for `compute ID all pair restitute` */
-    const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS],
-                             own.beyond[restitute_dem::SPEED]};
-    std::copy_n(values, nextra, pvector);
-    warn(lmp, own, warned);
-}
-
-/* Largest change of a side or a tilt since the last step. Periodic images and the spheres that
- * `fix deform` maps move by as much, without velocities. With `remap v` they have them. Sides that
- * LAMMPS wraps around the spheres move no sphere. */
-double PairRestitute::change_of_box()
-{
-    std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
-    double change = 0;
-    for (int k = 0; k < 3; k++)
-        if (std::max(domain->boundary[k][0], domain->boundary[k][1]) >= 2) now[k] = 0;
-    for (size_t k = 0; k < box.size(); k++)
-        change = std::max(change, std::fabs(now[k] - box[k]));
-    box = now;
-    return domain->deform_vremap ? 0 : change;
-}
-
-/* LAMMPS may not find the contacts of a larger sphere. */
-void PairRestitute::check_radius(int i)
-{
-    const double largest = largest_radius[atom->type[i]];
-    if (atom->radius[i] > largest)
-        error->one(
-            FLERR,
-            "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, the largest of type {} when the "
-            "run began, plus half of the skin under fix adapt. Begin a new run when radii have grown, or take a "
-            "larger skin",
-            atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
-}
-
-/* The atom with the smaller tag is body 1: in every list, on every process. */
-void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double *history)
-{
-    const tagint *tag = atom->tag;
-    const int first = tag[i] < tag[j] ? i : j, second = first == i ? j : i;
-    Contact contact;
-    double f[3];
-    if (!touching(spheres.body(first), spheres.body(second), contact)) return;
-    ContactModel &its = *model(atom->type[i], atom->type[j]);
-    const char *problem;
-    if (update->setupflag) {
-        problem = its.repeat(contact, history, f);
-    } else {
-        const double density = history[0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
-        const bool twice = j >= atom->nlocal && !force->newton_pair; /* the owner of j computes this contact, too */
-        problem = its.advance(contact, density, !twice || first == i, history, f, (double)tag[i] + tag[j]);
-    }
-    if (problem)
-        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep,
-                   problem);
-    apply(contact, f, first, second);
-}
-
-static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
-{
-    for (int i = 0; i < 3; i++) {
-        force[i] += sign * f[i];
-        torque[i] += arm * turn[i];
-    }
-}
-
-void PairRestitute::apply(const Contact &c, const double f[3], int first, int second)
-{
-    const double *n = c.normal, *a = atom->x[first], *b = atom->x[second];
-    const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
-    const bool all = force->newton_pair;
-    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, c.arm1, turn);
-    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, c.arm2, turn);
-    if (evflag)
-        ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-Record PairRestitute::record() const
-{
-    Record own;
-    for (const Model &its : models)
-        own.add(its->record);
-    return own;
-}
-
-/* The limits shown are those of the first law. */
-void PairRestitute::finish()
-{
-    const Record all = sum_of(record(), world);
-    if (comm->me == 0) utils::logmesg(lmp, all.text(models[0]->limits));
 }
 
 /* ---- restart files */
