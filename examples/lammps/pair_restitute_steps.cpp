@@ -213,7 +213,7 @@ double PairRestitute::single(int i, int j, int, int, double rsq, double, double,
     }
     svector[3] = std::hypot(svector[0], svector[1], svector[2]);
     svector[7] = std::hypot(svector[4], svector[5], svector[6]);
-    svector[8] = std::fabs(twist);
+    svector[8] = -twist; /* about x_i - x_j */
     const auto kept = details(i, j, history);
     const double rest[] = {kept.contact_radius, kept.stick_radius, kept.stored, kept.friction, kept.viscous};
     std::copy_n(rest, 5, svector + 12);

@@ -4,7 +4,7 @@ run change no bit."""
 from scenes import Scene, check, material
 
 RUBBER = material("rubber", model="standard_solid", modulus1_pa=1e9, modulus2_pa=2e9, viscosity_pa_s=3e4)
-WORDS = RUBBER + " friction 0.3"
+WORDS = RUBBER + " friction 0.3 rolling sds 2e4 0.1 0.05 twisting marshall details yes"
 LAW = f"""
     pair_style restitute
     pair_coeff * * {WORDS}
