@@ -194,9 +194,9 @@ const char *ContactModel::refusal(const Contact &c)
     else if (c.overlap > c.radius)
         std::snprintf(
             text, size,
-            "an overlap of %.6g: must be at most the effective radius, %.6g. Separate spheres that overlap at "
-            "the start first, see 'Spheres that overlap' in the README of this adapter",
-            c.overlap, c.radius);
+            "an overlap of %.6g: must be at most the effective radius, %.6g. Take a shorter time step; of "
+                      "spheres that overlap at the start see 'Spheres that overlap' in the README of this adapter",
+                      c.overlap, c.radius);
     else if (is_about("another law"))
         std::snprintf(text, size,
                       "the contact began under another law: types of spheres or words of the law have changed since. "

@@ -72,7 +72,7 @@ class ContactModel
     bool has_details = false;
 
     std::string about() const; /* a line on the law, and a warning about its accuracy */
-    uint64_t hash() const;     /* of the law */
+    uint64_t hash() const;     /* of the law, and of what its history holds */
     int history_size() const;  /* doubles of a contact: label, state, resistance. All zeros: a new one */
 
     /* Largest time step for impacts at a speed; 0: a value is out of its range. Effective mass and
