@@ -84,7 +84,7 @@ std::string Record::warning(Ratio which, long long step) const
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
                       "spheres were created with an overlap, or their contact was lost or found late; see 'Spheres "
-                      "that overlap' in the README of this adapter",
+                      "that overlap' in contacts.md of the adapter",
                       step, largest[DEPTH]);
     return line;
 }
@@ -192,10 +192,9 @@ const char *ContactModel::refusal(const Contact &c)
     if (dot(n, n) == 0)
         std::snprintf(text, size, "the centers coincide, or a center lies on a wall: there is no normal");
     else if (c.overlap > c.radius)
-        std::snprintf(
-            text, size,
-            "an overlap of %.6g: must be at most the effective radius, %.6g. Take a shorter time step; of "
-                      "spheres that overlap at the start see 'Spheres that overlap' in the README of this adapter",
+        std::snprintf(text, size,
+                      "an overlap of %.6g: must be at most the effective radius, %.6g. Take a shorter time step; of "
+                      "spheres that overlap at the start see 'Spheres that overlap' in contacts.md of the adapter",
                       c.overlap, c.radius);
     else if (is_about("another law"))
         std::snprintf(text, size,

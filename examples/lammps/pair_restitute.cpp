@@ -99,7 +99,7 @@ void PairRestitute::init_style()
         its->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
     has_details = std::any_of(models.begin(), models.end(), [](const Model &its) { return its->has_details; });
-    beyond_contact = has_details; /* the fix shows contacts to compute() that end when lists are made */
+    beyond_contact = 0; /* until compute(): some computes refuse anything else */
     shrink_pages();
     keep_history();
     /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run,

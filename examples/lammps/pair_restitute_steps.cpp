@@ -27,6 +27,7 @@ void PairRestitute::compute(int eflag, int vflag)
     double **x = atom->x, *radius = atom->radius;
     ev_init(eflag, vflag);
     histories->restart_global = 1;
+    beyond_contact = has_details; /* the fix keeps contacts that end when lists are made, for end_contact() */
     const double change = change_of_box();
     for (const Model &its : models)
         its->drift = change;

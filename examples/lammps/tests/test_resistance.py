@@ -118,3 +118,36 @@ spins, _ = course(restitute(0, "rolling sds 0 5 0.2 twisting sds 0 1e-6 2e-3"), 
 print("dashpots with sliders:", *([float(f"{w:.3g}") for w in spin] for spin in spins))
 for before, after in zip(spins, spins[1:]):
     check(all(0 < a / b < 0.99 for a, b in zip(after, before)), f"dashpots do not slow the sphere: {before}, {after}")
+
+# The radii and energies of a contact that begins to slip: Cattaneo's and Hertz's, with 8 elements.
+scene = Scene(half_width=0.05)
+scene.add((0, 0, 0), (0, 0, 0), radius=RADIUS, density=DENSITY)
+scene.add((0, 0, 2 * RADIUS), (0, 0, 0), radius=RADIUS, density=DENSITY)
+scene.run(restitute(0.3, "details yes"))
+scene.run(f"""
+    group base id 1
+    fix weight all addforce 0 0 -{WEIGHT}
+    fix slow all viscous 10
+    fix hold base freeze
+    fix move all nve/sphere
+    timestep 1e-6
+    run 4000
+    compute of all pair/local force p4 p13 p14 p15 p16 p17
+    compute shape all fabric radius force/normal
+    dump of all local 5 of.dump c_of[*]
+    set atom 2 vx 0.1
+    thermo_style custom step c_shape c_shape[3]
+    """)
+scene.run("run 30")
+scene.close()
+looks = numbers("of.dump")
+for force, shear, radius, stick, stored, friction, viscous in looks:
+    share = (1 - shear / (0.3 * force)) ** (1 / 3)
+    print(f"tangential force {shear:.4f} N: contact radius {radius:.4g} m, stick radius {stick / radius:.3f} of it "
+          f"({share:.3f}), stored {stored:.4e} J, lost {friction:.1e} J to friction, {viscous:.1e} J in dashpots")
+    check(abs(radius / CONTACT_RADIUS - 1) <= 1e-4, f"a contact radius of {radius}, not {CONTACT_RADIUS} m")
+    check(abs(stick / radius - share) <= 0.08, "the stick radius is off by more than two thirds of an element")
+    check(viscous == 0, f"an elastic contact has lost {viscous} J in dashpots")
+check(len(looks) == 7 and looks[-1][1] > 0.09, f"{len(looks)} looks, tangential force {looks[-1][1]}")
+check(abs(looks[0][4] / (0.4 * WEIGHT * DEPTH) - 1) <= 1e-3, f"a stored energy of {looks[0][4]} J")
+check(looks[0][5] == 0 < looks[1][5] < looks[-1][5], "no rising loss to friction")
