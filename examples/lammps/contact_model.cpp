@@ -13,32 +13,6 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-bool touching(const Body &first, const Body &second, Contact &c)
-{
-    const double *a = first.position, *b = second.position, *v = first.velocity, *w = second.velocity;
-    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
-    const double sum = first.radius + second.radius;
-    c.inverse_mass = first.inverse_mass + second.inverse_mass;
-    if (!(square < sum * sum) || c.inverse_mass == 0) return false;
-    const double distance = std::sqrt(square), inverse = distance > 0 ? 1 / distance : 0;
-    const double n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
-    c.overlap = sum - distance;
-    c.arm1 = first.radius - 0.5 * c.overlap; /* the arms add up to the distance: angular momentum is conserved */
-    c.arm2 = second.radius > 0 ? second.radius - 0.5 * c.overlap : 0;
-    c.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
-    const double turn0 = c.arm1 * first.spin[0] + c.arm2 * second.spin[0];
-    const double turn1 = c.arm1 * first.spin[1] + c.arm2 * second.spin[1];
-    const double turn2 = c.arm1 * first.spin[2] + c.arm2 * second.spin[2];
-    c.normal[0] = n0, c.normal[1] = n1, c.normal[2] = n2;
-    c.velocity[0] = v[0] - w[0] + turn1 * n2 - turn2 * n1;
-    c.velocity[1] = v[1] - w[1] + turn2 * n0 - turn0 * n2;
-    c.velocity[2] = v[2] - w[2] + turn0 * n1 - turn1 * n0;
-    for (int i = 0; i < 3; i++)
-        c.spin[i] = first.spin[i] - second.spin[i];
-    c.mean_spin = 0.5 * (dot(first.spin, c.normal) + dot(second.spin, c.normal));
-    return true;
-}
-
 /* ---- record */
 
 void Record::add(const Record &other)
@@ -100,9 +74,9 @@ void ContactModel::note(Ratio which, double ratio)
  * 0.003 R, covers that up to steps of 0.009 R. A larger tolerance would hide lost contacts of hard
  * spheres at rest. v/c_s as for one impact of the library: with the modulus at the time scale of
  * the impact. */
-void ContactModel::note_first_touch(const Contact &contact, double speed, double density)
+void ContactModel::note_first_touch(const restitute_contact_motion &contact, double density)
 {
-    const double mass = 1 / contact.inverse_mass;
+    const double speed = dot(contact.velocity, contact.normal), mass = 1 / contact.inverse_mass;
     double scale;
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
@@ -133,56 +107,67 @@ static void to_force(const restitute_contact_force &f, const double *normal, dou
         force[i] = f.tangential[i] - f.normal * normal[i];
 }
 
-void ContactModel::describe(const Contact &contact)
+std::unique_ptr<Batch> ContactModel::make_batch() const
 {
-    const double solid_sphere = 3.5; /* 1 + m R^2/J */
-    motion.overlap = contact.overlap;
-    for (int i = 0; i < 3; i++) {
-        motion.normal[i] = contact.normal[i];
-        motion.velocity[i] = contact.velocity[i];
-    }
-    motion.spin = contact.mean_spin;
-    motion.inverse_mass = contact.inverse_mass;
-    motion.inverse_tangential_mass = solid_sphere * contact.inverse_mass;
-    motion.radius = contact.radius;
+    auto batch = std::make_unique<Batch>();
+    std::fill_n(batch->motion, Batch::SIZE, motion);
+    return batch;
 }
 
-const char *ContactModel::advance(const Contact &contact, double density, bool on_record, double *history,
-                                  double force[3], double label)
+int ContactModel::advance(Batch &b, const char **problem)
 {
-    restitute_contact_force found;
-    describe(contact);
-    if (restitute_contact_step(law, &rates, &motion, history + 1, &found, &error) < 0) return refusal(contact);
-    to_force(found, contact.normal, force);
-    settle(contact, density, on_record, found, history, label);
-    return nullptr;
+    double *states[Batch::SIZE];
+    restitute_contact_force found[Batch::SIZE];
+    int status[Batch::SIZE];
+    bool is_new[Batch::SIZE];
+    for (int k = 0; k < b.n; k++) {
+        states[k] = b.history[k] + 1;
+        is_new[k] = b.history[k][0] == 0;
+    }
+    if (restitute_contact_step_many(law, &rates, b.n, b.motion, states, found, status, &error) < 0) {
+        const int bad = (int)(std::find_if(status, status + b.n, [](int one) { return one < 0; }) - status);
+        *problem = refusal(b.motion[bad]);
+        return bad;
+    }
+    for (int k = 0; k < b.n; k++) {
+        to_force(found[k], b.motion[k].normal, b.force[k]);
+        if (has_resistance()) resist(b, k, found[k].normal);
+    }
+    note(b, is_new);
+    return -1;
 }
 
-/* What follows a step of the law. */
-void ContactModel::settle(const Contact &c, double density, bool on_record, const restitute_contact_force &force,
-                          double *history, double label)
+void ContactModel::resist(Batch &b, int k, double normal_force)
 {
-    const bool is_new = history[0] == 0;
-    if (is_new) history[0] = label;
-    if (has_resistance()) {
-        Turning turning = {{}, {}, c.radius, std::sqrt(c.overlap * c.radius), force.normal, rates.step};
-        std::copy_n(c.normal, 3, turning.normal);
-        std::copy_n(c.spin, 3, turning.spin);
-        resistance.advance(turning, history + history_size() - resistance.history_size());
+    const restitute_contact_motion &m = b.motion[k];
+    Turning turning = {{}, {}, m.radius, std::sqrt(m.overlap * m.radius), normal_force, rates.step};
+    std::copy_n(m.normal, 3, turning.normal);
+    std::copy_n(b.spin[k], 3, turning.spin);
+    resistance.advance(turning, b.history[k] + history_size() - resistance.history_size());
+}
+
+void ContactModel::note(Batch &b, const bool *is_new)
+{
+    const double limit = limits[RADIUS] * limits[RADIUS];
+    double deepest = 0;
+    for (int k = 0; k < b.n; k++) {
+        double &label = b.history[k][0];
+        if (is_new[k]) label = b.label[k];
+        if (!b.on_record[k]) continue;
+        record.steps++;
+        if (is_new[k]) note_first_touch(b.motion[k], b.density[k]);
+        const double depth = b.motion[k].overlap / b.motion[k].radius; /* = (a/R)^2 */
+        deepest = std::max(deepest, depth);
+        if (depth > limit && label > 0) {
+            label = -label;
+            record.beyond[RADIUS]++;
+        }
     }
-    if (!on_record) return;
-    record.steps++;
-    if (is_new) note_first_touch(c, dot(c.velocity, c.normal), density);
-    const double largest = record.largest[RADIUS], limit = limits[RADIUS], depth = c.overlap; /* = a^2/R */
-    if (depth > largest * largest * c.radius) record.largest[RADIUS] = std::sqrt(depth / c.radius);
-    if (depth > limit * limit * c.radius && history[0] > 0) {
-        history[0] = -history[0];
-        record.beyond[RADIUS]++;
-    }
+    record.largest[RADIUS] = std::max(record.largest[RADIUS], std::sqrt(deepest));
 }
 
 /* The library names its own arguments. This says what to do in a DEM code. */
-const char *ContactModel::refusal(const Contact &c)
+const char *ContactModel::refusal(const restitute_contact_motion &c)
 {
     char *text = error.message;
     const size_t size = sizeof error.message;
@@ -213,21 +198,27 @@ const char *ContactModel::refusal(const Contact &c)
                       "relative velocity (%.6g, %.6g, %.6g): must be at most the effective radius %.6g in a step of "
                       "%.6g either way",
                       v[0], v[1], v[2], c.radius, rates.step);
+    else if (is_about("motions["))
+        std::snprintf(text, size, "%s", said.substr(said.find(": ") + 2).c_str());
     return text;
 }
 
-const char *ContactModel::repeat(const Contact &contact, const double *history, restitute_contact_force &force)
+bool ContactModel::peek(const double normal[3], const double *history, restitute_contact_force &force)
 {
-    const bool failed = restitute_contact_peek(law, contact.normal, history + 1, &force, &error) < 0;
-    return failed ? refusal(contact) : nullptr;
+    return restitute_contact_peek(law, normal, history + 1, &force, &error) >= 0;
 }
 
-const char *ContactModel::repeat(const Contact &contact, const double *history, double force[3])
+int ContactModel::repeat(Batch &b, const char **problem)
 {
     restitute_contact_force found;
-    if (const char *problem = repeat(contact, history, found)) return problem;
-    to_force(found, contact.normal, force);
-    return nullptr;
+    for (int k = 0; k < b.n; k++) {
+        if (!peek(b.motion[k].normal, b.history[k], found)) {
+            *problem = refusal(b.motion[k]);
+            return k;
+        }
+        to_force(found, b.motion[k].normal, b.force[k]);
+    }
+    return -1;
 }
 
 const double *ContactModel::couple(const double *history) const

@@ -8,6 +8,8 @@
 
 #include <restitute/contact.h>
 
+#include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,17 +23,54 @@ struct Body {
     double radius, inverse_mass; /* 0: nothing moves it */
 };
 
-/* Two bodies that touch. The normal points from body 1 into body 2. */
-struct Contact {
-    double overlap, normal[3], velocity[3]; /* velocity: of the surface of body 1 past that of body 2 */
-    double arm1, arm2;                      /* from the centres to the contact point, half-way through the overlap */
-    double spin[3], mean_spin;              /* of body 1 relative to body 2; mean of both about the normal */
-    double radius, inverse_mass;            /* effective */
+/* Contacts of a law that wait for their forces: they are computed side by side. The normal of a
+ * motion points from body 1 into body 2. The arms go from the centres to the contact point, half-way
+ * through the overlap. */
+struct Batch {
+    static constexpr int SIZE = 64;
+    int n = 0;
+    restitute_contact_motion motion[SIZE];
+    double spin[SIZE][3]; /* of body 1 relative to body 2 */
+    double arm1[SIZE], arm2[SIZE];
+    double *history[SIZE]; /* of a contact: its label, then its state. All zeros: a new one */
+    double label[SIZE];    /* of a new contact: a positive number that identifies it */
+    double density[SIZE];  /* of a new contact: of the denser sphere */
+    bool on_record[SIZE];
+    int first[SIZE], second[SIZE]; /* the host's own */
+    double force[SIZE][3];         /* on body 1 */
 };
 
-/* Sets the contact and returns true. Returns false if the bodies are apart, or if neither can
- * move. Of coincident centres the normal is 0, which a step refuses. */
-bool touching(const Body &first, const Body &second, Contact &contact);
+/* Sets the k-th motion of a batch and its arms and returns true. Returns false if the bodies are
+ * apart, or if neither can move. Of coincident centres the normal is 0, which a step refuses. */
+inline bool touching(const Body &first, const Body &second, Batch &batch, int k)
+{
+    restitute_contact_motion &m = batch.motion[k];
+    const double *a = first.position, *b = second.position, *v = first.velocity, *w = second.velocity;
+    const double *p = first.spin, *q = second.spin;
+    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
+    const double sum = first.radius + second.radius, inverse_mass = first.inverse_mass + second.inverse_mass;
+    if (!(square < sum * sum) || inverse_mass == 0) return false;
+    const double distance = std::sqrt(square), inverse = distance > 0 ? 1 / distance : 0;
+    const double n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
+    m.overlap = sum - distance;
+    /* The arms add up to the distance: angular momentum is conserved. */
+    const double arm1 = first.radius - 0.5 * m.overlap;
+    const double arm2 = second.radius > 0 ? second.radius - 0.5 * m.overlap : 0;
+    const double t0 = arm1 * p[0] + arm2 * q[0], t1 = arm1 * p[1] + arm2 * q[1], t2 = arm1 * p[2] + arm2 * q[2];
+    m.normal[0] = n0, m.normal[1] = n1, m.normal[2] = n2;
+    m.velocity[0] = v[0] - w[0] + t1 * n2 - t2 * n1;
+    m.velocity[1] = v[1] - w[1] + t2 * n0 - t0 * n2;
+    m.velocity[2] = v[2] - w[2] + t0 * n1 - t1 * n0;
+    m.spin = 0.5 * ((p[0] + q[0]) * n0 + (p[1] + q[1]) * n1 + (p[2] + q[2]) * n2);
+    m.inverse_mass = inverse_mass;
+    m.inverse_tangential_mass = 3.5 * inverse_mass; /* of solid spheres: 1 + m R^2/J */
+    m.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
+    for (int i = 0; i < 3; i++)
+        batch.spin[k][i] = p[i] - q[i];
+    batch.arm1[k] = arm1;
+    batch.arm2[k] = arm2;
+    return true;
+}
 
 /* The record of a run. Four ratios have limits: contact radius over radius and speed over shear
  * wave speed, which are limits of the model; time step over that of the law; and the first overlap
@@ -79,18 +118,20 @@ class ContactModel
      * radius. */
     double step_limit(double mass, double radius, double speed) const;
 
-    /* The following functions return an error text, or NULL. */
+    /* An error text, or NULL. */
     const char *set_step(double step);
 
-    /* The force on body 1 after a step. `density`: of the denser sphere. `label`: a positive number
-     * that identifies a new contact. In the history it becomes negative when the contact counts as
-     * beyond RADIUS. */
-    const char *advance(const Contact &contact, double density, bool on_record, double *history, double force[3],
-                        double label = 1);
+    /* A batch for contacts of this model. */
+    std::unique_ptr<Batch> make_batch() const;
 
-    /* The force of the last step again. */
-    const char *repeat(const Contact &contact, const double *history, double force[3]);
-    const char *repeat(const Contact &contact, const double *history, restitute_contact_force &force);
+    /* Forces after a step, or those of the last step again. Returns the number of the first contact
+     * that was refused, with a text, or -1. The label of a history becomes negative when the contact
+     * counts as beyond RADIUS. */
+    int advance(Batch &batch, const char **problem);
+    int repeat(Batch &batch, const char **problem);
+
+    /* The force of the last step again; false: the state is refused. */
+    bool peek(const double normal[3], const double *history, restitute_contact_force &force);
 
     bool has_resistance() const
     {
@@ -103,7 +144,7 @@ class ContactModel
     /* Radii and energies; zeros without `details yes`. */
     restitute_contact_details details(double radius, const double *history);
 
-    /* Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. */
+    /* An error text, or NULL. Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. */
     const char *turn(const double from[3], const double to[3], double *history);
 
   private:
@@ -111,11 +152,10 @@ class ContactModel
     void open(const std::string &file, const Units &units, restitute_material **opened);
     void join(const std::string &partner, const Units &units);
     void measure_stiffness(int bodies);
-    void describe(const Contact &contact);
-    void settle(const Contact &contact, double density, bool on_record, const restitute_contact_force &force,
-                double *history, double label);
-    const char *refusal(const Contact &contact);
-    void note_first_touch(const Contact &contact, double speed, double density);
+    void note(Batch &batch, const bool *is_new);
+    void note_first_touch(const restitute_contact_motion &motion, double density);
+    void resist(Batch &batch, int k, double normal_force);
+    const char *refusal(const restitute_contact_motion &motion);
     void note(Ratio which, double ratio);
 
     restitute_material *material = nullptr;

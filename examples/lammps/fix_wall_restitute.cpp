@@ -15,7 +15,7 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using restitute_dem::Contact;
+using restitute_dem::Batch;
 using restitute_dem::Record;
 
 static const char *const shapes[] = {"xplane", "yplane", "zplane", "zcylinder"};
@@ -29,6 +29,9 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     char **place = std::find_first_of(arg + 3, end, shapes, shapes + 4, [](auto a, auto b) { return !strcmp(a, b); });
     model = make_model(lmp, "fix wall/restitute", arg + 3, place);
     if (place == end) error->all(FLERR, "fix wall/restitute: needs xplane, yplane, zplane or zcylinder");
+    batch = model->make_batch();
+    batch->label[0] = 1;
+    batch->on_record[0] = true;
     shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
     const int numbers = shape == Z_CYLINDER ? 1 : 2;
     if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} needs a position", *place);
@@ -128,19 +131,20 @@ void FixWallRestitute::post_force(int)
 void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const double *point)
 {
     static const double still[3] = {};
-    double f[3];
-    Contact c;
-    if (!touching(spheres.body(i), {point, velocity, still, 0, 0}, c)) return;
-    const char *problem = update->setupflag ? model->repeat(c, history[i], f)
-                                            : model->advance(c, spheres.density(i), true, history[i], f);
-    if (problem)
+    const char *problem;
+    Batch &b = *batch;
+    if (!touching(spheres.body(i), {point, velocity, still, 0, 0}, b, 0)) return;
+    b.n = 1;
+    b.history[0] = history[i];
+    b.density[0] = spheres.density(i);
+    if ((update->setupflag ? model->repeat(b, &problem) : model->advance(b, &problem)) >= 0)
         error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
                    problem);
-    const double *n = c.normal, *couple = model->couple(history[i]);
+    const double *n = b.motion[0].normal, *f = b.force[0], *couple = model->couple(history[i]);
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         atom->f[i][k] += f[k];
-        atom->torque[i][k] += c.arm1 * (n[l] * f[m] - n[m] * f[l]);
+        atom->torque[i][k] += b.arm1[0] * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
         if (couple) atom->torque[i][k] += couple[k];
     }

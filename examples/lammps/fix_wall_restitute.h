@@ -47,6 +47,7 @@ class FixWallRestitute : public Fix
     void compute_contact(int i, const class Spheres &spheres, const double *point);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
+    std::unique_ptr<restitute_dem::Batch> batch; /* of one contact */
     Shape shape;
     double low, high;        /* where the planes are; low: the radius of the cylinder */
     double velocity[3] = {}; /* of the wall, along itself */

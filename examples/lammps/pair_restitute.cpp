@@ -95,8 +95,11 @@ void PairRestitute::init_style()
     models.clear();
     for (const Model &its : table)
         if (its && std::find(models.begin(), models.end(), its) == models.end()) models.push_back(its);
-    for (const Model &its : models)
+    batches.clear();
+    for (const Model &its : models) {
         its->record = Record();
+        batches.push_back(its->make_batch());
+    }
     std::fill_n(warned, restitute_dem::RATIOS, false);
     has_details = std::any_of(models.begin(), models.end(), [](const Model &its) { return its->has_details; });
     beyond_contact = 0; /* until compute(): some computes refuse anything else */

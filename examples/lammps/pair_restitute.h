@@ -47,8 +47,10 @@ class PairRestitute : public Pair
     void report_limits();
     void check_radius(int i);
     double change_of_box();
-    void compute_contact(const class Spheres &spheres, int i, int j, double *history);
-    void apply(const restitute_dem::Contact &contact, const double force[3], int first, int second);
+    int number(int i, int j);
+    void collect(restitute_dem::ContactModel &its, restitute_dem::Batch &batch, int i, int j, double *history);
+    void compute_batch(restitute_dem::ContactModel &its, restitute_dem::Batch &batch);
+    void apply(const restitute_dem::Batch &batch, int k);
     void apply_couple(const double couple[3], int first, int second);
     bool is_counted(int i, int j) const;
     restitute_contact_details details(int i, int j, const double *history);
@@ -59,6 +61,7 @@ class PairRestitute : public Pair
 
     int width = 0; /* of the table */
     std::vector<Model> table, models;
+    std::vector<std::unique_ptr<restitute_dem::Batch>> batches; /* of the models */
     std::vector<uint64_t> restarted; /* hashes of the laws in the restart file; empty: none, or checked */
     std::vector<double> largest_radius, box;
     class FixNeighHistory *histories = nullptr;

@@ -17,18 +17,33 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
-using restitute_dem::Contact;
+using restitute_dem::Batch;
 using restitute_dem::ContactModel;
 using restitute_dem::Record;
 
+/* Of the model of two types. */
+int PairRestitute::number(int i, int j)
+{
+    return (int)(std::find(models.begin(), models.end(), model(i, j)) - models.begin());
+}
+
+static void prefetch(const double *place)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(place, 1);
+#else
+    (void)place;
+#endif
+}
+
 void PairRestitute::compute(int eflag, int vflag)
 {
-    const Spheres spheres(atom, frozen);
     double **x = atom->x, *radius = atom->radius;
     ev_init(eflag, vflag);
     histories->restart_global = 1;
     beyond_contact = has_details; /* the fix keeps contacts that end when lists are made, for end_contact() */
     const double change = change_of_box();
+    const bool several = models.size() > 1;
     for (const Model &its : models)
         its->drift = change;
     for (int ii = 0; ii < list->inum; ii++) {
@@ -42,13 +57,16 @@ void PairRestitute::compute(int eflag, int vflag)
             const double sum = radius[i] + radius[j];
             if (dx * dx + dy * dy + dz * dz < sum * sum) {
                 touched[jj] = 1;
-                compute_contact(spheres, i, j, history);
+                const int its = several ? number(atom->type[i], atom->type[j]) : 0;
+                collect(*models[its], *batches[its], i, j, history);
             } else if (touched[jj]) {
                 touched[jj] = 0;
                 end_contact(i, j, history);
             }
         }
     }
+    for (size_t k = 0; k < models.size(); k++)
+        compute_batch(*models[k], *batches[k]);
     report_values();
     warn(lmp, record(), warned);
 }
@@ -82,32 +100,49 @@ void PairRestitute::check_radius(int i)
 }
 
 /* The atom with the smaller tag is body 1: in every list, on every process. */
-void PairRestitute::compute_contact(const Spheres &spheres, int i, int j, double *history)
+void PairRestitute::collect(ContactModel &its, Batch &b, int i, int j, double *history)
 {
-    const tagint *tag = atom->tag;
-    const int first = tag[i] < tag[j] ? i : j, second = first == i ? j : i;
-    Contact contact;
-    double f[3];
-    if (!touching(spheres.body(first), spheres.body(second), contact)) return;
-    ContactModel &its = *model(atom->type[i], atom->type[j]);
-    const char *problem;
-    if (update->setupflag) {
-        problem = its.repeat(contact, history, f);
-    } else {
-        const double density = history[0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
-        problem = its.advance(contact, density, is_counted(i, j), history, f, (double)tag[i] + tag[j]);
-    }
-    if (problem)
-        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", tag[first], tag[second], update->ntimestep,
-                   problem);
-    apply(contact, f, first, second);
-    if (const double *couple = its.couple(history)) apply_couple(couple, first, second);
+    const bool ordered = atom->tag[i] < atom->tag[j];
+    b.first[b.n] = ordered ? i : j;
+    b.second[b.n] = ordered ? j : i;
+    b.history[b.n] = history;
+    for (int k = 0; k < history_size; k += 8)
+        prefetch(history + k);
+    if (++b.n == Batch::SIZE) compute_batch(its, b);
 }
 
-/* Without newton the owner of j computes this contact, too. */
+/* Without newton the owner of the other sphere computes a contact, too. Then it counts where the
+ * sphere with the smaller tag is. */
 bool PairRestitute::is_counted(int i, int j) const
 {
-    return force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
+    const int first = atom->tag[i] < atom->tag[j] ? i : j;
+    return force->newton_pair || std::max(i, j) < atom->nlocal || first < atom->nlocal;
+}
+
+void PairRestitute::compute_batch(ContactModel &its, Batch &b)
+{
+    const Spheres spheres(atom, frozen);
+    const char *problem;
+    int n = 0;
+    for (int k = 0; k < b.n; k++) {
+        const int i = b.first[k], j = b.second[k];
+        if (!touching(spheres.body(i), spheres.body(j), b, n)) continue;
+        b.first[n] = i, b.second[n] = j;
+        b.history[n] = b.history[k];
+        b.label[n] = (double)atom->tag[i] + atom->tag[j];
+        b.density[n] = b.history[k][0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
+        b.on_record[n++] = is_counted(i, j);
+    }
+    b.n = n;
+    const int bad = update->setupflag ? its.repeat(b, &problem) : its.advance(b, &problem);
+    if (bad >= 0)
+        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", atom->tag[b.first[bad]],
+                   atom->tag[b.second[bad]], update->ntimestep, problem);
+    for (int k = 0; k < b.n; k++) {
+        apply(b, k);
+        if (const double *couple = its.couple(b.history[k])) apply_couple(couple, b.first[k], b.second[k]);
+    }
+    b.n = 0;
 }
 
 static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
@@ -118,15 +153,17 @@ static void add_to(double *force, double *torque, double sign, const double *f, 
     }
 }
 
-void PairRestitute::apply(const Contact &c, const double f[3], int first, int second)
+void PairRestitute::apply(const Batch &batch, int k)
 {
-    const double *n = c.normal, *a = atom->x[first], *b = atom->x[second];
+    const int first = batch.first[k], second = batch.second[k];
+    const double *n = batch.motion[k].normal, *f = batch.force[k];
     const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
     const bool all = force->newton_pair;
-    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, c.arm1, turn);
-    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, c.arm2, turn);
-    if (evflag)
-        ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, batch.arm1[k], turn);
+    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, batch.arm2[k], turn);
+    if (!evflag) return;
+    const double *a = atom->x[first], *b = atom->x[second];
+    ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 void PairRestitute::apply_couple(const double couple[3], int first, int second)
@@ -199,13 +236,14 @@ double PairRestitute::single(int i, int j, int, int, double rsq, double, double,
     const int first = atom->tag[i] < atom->tag[j] ? i : j, second = first == i ? j : i;
     const double sign = first == i ? 1 : -1;
     restitute_contact_force found = {};
-    Contact contact;
     std::fill_n(svector, single_extra, 0.0);
     fforce = 0;
-    if (!history || !touching(spheres.body(first), spheres.body(second), contact)) return 0;
-    ContactModel &its = *model(atom->type[i], atom->type[j]);
-    if (its.repeat(contact, history, found)) return 0;
-    const double *n = contact.normal, *couple = its.couple(history);
+    if (!history) return 0;
+    const int law = number(atom->type[i], atom->type[j]);
+    ContactModel &its = *models[law];
+    Batch &batch = *batches[law]; /* empty between steps */
+    const double *n = batch.motion[0].normal, *couple = its.couple(history);
+    if (!touching(spheres.body(first), spheres.body(second), batch, 0) || !its.peek(n, history, found)) return 0;
     const double twist = couple ? couple[0] * n[0] + couple[1] * n[1] + couple[2] * n[2] : 0;
     for (int k = 0; k < 3; k++) {
         svector[k] = sign * found.tangential[k];

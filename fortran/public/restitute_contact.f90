@@ -16,17 +16,17 @@
 !>     motion = restitute_contact_motion()
 !>     status = restitute_contact_step(law, rates, motion, state, force, error)
 module restitute_contact_module
-  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr, c_ptr, c_size_t, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr, c_size_t, c_sizeof
   use restitute, only: restitute_error, restitute_material, RESTITUTE_OK
   use restitute_texts_module, only: check_length, check_number
   implicit none (type, external)
   private
   public :: restitute_contact_law, restitute_contact_law_options, restitute_contact_rates, restitute_contact_motion
-  public :: restitute_contact_force, restitute_contact_energies
+  public :: restitute_contact_force, restitute_contact_details
   public :: restitute_contact_law_create, restitute_contact_law_destroy, restitute_contact_law_state_size
-  public :: restitute_contact_law_hash, restitute_contact_law_series, restitute_contact_time_step_limit
-  public :: restitute_contact_rates_set, restitute_contact_step, restitute_contact_step_many, restitute_contact_peek
-  public :: restitute_contact_energies_get, restitute_contact_turn
+  public :: restitute_contact_law_hash, restitute_contact_law_series, restitute_contact_time_scale
+  public :: restitute_contact_time_step_limit, restitute_contact_rates_set, restitute_contact_step
+  public :: restitute_contact_step_many, restitute_contact_peek, restitute_contact_details_get, restitute_contact_turn
 
   !> A contact law of a material, made by restitute_contact_law_create, released by
   !> restitute_contact_law_destroy.
@@ -39,7 +39,7 @@ module restitute_contact_module
     integer(c_size_t) :: struct_size = 0
     integer(c_int) :: deformable = 0, elements = 0, terms = 0
     real(c_double) :: shortest = 0, longest = 0
-    integer(c_int) :: frictionless = 0, energies = 0
+    integer(c_int) :: frictionless = 0, details = 0
   end type restitute_contact_law_options
 
   !> What depends on the time step alone.
@@ -47,14 +47,14 @@ module restitute_contact_module
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: step = 0
     integer(c_int64_t) :: law = 0
-    real(c_double) :: values(26) = 0
+    real(c_double) :: values(50) = 0
   end type restitute_contact_rates
 
-  !> One time step of one contact.
+  !> The motion of two bodies in contact over one time step.
   type, bind(c) :: restitute_contact_motion
     integer(c_size_t) :: struct_size = 0
-    real(c_double) :: overlap = 0, normal_velocity = 0, displacement(3) = 0, normal(3) = 0, half_step_over_mass = 0, &
-      half_step_over_tangential_mass = 0, radius = 0, friction = 0
+    real(c_double) :: overlap = 0, normal(3) = 0, velocity(3) = 0, spin = 0, inverse_mass = 0, &
+      inverse_tangential_mass = 0, radius = 0, friction = 0
   end type restitute_contact_motion
 
   !> Force on body 1.
@@ -62,11 +62,12 @@ module restitute_contact_module
     real(c_double) :: normal = 0, tangential(3) = 0
   end type restitute_contact_force
 
-  !> Where the work that two bodies have done on their contact went.
-  type, bind(c) :: restitute_contact_energies
+  !> What a contact has done since it began, and how it is now.
+  type, bind(c) :: restitute_contact_details
     integer(c_size_t) :: struct_size = 0
-    real(c_double) :: stored = 0, friction = 0, viscous = 0
-  end type restitute_contact_energies
+    real(c_double) :: contact_radius = 0, stick_radius = 0, work = 0, stored = 0, friction = 0, viscous = 0, &
+      friction_power = 0, viscous_power = 0
+  end type restitute_contact_details
 
   interface restitute_contact_law_options
     module procedure new_contact_law_options
@@ -77,9 +78,9 @@ module restitute_contact_module
   interface restitute_contact_motion
     module procedure new_contact_motion
   end interface restitute_contact_motion
-  interface restitute_contact_energies
-    module procedure new_contact_energies
-  end interface restitute_contact_energies
+  interface restitute_contact_details
+    module procedure new_contact_details
+  end interface restitute_contact_details
 
   interface
     subroutine init_contact_law_options(value, size) bind(c, name="restitute_contact_law_options_init_sized")
@@ -100,11 +101,11 @@ module restitute_contact_module
       integer(c_size_t), value :: size
     end subroutine init_contact_motion
 
-    subroutine init_contact_energies(value, size) bind(c, name="restitute_contact_energies_init_sized")
+    subroutine init_contact_details(value, size) bind(c, name="restitute_contact_details_init_sized")
       import
-      type(restitute_contact_energies), intent(inout) :: value
+      type(restitute_contact_details), intent(inout) :: value
       integer(c_size_t), value :: size
-    end subroutine init_contact_energies
+    end subroutine init_contact_details
 
     integer(c_int) function c_law_create(material, options, law, error) bind(c, name="restitute_contact_law_create")
       import
@@ -139,6 +140,15 @@ module restitute_contact_module
       type(restitute_error), intent(inout), optional :: error
     end function c_law_series
 
+    integer(c_int) function c_time_scale(law, mass, radius, speed, scale, error) &
+      bind(c, name="restitute_contact_time_scale")
+      import
+      type(c_ptr), value :: law
+      real(c_double), value :: mass, radius, speed
+      real(c_double), intent(inout) :: scale
+      type(restitute_error), intent(inout), optional :: error
+    end function c_time_scale
+
     integer(c_int) function c_time_step_limit(law, mass, radius, speed, limit, error) &
       bind(c, name="restitute_contact_time_step_limit")
       import
@@ -166,14 +176,14 @@ module restitute_contact_module
       type(restitute_error), intent(inout), optional :: error
     end function c_step
 
-    integer(c_int) function c_step_many(law, rates, n, motions, states, stride, forces, statuses, error) &
+    integer(c_int) function c_step_many(law, rates, n, motions, states, forces, statuses, error) &
       bind(c, name="restitute_contact_step_many")
       import
       type(c_ptr), value :: law
       type(restitute_contact_rates), intent(in) :: rates
-      integer(c_size_t), value :: n, stride
+      integer(c_size_t), value :: n
       type(restitute_contact_motion), intent(in) :: motions(*)
-      real(c_double), intent(inout) :: states(*)
+      type(c_ptr), intent(in) :: states(*)
       type(restitute_contact_force), intent(inout) :: forces(*)
       integer(c_int), intent(inout), optional :: statuses(*)
       type(restitute_error), intent(inout), optional :: error
@@ -187,15 +197,15 @@ module restitute_contact_module
       type(restitute_error), intent(inout), optional :: error
     end function c_peek
 
-    integer(c_int) function c_energies_get(law, radius, state, energies, error) &
-      bind(c, name="restitute_contact_energies_get")
+    integer(c_int) function c_details_get(law, radius, state, details, error) &
+      bind(c, name="restitute_contact_details_get")
       import
       type(c_ptr), value :: law
       real(c_double), value :: radius
       real(c_double), intent(in) :: state(*)
-      type(restitute_contact_energies), intent(inout) :: energies
+      type(restitute_contact_details), intent(inout) :: details
       type(restitute_error), intent(inout), optional :: error
-    end function c_energies_get
+    end function c_details_get
 
     integer(c_int) function c_turn(law, from, to, state, error) bind(c, name="restitute_contact_turn")
       import
@@ -220,9 +230,9 @@ contains
     call init_contact_motion(new, c_sizeof(new))
   end function new_contact_motion
 
-  type(restitute_contact_energies) function new_contact_energies() result(new)
-    call init_contact_energies(new, c_sizeof(new))
-  end function new_contact_energies
+  type(restitute_contact_details) function new_contact_details() result(new)
+    call init_contact_details(new, c_sizeof(new))
+  end function new_contact_details
 
   integer(c_int) function restitute_contact_law_create(material, options, law, error) result(status)
     type(restitute_material), intent(in) :: material
@@ -263,6 +273,14 @@ contains
     if (present(modulus)) modulus = g(:n)
   end function restitute_contact_law_series
 
+  integer(c_int) function restitute_contact_time_scale(law, mass, radius, speed, scale, error) result(status)
+    type(restitute_contact_law), intent(in) :: law
+    real(c_double), intent(in) :: mass, radius, speed
+    real(c_double), intent(inout) :: scale
+    type(restitute_error), intent(inout), optional :: error
+    status = c_time_scale(law%address, mass, radius, speed, scale, error)
+  end function restitute_contact_time_scale
+
   integer(c_int) function restitute_contact_time_step_limit(law, mass, radius, speed, limit, error) result(status)
     type(restitute_contact_law), intent(in) :: law
     real(c_double), intent(in) :: mass, radius, speed
@@ -298,19 +316,22 @@ contains
     type(restitute_contact_law), intent(in) :: law
     type(restitute_contact_rates), intent(in) :: rates
     type(restitute_contact_motion), contiguous, intent(in) :: motions(:)
-    real(c_double), contiguous, intent(inout) :: states(:, :)
+    real(c_double), contiguous, target, intent(inout) :: states(:, :)
     type(restitute_contact_force), contiguous, intent(inout) :: forces(:)
     integer(c_int), intent(inout), optional :: statuses(:)
     type(restitute_error), intent(inout), optional :: error
-    integer(c_size_t) :: n, stride
+    type(c_ptr) :: places(size(motions))
+    integer(c_size_t) :: n, i
     n = size(motions, kind=c_size_t)
-    stride = size(states, 1, c_size_t)
-    status = room_in(law, stride, error)
+    status = room_in(law, size(states, 1, c_size_t), error)
     call check_number("states(1, :)", size(states, 2, c_size_t), "motions", n, status, error)
     call check_length("forces", forces, "motions", n, status, error)
     call check_length("statuses", statuses, "motions", n, status, error)
-    if (status == RESTITUTE_OK) status = c_step_many(law%address, rates, n, motions, states, stride, forces, statuses, &
-                                                     error)
+    if (status /= RESTITUTE_OK) return
+    do i = 1, n
+      places(i) = c_loc(states(1, i))
+    end do
+    status = c_step_many(law%address, rates, n, motions, places, forces, statuses, error)
   end function restitute_contact_step_many
 
   integer(c_int) function restitute_contact_peek(law, normal, state, force, error) result(status)
@@ -323,15 +344,15 @@ contains
     if (status == RESTITUTE_OK) status = c_peek(law%address, normal, state, force, error)
   end function restitute_contact_peek
 
-  integer(c_int) function restitute_contact_energies_get(law, radius, state, energies, error) result(status)
+  integer(c_int) function restitute_contact_details_get(law, radius, state, details, error) result(status)
     type(restitute_contact_law), intent(in) :: law
     real(c_double), intent(in) :: radius
     real(c_double), contiguous, intent(in) :: state(:)
-    type(restitute_contact_energies), intent(inout) :: energies
+    type(restitute_contact_details), intent(inout) :: details
     type(restitute_error), intent(inout), optional :: error
     status = room_in(law, size(state, kind=c_size_t), error)
-    if (status == RESTITUTE_OK) status = c_energies_get(law%address, radius, state, energies, error)
-  end function restitute_contact_energies_get
+    if (status == RESTITUTE_OK) status = c_details_get(law%address, radius, state, details, error)
+  end function restitute_contact_details_get
 
   integer(c_int) function restitute_contact_turn(law, from, to, state, error) result(status)
     type(restitute_contact_law), intent(in) :: law

@@ -10,25 +10,38 @@
 static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 2e30, largest_friction = 1e6;
 static const double least_step = 1e-60, largest_step = 1e60;
 
+/* Of the square of the first tangential axis, what must be in the tangential plane: the normal may
+ * have turned by 60 degrees towards it. */
+static const double least_in_plane = 0.25;
+
 static int is_unit(const double v[3])
 {
     return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
 }
 
-/* One test for all: comparisons are false for NaN. Motions and rates are read in place, since those
- * of every caller have what a step needs. */
-static int is_good(double step, const restitute_contact_motion *m)
+/* Comparisons are false for NaN. A new contact has no width. */
+int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *b, int n)
 {
-    if (!RST_IS_SIZED(contact_motion, m)) return 0;
-    const double *v = m->velocity, r = m->radius, fastest = r / step, mobility = largest_mobility / step;
-    return r >= least_radius && r <= largest_radius && fabs(m->overlap) <= r && fabs(v[0]) <= fastest &&
-           fabs(v[1]) <= fastest && fabs(v[2]) <= fastest && fabs(m->spin) <= 1 / step && m->inverse_mass >= 0 &&
-           m->inverse_mass <= mobility && m->inverse_tangential_mass >= 0 && m->inverse_tangential_mass <= mobility &&
-           m->friction >= 0 && m->friction <= largest_friction && is_unit(m->normal);
+    const double per_step = 1 / step, mobility = largest_mobility * per_step;
+    int good = 1;
+    for (int l = 0; l < n; l++) {
+        const double r = b->radius[l], fastest = r * per_step, nx = b->normal[0][l], ny = b->normal[1][l],
+                     nz = b->normal[2][l], ax = b->axis[0][l], ay = b->axis[1][l], az = b->axis[2][l];
+        const double unit = nx * nx + ny * ny + nz * nz, out = nx * ax + ny * ay + nz * az;
+        good &= (r >= least_radius) & (r <= largest_radius) & (b->overlap[l] >= -r) &
+                (b->overlap[l] * r <= b->width[l] * b->width[l]) & (b->width[l] > 0);
+        good &= (fabs(b->velocity[0][l]) <= fastest) & (fabs(b->velocity[1][l]) <= fastest) &
+                (fabs(b->velocity[2][l]) <= fastest) & (fabs(b->turn[l]) <= per_step);
+        good &= (b->inverse_mass[0][l] >= 0) & (b->inverse_mass[0][l] <= mobility) & (b->inverse_mass[1][l] >= 0) &
+                (b->inverse_mass[1][l] <= mobility) & (b->friction[l] >= 0) & (b->friction[l] <= largest_friction);
+        good &= (fabs(unit - 1) <= 1e-6) & (ax * ax + ay * ay + az * az - out * out >= least_in_plane);
+    }
+    for (int l = 0; l < n; l++)
+        good &= rst_is_own(law, b->state[l]);
+    return good;
 }
 
-/* The first wrong value of a motion that failed the test. */
-static int refuse(double step, const restitute_contact_motion *m, restitute_error *error)
+int rst_check_motion(double step, const restitute_contact_motion *m, restitute_error *error)
 {
     const int status = RST_CHECK(contact_motion, m, error);
     if (status) return status;
@@ -56,10 +69,14 @@ static int refuse(double step, const restitute_contact_motion *m, restitute_erro
     return rst_check_unit(m->normal, "motion.normal", error);
 }
 
-int rst_check_motion(const restitute_contact_rates *rates, const restitute_contact_motion *motion,
-                     restitute_error *error)
+int rst_check_turn(const double n[3], const double *state, restitute_error *error)
 {
-    return is_good(rates->step, motion) ? RESTITUTE_OK : refuse(rates->step, motion, error);
+    const double *a = state + at_axis, out = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
+    if (a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - out * out >= least_in_plane) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "motion.normal = (%g, %g, %g): has turned too far since the last step; use "
+                      "restitute_contact_turn",
+                      n[0], n[1], n[2]);
 }
 
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error)

@@ -26,6 +26,15 @@ struct shape {
     int n, terms, surface, slips, details;
 };
 
+/* What a step is of. */
+struct call {
+    const struct rst_law *law;
+    const struct rst_rates *r;
+    struct rst_batch *in;
+    double step;
+    struct shape at;
+};
+
 /* Of each Maxwell arm over the step; an element that enters has less time. */
 struct arms {
     double decay[most_k][most_n], gain[most_k][most_n];
@@ -137,18 +146,17 @@ INLINE int outermost(double bits)
 
 /* Every element follows the sphere or, where that would pull, its own free surface, whichever is larger: entry, exit and re-entry on
  * a surface that has not relaxed are one line. An element enters where the profile reaches its free surface. */
-INLINE void follow_profile(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                           const struct rst_batch *in, const struct shape at, int l, struct work *s)
+INLINE void follow_profile(const struct call c, int l, struct work *s)
 {
-    const int n = at.n;
-    const double scale = s->scale[l], before = s->before[l], overlap = in->overlap[l];
-    const double dashpot = at.surface ? law->eta * s->approach[l] : 0;
-    double *const w = in->state[l] + at_arrays, *const surface = in->state[l] + rst_at_surface(law);
+    const int n = c.at.n;
+    const double scale = s->scale[l], before = s->before[l], overlap = c.in->overlap[l];
+    const double dashpot = c.at.surface ? c.law->eta * s->approach[l] : 0;
+    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
     struct rows *const row = &s->row[l];
     double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], pressed[most_n], f[most_n], part[most_n];
     EACH_ELEMENT held[i] = pull[i] = 0;
-    for (int k = 0; k < at.terms; k++) {
-        const double g = law->g[k], later = law->g[k] * r->decay[k];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k], later = c.law->g[k] * c.r->decay[k];
         EACH_ELEMENT
         {
             held[i] += g * w[k * n + i];
@@ -157,9 +165,9 @@ INLINE void follow_profile(const struct rst_law *restrict law, const struct rst_
     }
     EACH_ELEMENT
     {
-        const double y = law->y[i] * scale, old = before - y;
-        u[i] = at.surface ? surface[i] : larger(old, -held[i] * law->compliance);
-        const double loose = -(law->g_inf * u[i] + pull[i]) * r->compliance;
+        const double y = c.law->y[i] * scale, old = before - y;
+        u[i] = c.at.surface ? surface[i] : larger(old, -held[i] * c.law->compliance);
+        const double loose = -(c.law->g_inf * u[i] + pull[i]) * c.r->compliance;
         gap[i] = old - u[i];
         pressed[i] = overlap - y - u[i] - loose;
         moved[i] = loose + larger(pressed[i], 0);
@@ -167,57 +175,56 @@ INLINE void follow_profile(const struct rst_law *restrict law, const struct rst_
         part[i] = row->touch[i] * smaller(gap[i], 0);
     }
     row->arms = &s->even;
-    if (sum_of(part, n) < 0) enter(law, step, &s->even, gap, pressed, row);
-    EACH_ELEMENT f[i] = law->g_inf * (u[i] + moved[i]) + dashpot;
-    if (at.surface) EACH_ELEMENT surface[i] = u[i] + moved[i];
-    if (at.details) EACH_ELEMENT row->spent[i] = law->eta / step * moved[i] * moved[i];
-    for (int k = 0; k < at.terms; k++) {
-        const double g = law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
-        const double *const spent = r->spent[k];
+    if (sum_of(part, n) < 0) enter(c.law, c.step, &s->even, gap, pressed, row);
+    EACH_ELEMENT f[i] = c.law->g_inf * (u[i] + moved[i]) + dashpot;
+    if (c.at.surface) EACH_ELEMENT surface[i] = u[i] + moved[i];
+    if (c.at.details) EACH_ELEMENT row->spent[i] = c.law->eta / c.step * moved[i] * moved[i];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+        const double *const spent = c.r->spent[k];
         EACH_ELEMENT
         {
             const double before = w[k * n + i];
             w[k * n + i] = decay[i] * before + gain[i] * moved[i];
             f[i] += g * w[k * n + i];
-            if (at.details)
+            if (c.at.details)
                 row->spent[i] += spent[0] * before * before + (spent[1] * before + spent[2] * moved[i]) * moved[i];
         }
     }
-    if (at.details) {
-        EACH_ELEMENT part[i] = law->weight[i] * row->spent[i];
-        s->spent[l] = law->normal * s->width[l] * sum_of(part, n);
+    if (c.at.details) {
+        EACH_ELEMENT part[i] = c.law->weight[i] * row->spent[i];
+        s->spent[l] = c.law->normal * s->width[l] * sum_of(part, n);
     }
     EACH_ELEMENT
     {
         row->f[i] = larger(f[i], 0) * if_so(pressed[i] > 0);
-        part[i] = law->weight[i] * row->f[i];
+        part[i] = c.law->weight[i] * row->f[i];
     }
     s->sum[l] = sum_of(part, n);
-    EACH_ELEMENT part[i] = law->bit[i] * if_so(pressed[i] > 0);
+    EACH_ELEMENT part[i] = c.law->bit[i] * if_so(pressed[i] > 0);
     s->last[l] = outermost(sum_of(part, n));
 }
 
 /* What the rim needs of the last element of a contact, and whether the next one has ever been touched. */
-INLINE void look_at_last(const struct rst_law *restrict law, const struct rst_batch *in, const struct shape at, int l,
-                         struct work *s)
+INLINE void look_at_last(const struct call c, int l, struct work *s)
 {
-    const int n = at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
-    const double *const state = in->state[l], *const w = state + at_arrays;
+    const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
+    const double *const state = c.in->state[l], *const w = state + at_arrays;
     s->touches[l] = if_so(last > 0);
-    s->x[l] = law->x[j];
-    s->y[l] = law->y[j];
-    s->y_before[l] = law->y[before];
-    s->next[l] = last < n ? law->y[j + 1] : beyond;
-    s->per_cell[l] = law->per_cell[j];
-    s->outwards[l] = law->outwards[j];
+    s->x[l] = c.law->x[j];
+    s->y[l] = c.law->y[j];
+    s->y_before[l] = c.law->y[before];
+    s->next[l] = last < n ? c.law->y[j + 1] : beyond;
+    s->per_cell[l] = c.law->per_cell[j];
+    s->outwards[l] = c.law->outwards[j];
     s->f_last[l] = s->row[l].f[j];
     s->f_before[l] = s->row[l].f[before];
     bool virgin = true;
-    for (int k = 0; k < at.terms; k++) {
+    for (int k = 0; k < c.at.terms; k++) {
         s->w_last[k][l] = w[k * n + j];
         virgin &= last == n || w[k * n + last] == 0;
     }
-    if (at.surface) virgin &= last == n || state[rst_at_surface(law) + last] == 0;
+    if (c.at.surface) virgin &= last == n || state[rst_at_surface(c.law) + last] == 0;
     s->virgin[l] = if_so(virgin);
 }
 
@@ -226,18 +233,17 @@ INLINE void look_at_last(const struct rst_law *restrict law, const struct rst_ba
  * from the rim in tau v. The value at the rim is the one whose linear interpolation has the integral of that over the cell,
  * 2/(1 - exp(-z)) - 2/z - 1 of w at the last element, within 0.007; z is known from w there, the part q = (1 - exp(-z))/z of the
  * cell. Any other contact ends where f, extrapolated, is zero. */
-INLINE void close_rim(const struct rst_law *restrict law, const struct rst_batch *in, const struct shape at,
-                      const double *approach, struct work *s)
+INLINE void close_rim(const struct call c, const double *approach, struct work *s)
 {
     lanes cell, per, rise;
     EACH_LANE
     {
-        cell[l] = in->overlap[l] - s->y[l] * s->scale[l];
+        cell[l] = c.in->overlap[l] - s->y[l] * s->scale[l];
         per[l] = 1 / larger(cell[l], DBL_MIN);
-        rise[l] = law->eta * approach[l];
+        rise[l] = c.law->eta * approach[l];
     }
-    for (int k = 0; k < at.terms; k++) {
-        const double g = law->g[k];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k];
         EACH_LANE
         {
             const double w = s->w_last[k][l], q = larger(0, smaller(w, cell[l])) * per[l];
@@ -250,8 +256,8 @@ INLINE void close_rim(const struct rst_law *restrict law, const struct rst_batch
     EACH_LANE
     {
         const double y = s->y[l], x = s->x[l], f = s->f_last[l], next = s->next[l], touches = s->touches[l];
-        const double slope = (s->f_before[l] - f) * s->per_cell[l], soft = law->g_inf * s->scale[l];
-        const double free = in->overlap[l] / s->scale[l], several = if_so(s->per_cell[l] > 0);
+        const double slope = (s->f_before[l] - f) * s->per_cell[l], soft = c.law->g_inf * s->scale[l];
+        const double free = c.in->overlap[l] / s->scale[l], several = if_so(s->per_cell[l] > 0);
         const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
         const double fall = slope > 0 ? slope : soft;
         const bool ends = (f < fall * (free - y)) & !grows;
@@ -266,116 +272,112 @@ INLINE void close_rim(const struct rst_law *restrict law, const struct rst_batch
         s->edge[l] = edge;
         s->inner[l] = touches * (third * (2 * edge + x) - s->outwards[l]);
         s->outer[l] = touches * third * (2 * x + edge);
-        s->force[l] = law->normal * s->width[l] * (s->sum[l] + s->inner[l] * f + s->outer[l] * s->at_rim[l]);
+        s->force[l] = c.law->normal * s->width[l] * (s->sum[l] + s->inner[l] * f + s->outer[l] * s->at_rim[l]);
     }
 }
 
 /* The viscous force at the velocity of the end of the step. An element that this would make pull springs back at once. */
-INLINE void feel_end_velocity(const struct rst_law *restrict law, const struct rst_rates *restrict r,
-                              const struct rst_batch *in, const struct shape at, double change, int l, struct work *s)
+INLINE void feel_end_velocity(const struct call c, double change, int l, struct work *s)
 {
-    const int n = at.n;
-    double *const w = in->state[l] + at_arrays, *const surface = in->state[l] + rst_at_surface(law);
+    const int n = c.at.n;
+    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
     struct rows *const row = &s->row[l];
     double back[most_n], moved[most_n], part[most_n], bits[most_n];
     EACH_ELEMENT
     {
         moved[i] = if_so(row->touch[i] > 0) * change;
-        const double f = row->f[i] + r->viscosity * moved[i], pushes = larger(f, 0), stays = if_so(f > 0);
-        back[i] = (pushes - f) * r->compliance;
+        const double f = row->f[i] + c.r->viscosity * moved[i], pushes = larger(f, 0), stays = if_so(f > 0);
+        back[i] = (pushes - f) * c.r->compliance;
         row->touch[i] = stays * row->touch[i];
         row->f[i] = pushes;
-        part[i] = law->weight[i] * pushes;
-        bits[i] = law->bit[i] * stays;
+        part[i] = c.law->weight[i] * pushes;
+        bits[i] = c.law->bit[i] * stays;
     }
-    if (at.surface) EACH_ELEMENT surface[i] += back[i];
-    for (int k = 0; k < at.terms; k++) {
-        const double bend = r->bend[k], gain = r->gain[k];
+    if (c.at.surface) EACH_ELEMENT surface[i] += back[i];
+    for (int k = 0; k < c.at.terms; k++) {
+        const double bend = c.r->bend[k], gain = c.r->gain[k];
         EACH_ELEMENT w[k * n + i] += bend * moved[i] + gain * back[i];
     }
     s->sum[l] = sum_of(part, n);
     s->last[l] = outermost(sum_of(bits, n));
 }
 
-INLINE void press(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                  const struct rst_batch *in, const struct shape at, struct work *s)
+INLINE void press(const struct call c, struct work *s)
 {
     for (int l = 0; l < LANES; l++) {
-        follow_profile(law, r, step, in, at, l, s);
-        look_at_last(law, in, at, l, s);
+        follow_profile(c, l, s);
+        look_at_last(c, l, s);
     }
-    close_rim(law, in, at, s->approach, s);
-    if (at.terms + at.surface == 0 || !(r->viscosity > 0)) return;
+    close_rim(c, s->approach, s);
+    if (c.at.terms + c.at.surface == 0 || !(c.r->viscosity > 0)) return;
     lanes change, later;
     EACH_LANE
     {
         /* The equilibrium spring carries what does not accelerate, such as a weight at rest. */
         const double rim = s->width[l] * s->edge[l];
-        const double carried = law->normal * law->g_inf * rim * (in->overlap[l] - rim * rim / (3 * in->radius[l]));
+        const double carried =
+            c.law->normal * c.law->g_inf * rim * (c.in->overlap[l] - rim * rim / (3 * c.in->radius[l]));
         const double response =
-            velocity_response(0.5 * step * in->inverse_mass[0][l], law->normal * rim * r->viscosity);
+            velocity_response(0.5 * c.step * c.in->inverse_mass[0][l], c.law->normal * rim * c.r->viscosity);
         change[l] = -s->touches[l] * response * (s->force[l] - carried);
         later[l] = s->approach[l] + change[l];
     }
     for (int l = 0; l < LANES; l++) {
-        feel_end_velocity(law, r, in, at, change[l], l, s);
-        look_at_last(law, in, at, l, s);
+        feel_end_velocity(c, change[l], l, s);
+        look_at_last(c, l, s);
     }
-    close_rim(law, in, at, later, s);
+    close_rim(c, later, s);
 }
 
 /* --------------------------------------------------------------------------------------------- tangential problem */
 
 /* Elements if all stick: displaced by the step. */
-INLINE void stick(const struct rst_law *restrict law, const struct rst_rates *restrict r, const struct rst_batch *in,
-                  const struct shape at, double per_step, int l, struct work *s)
+INLINE void stick(const struct call c, double per_step, int l, struct work *s)
 {
-    const int n = at.n;
+    const int n = c.at.n;
     struct rows *const row = &s->row[l];
-    if (at.details) EACH_ELEMENT row->at_rest[i] = row->by_move[0][i] = row->by_move[1][i] = 0;
+    if (c.at.details) EACH_ELEMENT row->at_rest[i] = row->by_move[0][i] = row->by_move[1][i] = 0;
     for (int d = 0; d < 2; d++) {
-        double *const u = in->state[l] + rst_at_u(law) + d * n, *const w =
-                                                                    in->state[l] + rst_at_w(law) + d * at.terms * n;
+        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
+                                                                               d * c.at.terms * n;
         double *const trial = row->trial[d];
-        const double move = s->move[d][l], dashpot = law->eta * per_step * move;
+        const double move = s->move[d][l], dashpot = c.law->eta * per_step * move;
         EACH_ELEMENT
         {
             u[i] += row->touch[i] * move;
-            trial[i] = law->g_inf * u[i] + if_so(row->touch[i] > 0) * dashpot;
+            trial[i] = c.law->g_inf * u[i] + if_so(row->touch[i] > 0) * dashpot;
         }
-        for (int k = 0; k < at.terms; k++) {
-            const double g = law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+        for (int k = 0; k < c.at.terms; k++) {
+            const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
             EACH_ELEMENT
             {
                 const double before = w[k * n + i];
                 w[k * n + i] = decay[i] * before + gain[i] * (row->touch[i] * move);
                 trial[i] += g * w[k * n + i];
-                if (at.details) row->at_rest[i] += r->spent[k][0] * before * before;
-                if (at.details) row->by_move[d][i] += r->spent[k][1] * before;
+                if (c.at.details) row->at_rest[i] += c.r->spent[k][0] * before * before;
+                if (c.at.details) row->by_move[d][i] += c.r->spent[k][1] * before;
             }
         }
     }
 }
 
 /* The velocity of the end of the step differs by `change`. */
-INLINE void feel_end_slide(const struct rst_law *restrict law, const struct rst_rates *restrict r,
-                           const struct rst_batch *in, const struct shape at, const double *change, int l,
-                           struct work *s)
+INLINE void feel_end_slide(const struct call c, const double *change, int l, struct work *s)
 {
-    const int n = at.n;
+    const int n = c.at.n;
     struct rows *const row = &s->row[l];
     for (int d = 0; d < 2; d++) {
-        double *const w = in->state[l] + rst_at_w(law) + d * at.terms * n;
-        EACH_ELEMENT row->trial[d][i] += r->viscosity * change[d] * row->touch[i];
-        for (int k = 0; k < at.terms; k++)
-            EACH_ELEMENT w[k * n + i] += r->bend[k] * change[d] * row->touch[i];
+        double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        EACH_ELEMENT row->trial[d][i] += c.r->viscosity * change[d] * row->touch[i];
+        for (int k = 0; k < c.at.terms; k++)
+            EACH_ELEMENT w[k * n + i] += c.r->bend[k] * change[d] * row->touch[i];
     }
 }
 
 /* Forces within the limit of friction, radially, and their integral up to the last element. */
-INLINE void cut_to_limit(const struct rst_law *restrict law, const struct shape at, int viscous, int l, struct work *s)
+INLINE void cut_to_limit(const struct call c, int viscous, int l, struct work *s)
 {
-    const int n = at.n;
+    const int n = c.at.n;
     struct rows *const row = &s->row[l];
     const double ratio = s->limit_ratio[l];
     double x[most_n], y[most_n], bits[most_n], part[most_n];
@@ -386,10 +388,10 @@ INLINE void cut_to_limit(const struct rst_law *restrict law, const struct shape 
         const double kept = limit / larger(larger(size, limit), DBL_MIN), sticks = if_so(size <= limit);
         row->q[0][i] = tx * kept;
         row->q[1][i] = ty * kept;
-        x[i] = law->weight[i] * row->q[0][i];
-        y[i] = law->weight[i] * row->q[1][i];
-        bits[i] = law->bit[i] * sticks;
-        part[i] = viscous ? law->weight[i] * sticks * if_so(row->touch[i] > 0) : 0;
+        x[i] = c.law->weight[i] * row->q[0][i];
+        y[i] = c.law->weight[i] * row->q[1][i];
+        bits[i] = c.law->bit[i] * sticks;
+        part[i] = viscous ? c.law->weight[i] * sticks * if_so(row->touch[i] > 0) : 0;
     }
     s->total[0][l] = sum_of(x, n);
     s->total[1][l] = sum_of(y, n);
@@ -398,19 +400,18 @@ INLINE void cut_to_limit(const struct rst_law *restrict law, const struct shape 
 }
 
 /* What the rim needs of the last element. */
-INLINE void look_at_last_slide(const struct rst_law *restrict law, const struct rst_rates *restrict r,
-                               const struct rst_batch *in, const struct shape at, int l, struct work *s)
+INLINE void look_at_last_slide(const struct call c, int l, struct work *s)
 {
-    const int n = at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
+    const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
     const struct rows *const row = &s->row[l];
     for (int d = 0; d < 2; d++) {
-        const double *const w = in->state[l] + rst_at_w(law) + d * at.terms * n;
-        const double back = (row->trial[d][j] - row->q[d][j]) * r->compliance;
+        const double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        const double back = (row->trial[d][j] - row->q[d][j]) * c.r->compliance;
         s->q_last[d][l] = row->q[d][j];
         s->q_before[d][l] = row->q[d][before];
         s->back[d][l] = back;
-        for (int k = 0; k < at.terms; k++)
-            s->wt_last[d][k][l] = w[k * n + j] - r->gain[k] * back;
+        for (int k = 0; k < c.at.terms; k++)
+            s->wt_last[d][k][l] = w[k * n + j] - c.r->gain[k] * back;
     }
     const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
     s->last_sticks[l] = stuck >> j & 1;
@@ -419,18 +420,18 @@ INLINE void look_at_last_slide(const struct rst_law *restrict law, const struct 
 
 /* The force density at the rim: where w rises from zero there (close_rim), that of the last element by as much; else the same part
  * of the limit. */
-INLINE void hold_rim(const struct rst_law *restrict law, const struct shape at, struct work *s)
+INLINE void hold_rim(const struct call c, struct work *s)
 {
     lanes x, y, rises;
     EACH_LANE
     {
-        x[l] = law->eta * s->speed[0][l];
-        y[l] = law->eta * s->speed[1][l];
-        rises[l] = if_so(law->eta > 0);
+        x[l] = c.law->eta * s->speed[0][l];
+        y[l] = c.law->eta * s->speed[1][l];
+        rises[l] = if_so(c.law->eta > 0);
     }
-    if (at.terms) EACH_LANE rises[l] = larger(rises[l], if_so(s->ratio[0][l] > 0));
-    for (int k = 0; k < at.terms; k++) {
-        const double g = law->g[k];
+    if (c.at.terms) EACH_LANE rises[l] = larger(rises[l], if_so(s->ratio[0][l] > 0));
+    for (int k = 0; k < c.at.terms; k++) {
+        const double g = c.law->g[k];
         EACH_LANE
         {
             x[l] += g * s->ratio[k][l] * s->wt_last[0][k][l];
@@ -471,7 +472,7 @@ INLINE double lacking(double margin, double behind, double x_in, double y_in, do
 }
 
 /* What the integral lacks where stick turns to slip between two elements. */
-INLINE void add_kinks(const struct rst_law *restrict law, int l, struct work *s)
+INLINE void add_kinks(const struct call c, int l, struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
@@ -485,10 +486,10 @@ INLINE void add_kinks(const struct rst_law *restrict law, int l, struct work *s)
         const double limit = ratio * f[out];
         if (!(limit > 0)) continue;
         const double x = qx[out] / limit, y = qy[out] / limit;
-        const double weight = inwards ? law->weight[in] - law->outwards[in] : law->outwards[in];
+        const double weight = inwards ? c.law->weight[in] - c.law->outwards[in] : c.law->outwards[in];
         const double more =
             lacking(ratio * f[in] - (x * qx[in] + y * qy[in]), ratio * f[behind] - (x * qx[behind] + y * qy[behind]),
-                    law->x[in], law->y[in], law->y[behind], law->y[out], weight);
+                    c.law->x[in], c.law->y[in], c.law->y[behind], c.law->y[out], weight);
         s->total[0][l] += more * x;
         s->total[1][l] += more * y;
     }
@@ -515,86 +516,84 @@ INLINE void add_kink_at_rim(struct work *s)
 }
 
 /* What is beyond the limit springs back. Outside the contact the limit is zero: the same line lets the springs relax. */
-INLINE void spring_back(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                        const struct rst_batch *in, const struct shape at, int l, struct work *s)
+INLINE void spring_back(const struct call c, int l, struct work *s)
 {
-    const int n = at.n;
+    const int n = c.at.n;
     struct rows *const row = &s->row[l];
-    double back[most_n], slipped[most_n], by_square = law->eta / step;
-    for (int k = 0; k < at.terms; k++)
-        by_square += r->spent[k][2];
-    if (at.details) EACH_ELEMENT slipped[i] = 0;
+    double back[most_n], slipped[most_n], by_square = c.law->eta / c.step;
+    for (int k = 0; k < c.at.terms; k++)
+        by_square += c.r->spent[k][2];
+    if (c.at.details) EACH_ELEMENT slipped[i] = 0;
     for (int d = 0; d < 2; d++) {
-        double *const u = in->state[l] + rst_at_u(law) + d * n, *const w =
-                                                                    in->state[l] + rst_at_w(law) + d * at.terms * n;
+        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
+                                                                               d * c.at.terms * n;
         EACH_ELEMENT
         {
-            back[i] = (row->trial[d][i] - row->q[d][i]) * r->compliance;
+            back[i] = (row->trial[d][i] - row->q[d][i]) * c.r->compliance;
             u[i] -= back[i];
         }
-        for (int k = 0; k < at.terms; k++) {
-            const double gain = r->gain[k];
+        for (int k = 0; k < c.at.terms; k++) {
+            const double gain = c.r->gain[k];
             EACH_ELEMENT w[k * n + i] -= gain * back[i];
         }
-        if (at.details) EACH_ELEMENT
+        if (c.at.details) EACH_ELEMENT
             {
                 const double moved = row->touch[i] * s->move[d][l] - back[i];
                 row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
-                slipped[i] += law->weight[i] * row->q[d][i] * back[i];
+                slipped[i] += c.law->weight[i] * row->q[d][i] * back[i];
             }
     }
-    if (!at.details) return;
+    if (!c.at.details) return;
     s->slipped[l] = sum_of(slipped, n);
-    EACH_ELEMENT slipped[i] = law->weight[i] * row->at_rest[i];
-    s->spent[l] += law->tangential * s->width[l] * sum_of(slipped, n);
+    EACH_ELEMENT slipped[i] = c.law->weight[i] * row->at_rest[i];
+    s->spent[l] += c.law->tangential * s->width[l] * sum_of(slipped, n);
 }
 
 /* Elements of a contact within the limit of friction; `viscous`: the velocity of the end of the step is still to be felt. */
-INLINE void slide(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                  const struct rst_batch *in, const struct shape at, int viscous, int l, struct work *s)
+INLINE void slide(const struct call c, int viscous, int l, struct work *s)
 {
-    cut_to_limit(law, at, viscous, l, s);
-    look_at_last_slide(law, r, in, at, l, s);
-    if (!viscous) spring_back(law, r, step, in, at, l, s);
+    cut_to_limit(c, viscous, l, s);
+    look_at_last_slide(c, l, s);
+    if (!viscous) spring_back(c, l, s);
 }
 
 /* The integral over the contact radius. */
-INLINE void close_slide(const struct rst_law *restrict law, const struct shape at, struct work *s)
+INLINE void close_slide(const struct call c, struct work *s)
 {
-    hold_rim(law, at, s);
+    hold_rim(c, s);
     for (int l = 0; l < LANES; l++)
-        add_kinks(law, l, s);
+        add_kinks(c, l, s);
     add_kink_at_rim(s);
 }
 
-INLINE void shear(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                  const struct rst_batch *in, const struct shape at, struct work *s)
+INLINE void shear(const struct call c, struct work *s)
 {
-    const double per_step = 1 / step, normal_over_tangential = law->normal / law->tangential;
+    const double per_step = 1 / c.step, normal_over_tangential = c.law->normal / c.law->tangential;
     EACH_LANE
     {
         for (int d = 0; d < 2; d++) {
             const double *const e[3] = {d ? s->other[0] : s->axis[0], d ? s->other[1] : s->axis[1],
                                         d ? s->other[2] : s->axis[2]};
-            s->speed[d][l] = e[0][l] * in->velocity[0][l] + e[1][l] * in->velocity[1][l] + e[2][l] * in->velocity[2][l];
-            s->move[d][l] = step * s->speed[d][l];
+            s->speed[d][l] =
+                e[0][l] * c.in->velocity[0][l] + e[1][l] * c.in->velocity[1][l] + e[2][l] * c.in->velocity[2][l];
+            s->move[d][l] = c.step * s->speed[d][l];
         }
-        s->limit_ratio[l] = in->friction[l] * normal_over_tangential;
+        s->limit_ratio[l] = c.in->friction[l] * normal_over_tangential;
     }
-    const int viscous = at.terms + at.surface > 0 && r->viscosity > 0;
+    const int viscous = c.at.terms + c.at.surface > 0 && c.r->viscosity > 0;
     for (int l = 0; l < LANES; l++) {
-        stick(law, r, in, at, per_step, l, s);
-        slide(law, r, step, in, at, viscous, l, s);
+        stick(c, per_step, l, s);
+        slide(c, viscous, l, s);
     }
-    close_slide(law, at, s);
+    close_slide(c, s);
     if (viscous) {
         lanes change[2];
         EACH_LANE
         {
-            const double scale = law->tangential * s->width[l];
+            const double scale = c.law->tangential * s->width[l];
             const double sticking = s->sticking[l] + s->last_sticks[l] * (s->inner[l] + s->outer[l]);
             const double response =
-                scale * velocity_response(0.5 * step * in->inverse_mass[1][l], scale * sticking * r->viscosity);
+                scale * velocity_response(0.5 * c.step * c.in->inverse_mass[1][l], scale * sticking * c.r->viscosity);
             const double x = -response * s->total[0][l], y = -response * s->total[1][l];
             const double kept = smaller(1, fastest / larger(larger(fabs(x), fabs(y)), DBL_MIN)) * s->touches[l];
             change[0][l] = kept * x;
@@ -603,14 +602,14 @@ INLINE void shear(const struct rst_law *restrict law, const struct rst_rates *re
             s->speed[1][l] += change[1][l];
         }
         for (int l = 0; l < LANES; l++) {
-            feel_end_slide(law, r, in, at, (const double[]){change[0][l], change[1][l]}, l, s);
-            slide(law, r, step, in, at, 0, l, s);
+            feel_end_slide(c, (const double[]){change[0][l], change[1][l]}, l, s);
+            slide(c, 0, l, s);
         }
-        close_slide(law, at, s);
+        close_slide(c, s);
     }
     EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit */
     {
-        const double scale = law->tangential * s->width[l], limit = in->friction[l] * s->force[l];
+        const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
         const double x = scale * s->total[0][l], y = scale * s->total[1][l], size = sqrt(x * x + y * y);
         const double kept = limit / larger(larger(size, limit), DBL_MIN);
         s->total[0][l] = x * kept;
@@ -625,18 +624,15 @@ INLINE void shear(const struct rst_law *restrict law, const struct rst_rates *re
 
 /* The heads of the states. The first tangential axis turns with the bodies about the normal and is brought back into the tangential
  * plane. */
-INLINE void open_states(double step, const struct rst_batch *in, struct work *s)
+INLINE void open_states(const struct call c, struct work *s)
 {
-    for (int l = 0; l < LANES; l++) {
-        s->width[l] = in->state[l][at_width];
-        s->before[l] = in->state[l][at_overlap];
-        for (int i = 0; i < 3; i++)
-            s->axis[i][l] = in->state[l][at_axis + i];
-    }
+    for (int l = 0; l < LANES; l++)
+        s->before[l] = c.in->state[l][at_overlap];
     EACH_LANE
     {
-        const double nx = in->normal[0][l], ny = in->normal[1][l], nz = in->normal[2][l], turn = step * in->turn[l];
-        double ax = s->axis[0][l], ay = s->axis[1][l], az = s->axis[2][l];
+        const double nx = c.in->normal[0][l], ny = c.in->normal[1][l], nz = c.in->normal[2][l],
+                     turn = c.step * c.in->turn[l];
+        double ax = c.in->axis[0][l], ay = c.in->axis[1][l], az = c.in->axis[2][l];
         const double bx = ny * az - nz * ay, by = nz * ax - nx * az, bz = nx * ay - ny * ax;
         ax += turn * bx;
         ay += turn * by;
@@ -652,13 +648,14 @@ INLINE void open_states(double step, const struct rst_batch *in, struct work *s)
         s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
         s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
         s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
-        s->scale[l] = s->width[l] * s->width[l] / in->radius[l];
-        s->approach[l] = nx * in->velocity[0][l] + ny * in->velocity[1][l] + nz * in->velocity[2][l];
+        s->width[l] = c.in->width[l];
+        s->scale[l] = s->width[l] * s->width[l] / c.in->radius[l];
+        s->approach[l] = nx * c.in->velocity[0][l] + ny * c.in->velocity[1][l] + nz * c.in->velocity[2][l];
     }
 }
 
 /* Radius up to which elements stick: where slip begins behind it, the margin to the limit, linear in y, is zero. */
-INLINE double stick_radius(const struct rst_law *law, int l, const struct work *s)
+INLINE double stick_radius(const struct call c, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
@@ -670,33 +667,32 @@ INLINE double stick_radius(const struct rst_law *law, int l, const struct work *
     if (j == s->last[l]) return s->width[l] * s->edge[l];
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
-    y = smaller(y, law->y[j - 1] + (law->y[j] - law->y[j - 1]) * margin[0] / larger(margin[0] - margin[1], DBL_MIN));
+    y = smaller(y,
+                c.law->y[j - 1] + (c.law->y[j] - c.law->y[j - 1]) * margin[0] / larger(margin[0] - margin[1], DBL_MIN));
     return s->width[l] * sqrt(y);
 }
 
 /* The work of the bodies by the trapezoid, as velocity Verlet has it, and what became of it; `state` is still of before. */
-INLINE void keep_details(const struct rst_law *law, double step, const struct rst_batch *in, int l,
-                         const struct work *s)
+INLINE void keep_details(const struct call c, int l, const struct work *s)
 {
-    double *const state = in->state[l], *const kept = state + rst_at_details(law);
-    kept[0] += 0.5 * ((in->overlap[l] - s->before[l]) * (state[at_force] + s->force[l]) +
+    double *const state = c.in->state[l], *const kept = state + rst_at_details(c.law);
+    kept[0] += 0.5 * ((c.in->overlap[l] - s->before[l]) * (state[at_force] + s->force[l]) +
                       s->move[0][l] * (state[at_force + 1] + s->total[0][l]) +
                       s->move[1][l] * (state[at_force + 2] + s->total[1][l]));
     kept[1] += larger(s->slipped[l], 0);
     kept[2] += s->spent[l];
-    kept[3] = larger(s->slipped[l], 0) / step;
-    kept[4] = s->spent[l] / step;
+    kept[3] = larger(s->slipped[l], 0) / c.step;
+    kept[4] = s->spent[l] / c.step;
     kept[5] = s->touches[l] * s->width[l] * s->edge[l];
-    kept[6] = law->slips ? stick_radius(law, l, s) : 0;
+    kept[6] = c.law->slips ? stick_radius(c, l, s) : 0;
 }
 
-INLINE void close_states(const struct rst_law *restrict law, double step, const struct shape at, struct rst_batch *in,
-                         struct work *s)
+INLINE void close_states(const struct call c, struct work *s)
 {
     for (int l = 0; l < LANES; l++) {
-        double *const state = in->state[l];
-        if (at.details) keep_details(law, step, in, l, s);
-        state[at_overlap] = in->overlap[l];
+        double *const state = c.in->state[l];
+        if (c.at.details) keep_details(c, l, s);
+        state[at_overlap] = c.in->overlap[l];
         state[at_force] = s->force[l];
         for (int d = 0; d < 2; d++)
             state[at_force + 1 + d] = s->total[d][l];
@@ -705,44 +701,43 @@ INLINE void close_states(const struct rst_law *restrict law, double step, const 
     }
     EACH_LANE
     {
-        in->force[l] = s->force[l];
+        c.in->force[l] = s->force[l];
         for (int i = 0; i < 3; i++)
-            in->tangential[i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
+            c.in->tangential[i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
     }
 }
 
-INLINE void advance(const struct rst_law *restrict law, const struct rst_rates *restrict r, double step,
-                    struct rst_batch *in, const struct shape at)
+INLINE void advance(const struct call c)
 {
     struct work s;
-    for (int k = 0; k < at.terms; k++)
-        for (int i = 0; i < at.n; i++) {
-            s.even.decay[k][i] = r->decay[k];
-            s.even.gain[k][i] = r->gain[k];
+    for (int k = 0; k < c.at.terms; k++)
+        for (int i = 0; i < c.at.n; i++) {
+            s.even.decay[k][i] = c.r->decay[k];
+            s.even.gain[k][i] = c.r->gain[k];
         }
-    open_states(step, in, &s);
-    press(law, r, step, in, at, &s);
-    if (at.slips)
-        shear(law, r, step, in, at, &s);
+    open_states(c, &s);
+    press(c, &s);
+    if (c.at.slips)
+        shear(c, &s);
     else
         EACH_LANE s.total[0][l] = s.total[1][l] = s.move[0][l] = s.move[1][l] = s.slipped[l] = 0;
-    close_states(law, step, at, in, &s);
+    close_states(c, &s);
 }
 
 /* The usual shapes are compiled on their own. */
 void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
           struct rst_batch *restrict batch)
 {
-    const struct shape any = {law->n, law->n_terms, law->surface, law->slips, law->details};
-    const int usual = any.n == 8 && any.slips && !any.details;
-    if (usual && any.terms == 0 && !any.surface)
-        advance(law, rates, step, batch, (struct shape){8, 0, 0, 1, 0});
-    else if (usual && any.terms == 0)
-        advance(law, rates, step, batch, (struct shape){8, 0, 1, 1, 0});
-    else if (usual && any.terms == 1 && !any.surface)
-        advance(law, rates, step, batch, (struct shape){8, 1, 0, 1, 0});
-    else if (usual && any.terms == 3 && !any.surface)
-        advance(law, rates, step, batch, (struct shape){8, 3, 0, 1, 0});
+    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->details}};
+    const int kind = c.at.n == 8 && c.at.slips && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
+    if (kind == 0)
+        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0}});
+    else if (kind == 10)
+        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0}});
+    else if (kind == 1)
+        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0}});
+    else if (kind == 3)
+        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0}});
     else
-        advance(law, rates, step, batch, any);
+        advance(c);
 }

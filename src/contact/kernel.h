@@ -44,6 +44,7 @@ struct rst_batch {
     double overlap[rst_lanes], normal[3][rst_lanes], velocity[3][rst_lanes], turn[rst_lanes];
     double inverse_mass[2][rst_lanes]; /* normal, tangential */
     double radius[rst_lanes], friction[rst_lanes];
+    double width[rst_lanes], axis[3][rst_lanes]; /* of the state */
     double *state[rst_lanes];
     double force[rst_lanes], tangential[3][rst_lanes]; /* on body 1 */
 };

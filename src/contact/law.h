@@ -47,9 +47,13 @@ int rst_contact_begin(const struct rst_law *law, double step, const restitute_co
 /* A contact of radius^2 `area` has outgrown its grid: a wider one, and what there is on it. */
 void rst_contact_stretch(const struct rst_law *law, double area, double *state);
 
-/* Statuses: a motion is in its ranges; a state is one of the law. With words for what is not. */
-int rst_check_motion(const restitute_contact_rates *rates, const restitute_contact_motion *motion,
-                     restitute_error *error);
+/* The kernel can advance the first n contacts of a batch. */
+int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *batch, int n);
+
+/* Statuses, in words: a motion is in its ranges; the normal has not turned too far; a state is one
+ * of the law. */
+int rst_check_motion(double step, const restitute_contact_motion *motion, restitute_error *error);
+int rst_check_turn(const double normal[3], const double *state, restitute_error *error);
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error);
 int rst_check_unit(const double *v, const char *name, restitute_error *error);
 int rst_check_radius(double radius, const char *name, restitute_error *error);

@@ -20,50 +20,31 @@ static int check_rates(const restitute_contact_law *law, const restitute_contact
     return RESTITUTE_OK;
 }
 
-/* The first tangential axis has been turned by 60 degrees out of the tangential plane. */
-static int has_jumped(const double *n, const double *axis)
-{
-    const double out = n[0] * axis[0] + n[1] * axis[1] + n[2] * axis[2];
-    return axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2] - out * out < 0.25;
-}
-
-/* The first numbers of a state are ready for the kernel. */
+/* A contact that the kernel cannot take as it is: one that begins or outgrows its grid is made
+ * ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
 static int prepare(const restitute_contact_law *law, const restitute_contact_rates *rates,
-                   const restitute_contact_motion *m, double *state, restitute_error *error)
+                   const restitute_contact_motion *m, double *state, restitute_contact_force *force, int *status,
+                   restitute_error *error)
 {
-    const int is_new = rst_is_new(state);
     const double *n = m->normal, *v = m->velocity, area = m->overlap * m->radius;
-    if (!is_new && has_jumped(n, state + at_axis))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "motion.normal = (%g, %g, %g): has turned too far since the last step; use "
-                          "restitute_contact_turn",
-                          n[0], n[1], n[2]);
-    if (is_new && !rst_contact_begin(&law->kernel, rates->step, m, state))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
-                          "restitute_contact_time_step_limit",
-                          rates->step, n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
-    const int outgrows = area > state[at_width] * state[at_width];
-    if (outgrows) rst_contact_stretch(&law->kernel, area, state);
-    if (is_new || outgrows) rst_mark(law, &state[at_width]);
-    return RESTITUTE_OK;
-}
-
-/* A checked contact. Returns 1 if the kernel is to advance it; else it is refused, and nothing has
- * changed, or it is not yet a contact. */
-static int admit(const restitute_contact_law *law, const restitute_contact_rates *rates,
-                 const restitute_contact_motion *motion, double *state, restitute_contact_force *force, int *status,
-                 restitute_error *error)
-{
-    *status = rst_check_motion(rates, motion, error);
+    *status = rst_check_motion(rates->step, m, error);
     if (!*status) *status = rst_check_state(law, state, error);
+    if (!*status && !rst_is_new(state)) *status = rst_check_turn(n, state, error);
     if (*status) return 0;
-    if (rst_is_new(state) && motion->overlap <= 0) {
+    if (rst_is_new(state) && m->overlap <= 0) {
         *force = (restitute_contact_force){0};
         return 0;
     }
-    *status = prepare(law, rates, motion, state, error);
-    return !*status;
+    if (rst_is_new(state) && !rst_contact_begin(&law->kernel, rates->step, m, state)) {
+        *status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                             "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
+                             "restitute_contact_time_step_limit",
+                             rates->step, n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+        return 0;
+    }
+    if (area > state[at_width] * state[at_width]) rst_contact_stretch(&law->kernel, area, state);
+    rst_mark(law, &state[at_width]);
+    return 1;
 }
 
 static void put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
@@ -71,6 +52,7 @@ static void put(const restitute_contact_motion *m, double *state, int lane, stru
     for (int i = 0; i < 3; i++) {
         batch->normal[i][lane] = m->normal[i];
         batch->velocity[i][lane] = m->velocity[i];
+        batch->axis[i][lane] = state[at_axis + i];
     }
     batch->overlap[lane] = m->overlap;
     batch->turn[lane] = m->spin;
@@ -78,6 +60,7 @@ static void put(const restitute_contact_motion *m, double *state, int lane, stru
     batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
     batch->radius[lane] = m->radius;
     batch->friction[lane] = m->friction;
+    batch->width[lane] = state[at_width];
     batch->state[lane] = state;
 }
 
@@ -111,91 +94,64 @@ static int check_places(const void *motion, const void *state, const void *force
                       plural);
 }
 
+static int advance(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                   const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
+                   restitute_error *error)
+{
+    struct rst_batch batch;
+    int status;
+    put(motion, state, 0, &batch);
+    if (!rst_all_good(law, rates->step, &batch, 1)) {
+        if (!prepare(law, rates, motion, state, force, &status, error)) return status;
+        put(motion, state, 0, &batch);
+    }
+    law->step_one(&law->kernel, kernel_rates(rates), rates->step, &batch);
+    return take(&batch, 0, force, error);
+}
+
 int restitute_contact_step(const restitute_contact_law *law, const restitute_contact_rates *rates,
                            const restitute_contact_motion *motion, double *state, restitute_contact_force *force,
                            restitute_error *error)
 {
-    struct rst_batch batch;
     int status = check_rates(law, rates, error);
     if (!status) status = check_places(motion, state, force, "", error);
-    if (status) return status;
-    if (admit(law, rates, motion, state, force, &status, error)) {
-        put(motion, state, 0, &batch);
-        law->step_one(&law->kernel, kernel_rates(rates), rates->step, &batch);
-        status = take(&batch, 0, force, error);
-    }
+    if (!status && !RST_IS_SIZED(contact_motion, motion)) status = RST_CHECK(contact_motion, motion, error);
+    if (!status) status = advance(law, rates, motion, state, force, error);
     return status ? status : rst_done(error);
 }
 
-/* What a call on many contacts works on. */
-struct many {
-    const restitute_contact_law *law;
-    const restitute_contact_rates *rates;
-    const restitute_contact_motion *motions;
-    double *const *states;
-    restitute_contact_force *forces;
-    int *statuses;
-    restitute_error *error;
-    int waiting; /* for the kernel */
-    size_t which[rst_lanes];
-    struct rst_batch batch;
-    size_t first; /* that failed, and its status */
-    int status;
-};
-
-static void settle(struct many *m, size_t i, int status, const restitute_error *its)
+/* As many contacts as there are lanes; 0: one of them has to be looked at. */
+static int advance_lanes(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                         const restitute_contact_motion *motions, double *const *states, struct rst_batch *batch)
 {
-    if (m->statuses) m->statuses[i] = status;
-    if (!status || (m->status && m->first < i)) return;
-    m->first = i;
-    m->status = rst_report(m->error, status, "motions[%zu]: %.220s", i, its->message);
-}
-
-static void advance(struct many *m)
-{
-    restitute_error its;
-    const int n = m->waiting;
-    m->waiting = 0;
-    if (n == rst_lanes) m->law->step_lanes(&m->law->kernel, kernel_rates(m->rates), m->rates->step, &m->batch);
-    for (int l = 0; l < n; l++) {
-        const size_t i = m->which[l];
-        int status;
-        if (n == rst_lanes)
-            status = take(&m->batch, l, &m->forces[i], &its);
-        else
-            status = restitute_contact_step(m->law, m->rates, rst_at(m->motions, i), m->states[i], &m->forces[i], &its);
-        settle(m, i, status, &its);
-    }
+    for (int l = 0; l < rst_lanes; l++)
+        put(rst_at(motions, (size_t)l), states[l], l, batch);
+    if (!rst_all_good(law, rates->step, batch, rst_lanes)) return 0;
+    law->step_lanes(&law->kernel, kernel_rates(rates), rates->step, batch);
+    return 1;
 }
 
 int restitute_contact_step_many(const restitute_contact_law *law, const restitute_contact_rates *rates, size_t n,
                                 const restitute_contact_motion *motions, double *const *states,
                                 restitute_contact_force *forces, int *statuses, restitute_error *error)
 {
-    struct many m = {.law = law,
-                     .rates = rates,
-                     .motions = motions,
-                     .states = states,
-                     .forces = forces,
-                     .statuses = statuses,
-                     .error = error};
+    struct rst_batch batch;
     restitute_error its;
-    int status = check_rates(law, rates, error);
+    int first = RESTITUTE_OK, status = check_rates(law, rates, error);
     if (!status && n > 0) status = check_places(motions, states, forces, "s", error);
     if (!status) status = RST_CHECK_ARRAY(contact_motion, motions, n, "motions", error);
     for (size_t i = 0; i < n && !status; i++)
         if (!states[i]) status = rst_report(error, RESTITUTE_ERROR_NULL, "states[%zu] is NULL", i);
     if (status) return status;
-    for (size_t i = 0; i < n; i++) {
-        const restitute_contact_motion *motion = rst_at(motions, i);
-        if (admit(law, rates, motion, states[i], &forces[i], &status, &its)) {
-            put(motion, states[i], m.waiting, &m.batch);
-            m.which[m.waiting++] = i;
-            if (m.waiting == rst_lanes) advance(&m);
-        } else {
-            settle(&m, i, status, &its);
+    for (size_t i = 0, end; i < n; i = end) {
+        end = n - i < rst_lanes ? n : i + rst_lanes;
+        const int done = end - i == rst_lanes && advance_lanes(law, rates, rst_at(motions, i), states + i, &batch);
+        for (size_t j = i; j < end; j++) {
+            status = done ? take(&batch, (int)(j - i), &forces[j], &its)
+                          : advance(law, rates, rst_at(motions, j), states[j], &forces[j], &its);
+            if (statuses) statuses[j] = status;
+            if (status && !first) first = rst_report(error, status, "motions[%zu]: %.220s", j, its.message);
         }
     }
-    advance(&m);
-    return m.status ? m.status : rst_done(error);
+    return first ? first : rst_done(error);
 }

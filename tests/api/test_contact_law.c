@@ -223,7 +223,7 @@ static int draw_law(uint64_t *random, int number, restitute_contact_law **law)
     o.terms = 1 + random_below(random, 8);
     o.shortest = draw_any(random, window);
     o.longest = random_below(random, 2) ? draw_any(random, window) : 1e3 * o.shortest;
-    o.energies = random_below(random, 2);
+    o.details = random_below(random, 2);
     int status;
     NEVER_TRAPS(status, restitute_contact_law_create(material, &o, law, NULL), number);
     restitute_material_destroy(material);
@@ -246,34 +246,35 @@ static void press_and_rub(uint64_t *random, const restitute_contact_law *law, in
 {
     restitute_contact_rates rates;
     restitute_contact_motion m;
-    restitute_contact_energies energies;
+    restitute_contact_details details;
     restitute_contact_force force;
     double state[most_state] = {0};
     const double step = draw_any(random, 1e60);
     int status;
     restitute_contact_rates_init(&rates);
-    restitute_contact_energies_init(&energies);
+    restitute_contact_details_init(&details);
     NEVER_TRAPS(status, restitute_contact_rates_set(law, step, &rates, NULL), number);
     assert_int_equal(status, 0);
     restitute_contact_motion_init(&m);
     m.radius = draw_any(random, 1e15);
     m.friction = random_below(random, 4) ? or_next_to_nothing(random, random_log(random, 1e-30, 1e6)) : 0;
-    m.half_step_over_mass = random_below(random, 4) ? or_next_to_nothing(random, draw_any(random, 1e30)) : 0;
-    m.half_step_over_tangential_mass = random_below(random, 4) ? or_next_to_nothing(random, draw_any(random, 1e30)) : 0;
+    m.inverse_mass = random_below(random, 4) ? or_next_to_nothing(random, 2 * draw_any(random, 1e30) / step) : 0;
+    m.inverse_tangential_mass = random_below(random, 4) ? or_next_to_nothing(random, 2 * draw_any(random, 1e30) / step) : 0;
     const double depth = m.radius * random_log(random, 1e-6, 1),
                  slide = random_log(random, random_below(random, 3) ? 1e-3 : 1e-200, 1);
     for (int i = 0; i < 12; i++) { /* in, out, and in again */
         const double before = m.overlap;
         m.overlap = or_next_to_nothing(random, depth * sin(0.8 * (i + 1)));
-        m.normal_velocity = or_next_to_nothing(random, 0.5 * (m.overlap - before) / step);
-        for (int k = 0; k < 3; k++)
-            m.displacement[k] = or_next_to_nothing(random, m.radius * slide * random_in(random, -1, 1));
+        m.spin = or_next_to_nothing(random, random_in(random, -1, 1) / step);
+        m.velocity[2] = or_next_to_nothing(random, 0.5 * (m.overlap - before) / step);
+        for (int k = 0; k < 2; k++)
+            m.velocity[k] = or_next_to_nothing(random, m.radius * slide * random_in(random, -1, 1) / step);
         NEVER_TRAPS(status, restitute_contact_step(law, &rates, &m, state, &force, NULL), number);
         if (status) return; /* a step too long */
         check_force(&force, m.friction, number);
-        NEVER_TRAPS(status, restitute_contact_energies_get(law, m.radius, state, &energies, NULL), number);
-        CHECK(status || (isfinite(energies.stored) && isfinite(energies.viscous)), "case %d: %g J", number,
-              energies.stored);
+        NEVER_TRAPS(status, restitute_contact_details_get(law, m.radius, state, &details, NULL), number);
+        CHECK(status || (isfinite(details.stored) && isfinite(details.viscous) && isfinite(details.viscous_power)),
+              "case %d: %g J, %g J, %g W", number, details.stored, details.viscous, details.viscous_power);
     }
 }
 

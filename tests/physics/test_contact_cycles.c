@@ -111,9 +111,8 @@ static void follow_path(const double normal[3], const double along[3], const dou
         const double approach = i < 15 ? overlap / 10 : i < 30 ? 0 : -overlap / 15;
         const double x = 2e-5 * cos(0.4 * i), y = 1e-5 * sin(1.3 * i);
         d.motion.overlap += approach;
-        d.motion.normal_velocity = approach / d.rates.step;
         for (int k = 0; k < 3; k++)
-            d.motion.displacement[k] = x * along[k] + y * across[k];
+            d.motion.velocity[k] = (approach * normal[k] + x * along[k] + y * across[k]) / d.rates.step;
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
         const double *f = d.force.tangential;
         forces[i][0] = f[0] * along[0] + f[1] * along[1] + f[2] * along[2];
@@ -128,7 +127,8 @@ static void paths_do_not_depend_on_directions(void **unused)
     (void)unused;
     const double z[3] = {0, 0, 1}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
     const double c = cos(0.7), s = sin(0.7), x_turned[3] = {c, s, 0}, y_turned[3] = {-s, c, 0};
-    const double n[3] = {2.0 / 7, 3.0 / 7, 6.0 / 7}, t[3] = {6.0 / 7, 2.0 / 7, -3.0 / 7}, b[3] = {-3.0 / 7, 6.0 / 7, -2.0 / 7};
+    const double n[3] = {2.0 / 7, 3.0 / 7, 6.0 / 7}, t[3] = {6.0 / 7, 2.0 / 7, -3.0 / 7},
+                 b[3] = {-3.0 / 7, 6.0 / 7, -2.0 / 7};
     double plain[40][3], turned[40][3], tilted[40][3];
     follow_path(z, x, y, plain);
     follow_path(z, x_turned, y_turned, turned);
@@ -154,7 +154,7 @@ static void force_turns_with_the_normal(void **unused)
     const double degree = acos(-1.0) / 180;
     double jumped[most_state], old[3] = {0, 0, 1};
     memcpy(jumped, d.state, sizeof jumped);
-    d.motion.normal_velocity = d.motion.displacement[0] = d.motion.displacement[1] = 0;
+    d.motion.velocity[0] = d.motion.velocity[1] = d.motion.velocity[2] = 0;
     for (int i = 1; i <= 90; i++) { /* from z to x: what pointed along x points along -z, y stays */
         d.motion.normal[0] = sin(i * degree), d.motion.normal[2] = cos(i * degree);
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
@@ -169,6 +169,73 @@ static void force_turns_with_the_normal(void **unused)
     restitute_contact_law_destroy(law);
 }
 
+/* v turned by an angle about a unit axis. */
+static void turn_about(const double axis[3], double angle, const double v[3], double turned[3])
+{
+    const double c = cos(angle), s = sin(angle), along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        turned[k] = c * v[k] + s * (axis[i] * v[j] - axis[j] * v[i]) + (1 - c) * along * axis[k];
+    }
+}
+
+/* Two bodies in contact turn together by 2 rad about an axis. Largest difference between their tangential force, turned, and that of
+ * a contact that does not turn, over the latter. */
+static double error_of_turn(restitute_contact_law *law, const double axis[3], int steps)
+{
+    struct drive still = drive_of(law, 1e-3, friction);
+    drive_steps(&still, 20, overlap, 1e-5, 2e-5);
+    struct drive turning = still;
+    const double angle = 2, up[3] = {0, 0, 1};
+    double worst = 0;
+    turning.motion.velocity[0] = turning.motion.velocity[1] = turning.motion.velocity[2] = 0;
+    turning.motion.spin = axis[2] * angle / (steps * turning.rates.step);
+    for (int i = 1; i <= steps; i++) {
+        restitute_error error;
+        double f[3];
+        drive_by(&still, 0, 0, 0);
+        turn_about(axis, angle * i / steps, up, turning.motion.normal);
+        CHECK(restitute_contact_step(law, &turning.rates, &turning.motion, turning.state, &turning.force, &error) == 0,
+              "%s", error.message);
+        const double *expected = still.force.tangential, *got = turning.force.tangential;
+        turn_about(axis, angle * i / steps, expected, f);
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs(got[k] - f[k]) / hypot(expected[0], expected[1]));
+    }
+    return worst;
+}
+
+/* A step turns the bodies by d about an axis whose cosine with the normal is c. The law projects its
+ * first tangential axis onto the new tangential plane, which misses up to (1 - c^2) d^2/4 about the
+ * normal, and turns it by atan(c d) about the normal, which misses (c d)^3/3. */
+static void force_turns_with_the_bodies(void **unused)
+{
+    (void)unused;
+    const double axes[][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {2.0 / 7, 3.0 / 7, 6.0 / 7}};
+    const double tau = 0.5, g = 2;
+    restitute_material *material;
+    assert_int_equal(restitute_material_prony(1, 0, 1, &tau, &g, nu, &material, NULL), 0);
+    restitute_contact_law *laws[] = {elastic_law(8), law_of(material, 16, 0)};
+    for (int i = 0; i < 6; i++)
+        for (int steps = 1000; steps <= 4000; steps *= 4) {
+            const double error = error_of_turn(laws[i % 2], axes[i / 2], steps), d = 2.0 / steps, c = axes[i / 2][2];
+            const double allowed = 1e-12 + 1.001 * steps * ((1 - c * c) * d * d / 4 + c * c * c * d * d * d / 3);
+            CHECK(error <= allowed, "axis %d, law %d, %d steps: error %.3g", i / 2, i % 2, steps, error);
+        }
+    restitute_contact_law_destroy(laws[0]);
+    restitute_contact_law_destroy(laws[1]);
+    restitute_material_destroy(material);
+}
+
+static restitute_contact_details details_of(const struct drive *d)
+{
+    restitute_contact_details e;
+    restitute_error error;
+    restitute_contact_details_init(&e);
+    CHECK(restitute_contact_details_get(d->law, 1, d->state, &e, &error) == 0, "%s", error.message);
+    return e;
+}
+
 /* The springs hold the work of Hertz, 2/5 F d, within the error of the energy's quadrature with 8
  * elements. */
 static void stored_energy_is_the_work(void **unused)
@@ -176,20 +243,50 @@ static void stored_energy_is_the_work(void **unused)
     (void)unused;
     restitute_contact_law *law = elastic_law(8);
     struct drive d = drive_of(law, 1e-3, friction);
-    restitute_contact_energies e;
-    restitute_contact_energies_init(&e);
     drive_steps(&d, 2000, overlap, 0, 0);
-    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
-    CHECK_NEAR(e.stored / (0.4 * d.force.normal * overlap), 1, 0.01, "stored");
-    CHECK_NEAR((e.stored + e.viscous + e.friction) / d.work, 1, 1e-12, "the three are the work");
+    const restitute_contact_details before = details_of(&d);
+    CHECK_NEAR(before.stored / (0.4 * d.force.normal * overlap), 1, 0.01, "stored");
+    CHECK_NEAR(before.work / d.work, 1, 1e-12, "work"); /* 2000 sums in another order */
+    CHECK(before.viscous <= 0 && before.friction <= 0, "lost %g and %g", before.viscous, before.friction);
     const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
     drive_steps(&d, 2000, 0, 4 * reach, 0); /* three quarters of it in gross slip */
-    const restitute_contact_energies before = e;
-    assert_int_equal(restitute_contact_energies_get(law, 1, d.state, &e, NULL), 0);
-    CHECK(e.friction > 3 * limit * reach && e.friction < 4 * limit * reach, "friction %g of %g", e.friction,
+    const restitute_contact_details after = details_of(&d);
+    CHECK(after.friction > 3 * limit * reach && after.friction < 4 * limit * reach, "friction %g of %g", after.friction,
           4 * limit * reach);
-    CHECK_NEAR(e.viscous - before.viscous, 0, 0.01 * limit * reach, "nothing is viscous");
+    CHECK_NEAR(after.work / d.work, 1, 1e-12, "work");
+    CHECK_NEAR((after.stored + after.friction - before.stored) / (after.work - before.work), 1, 0.01, "sliding");
+    CHECK_NEAR(after.friction_power * d.rates.step / (limit * 4 * reach / 2000), 1, 1e-6, "power of gross slip");
+    CHECK(after.viscous <= 0 && after.stick_radius <= 0, "viscous %g, stick radius %g", after.viscous,
+          after.stick_radius);
     restitute_contact_law_destroy(law);
+}
+
+/* Hertz: a = sqrt(R d). Mindlin: sticks up to c = a (1 - Q/(mu N))^(1/3), within an element. */
+static void radii_are_those_of_hertz_and_mindlin(void **unused)
+{
+    (void)unused;
+    for (int elements = 8; elements <= 32; elements *= 2) {
+        restitute_contact_law *law = elastic_law(elements);
+        struct drive d = drive_of(law, 1e-3, friction);
+        double contact = 0, stick = 0;
+        for (int i = 0; i < 100; i++) {
+            drive_by(&d, overlap / 100, 0, 0);
+            const restitute_contact_details e = details_of(&d);
+            contact = fmax(contact, fabs(e.contact_radius / sqrt(d.motion.overlap) - 1));
+            CHECK_NEAR(e.stick_radius / e.contact_radius, 1, 1e-12, "without sliding");
+        }
+        const double limit = friction * d.force.normal, a = sqrt(overlap), reach = 3 * limit * (2 - nu) / (16 * a);
+        for (int i = 0; i < 200; i++) {
+            drive_by(&d, 0, 0.0055 * reach, 0);
+            const double c = a * cbrt(fmax(0, 1 + d.force.tangential[0] / limit));
+            const double error = fabs(details_of(&d).stick_radius - c) / a;
+            stick = fmax(stick, error);
+        }
+        print_message("%d elements: stick radius within %.3f a\n", elements, stick);
+        CHECK(contact < 1e-12, "%d elements: contact radius off by %.2g", elements, contact);
+        CHECK(stick * elements < 1, "%d elements: stick radius off by %.3f a, more than an element", elements, stick);
+        restitute_contact_law_destroy(law);
+    }
 }
 
 int main(void)
@@ -199,7 +296,9 @@ int main(void)
         cmocka_unit_test(tangential_force_follows_mindlin_and_deresiewicz),
         cmocka_unit_test(paths_do_not_depend_on_directions),
         cmocka_unit_test(force_turns_with_the_normal),
+        cmocka_unit_test(force_turns_with_the_bodies),
         cmocka_unit_test(stored_energy_is_the_work),
+        cmocka_unit_test(radii_are_those_of_hertz_and_mindlin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

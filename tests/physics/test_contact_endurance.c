@@ -24,12 +24,12 @@ static void rest(double eta, size_t n_terms, double heavier, double h, long step
     const double relaxed = pow(weight / (8.0 / 3 / (1 - nu)), 2.0 / 3);
     if (h <= 0) restitute_contact_time_step_limit(law, mass, 1, 1e-3, &h, &error);
     struct drive d = drive_of(law, h, 0.3);
-    d.motion.half_step_over_mass = h / (2 * mass);
+    d.motion.inverse_mass = 1 / mass;
     for (long i = 0; i < steps; i++) {
         const double part = fmin(1, fmax(0, ((double)i / (double)steps - 0.1) / 0.4)), load = weight * pow(heavier, 1 - part);
         const double half = v + h / (2 * mass) * (load - d.force.normal);
         d.motion.overlap += h * half;
-        d.motion.normal_velocity = half;
+        d.motion.velocity[2] = half;
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
         v = half + h / (2 * mass) * (load - d.force.normal);
         if (i < steps - steps / 10) continue;
@@ -79,11 +79,10 @@ static struct drive press(const restitute_material *material, double first, doub
     /* an elastic impact at this speed with this mass would be `first` deep: that is how a law
      * chooses its grid */
     const double modulus = restitute_material_modulus(material, 0.88 * first / v);
-    d.motion.half_step_over_mass = h / 2 / (32.0 / 15 / 0.5 * modulus * pow(first, 2.5) / (v * v));
+    d.motion.inverse_mass = v * v / (32.0 / 15 / 0.5 * modulus * pow(first, 2.5));
     for (int i = 0; i < n; i++) {
         d.motion.overlap += v * h;
-        d.motion.normal_velocity = v;
-        d.motion.displacement[0] = 0.3 * v * h;
+        d.motion.velocity[0] = 0.3 * v, d.motion.velocity[2] = v;
         CHECK(restitute_contact_step(law, &d.rates, &d.motion, d.state, &d.force, &error) == 0, "%s", error.message);
     }
     restitute_contact_law_destroy(law);

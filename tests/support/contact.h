@@ -6,6 +6,7 @@
 
 #include <restitute/contact.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "solve.h"
 
@@ -95,8 +96,8 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
     CHECK(restitute_contact_rates_set(law, h, &rates, &error) == 0, "%s", error.message);
     restitute_contact_motion_init(&motion);
     motion.overlap = -impact->phase * h;
-    motion.half_step_over_mass = h / (2 * impact->mass);
-    motion.half_step_over_tangential_mass = h / (2 * impact->tangential_mass);
+    motion.inverse_mass = 1 / impact->mass;
+    motion.inverse_tangential_mass = 1 / impact->tangential_mass;
     motion.radius = 1;
     motion.friction = impact_friction;
     for (; result.steps < 1000000; result.steps++) {
@@ -104,9 +105,7 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
         for (int i = 0; i < 3; i++)
             half[i] = v[i] + h / (2 * mass[i]) * before[i];
         motion.overlap += h * half[2];
-        motion.normal_velocity = half[2];
-        motion.displacement[0] = h * half[0];
-        motion.displacement[1] = h * half[1];
+        memcpy(motion.velocity, half, sizeof half);
         if (motion.overlap <= 0 && half[2] < 0) break;
         result.status = restitute_contact_step(law, &rates, &motion, state, &force, &error);
         if (result.status) break;

@@ -3,8 +3,6 @@
 #ifndef TEST_DRIVE_H
 #define TEST_DRIVE_H
 
-#include <string.h>
-
 #include "contact.h"
 
 struct drive {
@@ -19,7 +17,7 @@ struct drive {
     double largest_force; /* so far, N */
 };
 
-static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int energies)
+static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int details)
 {
     restitute_contact_law *law;
     restitute_contact_law_options options;
@@ -27,7 +25,7 @@ static inline restitute_contact_law *law_of(const restitute_material *material, 
     restitute_contact_law_options_init(&options);
     options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     options.elements = elements;
-    options.energies = energies;
+    options.details = details;
     CHECK(restitute_contact_law_create(material, &options, &law, &error) == 0, "%s", error.message);
     return law;
 }
@@ -57,9 +55,7 @@ static inline void drive_by(struct drive *d, double approach, double x, double y
     const restitute_contact_force before = d->force;
     restitute_contact_motion *m = &d->motion;
     m->overlap += approach;
-    m->normal_velocity = approach / d->rates.step;
-    m->displacement[0] = x;
-    m->displacement[1] = y;
+    m->velocity[0] = x / d->rates.step, m->velocity[1] = y / d->rates.step, m->velocity[2] = approach / d->rates.step;
     CHECK(restitute_contact_step(d->law, &d->rates, m, d->state, &d->force, &error) == 0, "%s", error.message);
     CHECK(isfinite(d->force.normal) && d->force.normal >= 0, "normal force %g", d->force.normal);
     CHECK(isfinite(d->force.tangential[0]) && isfinite(d->force.tangential[1]), "tangential force");

@@ -1,9 +1,6 @@
 /* Structs of C and their twins, the derived types of Fortran: members begin at the same places.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/check.h"
-#ifdef RESTITUTE_WITH_CONTACT
-#include "contact/kernels.h"
-#endif
 #ifdef RESTITUTE_WITH_CVODE
 #include "cvode/kernels.h"
 #endif
@@ -18,9 +15,8 @@ struct member {
     size_t offset, size;
 };
 
-/* A member; a member that is several members in Fortran; the end of the struct. */
+/* A member; the end of the struct. */
 #define AT(type, member) {#member, offsetof(struct type, member), sizeof ((struct type *)0)->member}
-#define PART(type, member, count) {#member, offsetof(struct type, member), (count) * sizeof ((struct type *)0)->member}
 #define END(type) {"end", sizeof(struct type), 0}
 
 enum { most_members = 40 };
@@ -108,30 +104,6 @@ static const struct {
     [17] = {"cvode_sums",
             {AT(cvode_sums, force), AT(cvode_sums, stick), AT(cvode_sums, backward), AT(cvode_sums, n_contact),
              END(cvode_sums)}},
-#endif
-#ifdef RESTITUTE_WITH_CONTACT
-    [18] = {"rst_law",
-            {AT(rst_law, n),          AT(rst_law, n_terms),   AT(rst_law, surface),    AT(rst_law, slips),
-             AT(rst_law, accounts),   AT(rst_law, layout[0]), AT(rst_law, layout[1]),  AT(rst_law, layout[2]),
-             AT(rst_law, layout[3]),  AT(rst_law, size),      AT(rst_law, g_inf),      AT(rst_law, eta),
-             AT(rst_law, compliance), AT(rst_law, normal),    AT(rst_law, tangential), AT(rst_law, g),
-             AT(rst_law, tau),        AT(rst_law, x),         AT(rst_law, y),          AT(rst_law, weight),
-             AT(rst_law, outwards),   AT(rst_law, per_cell),  AT(rst_law, bit),        END(rst_law)}},
-    [19] = {"restitute_contact_rates",
-            {AT(restitute_contact_rates, struct_size), AT(restitute_contact_rates, step),
-             AT(restitute_contact_rates, law), AT(restitute_contact_rates, values[0]),
-             AT(restitute_contact_rates, values[1]), PART(restitute_contact_rates, values[2], rst_most_terms),
-             PART(restitute_contact_rates, values[10], rst_most_terms),
-             PART(restitute_contact_rates, values[18], rst_most_terms), END(restitute_contact_rates)}},
-    [20] = {"restitute_contact_motion",
-            {AT(restitute_contact_motion, struct_size), AT(restitute_contact_motion, overlap),
-             AT(restitute_contact_motion, normal_velocity), AT(restitute_contact_motion, displacement),
-             AT(restitute_contact_motion, normal), AT(restitute_contact_motion, half_step_over_mass),
-             AT(restitute_contact_motion, half_step_over_tangential_mass), AT(restitute_contact_motion, radius),
-             AT(restitute_contact_motion, friction), END(restitute_contact_motion)}},
-    [21] = {"restitute_contact_force",
-            {AT(restitute_contact_force, normal), AT(restitute_contact_force, tangential),
-             END(restitute_contact_force)}},
 #endif
 };
 

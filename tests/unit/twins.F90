@@ -16,11 +16,6 @@ module twins
   use rst_cvode_types, only: cvode_scene_type => scene_type, cvode_contact_type => contact_type, &
                   cvode_sums_type => shear_sums_type
 #endif
-#ifdef RESTITUTE_WITH_CONTACT
-  use rst_contact_types, only: rst_law_type => law_type, restitute_contact_rates_type => rates_type, &
-                  restitute_contact_motion_type => motion_type
-  use rst_contact_interfaces, only: restitute_contact_force_type => force_type
-#endif
   implicit none (type, external)
   private
 
@@ -50,12 +45,6 @@ contains
     type(cvode_scene_type), target :: cvode_scene
     type(cvode_contact_type), target :: cvode_contact
     type(cvode_sums_type), target :: cvode_sums
-#endif
-#ifdef RESTITUTE_WITH_CONTACT
-    type(rst_law_type), target :: law
-    type(restitute_contact_rates_type), target :: contact_rates
-    type(restitute_contact_motion_type), target :: contact_motion
-    type(restitute_contact_force_type), target :: contact_force
 #endif
     n = 0
     select case (i)
@@ -133,26 +122,6 @@ contains
     case (17)
       call put(c_sizeof(cvode_sums), [c_loc(cvode_sums%force), c_loc(cvode_sums%stick), &
                 c_loc(cvode_sums%backward), c_loc(cvode_sums%n_contact)])
-#endif
-#ifdef RESTITUTE_WITH_CONTACT
-    case (18)
-      call put(c_sizeof(law), [c_loc(law%n), c_loc(law%n_terms), c_loc(law%surface), c_loc(law%slips), &
-                c_loc(law%accounts), c_loc(law%at_u), c_loc(law%at_w), c_loc(law%at_surface), c_loc(law%at_work), &
-                c_loc(law%size), c_loc(law%g_inf), c_loc(law%eta), c_loc(law%compliance), c_loc(law%normal), &
-                c_loc(law%tangential), c_loc(law%g), c_loc(law%tau), c_loc(law%x), c_loc(law%y), &
-                c_loc(law%weight), c_loc(law%outwards), c_loc(law%per_cell), c_loc(law%bit)])
-    case (19)
-      call put(c_sizeof(contact_rates), [c_loc(contact_rates%struct_size), c_loc(contact_rates%step), &
-                c_loc(contact_rates%law), c_loc(contact_rates%compliance), c_loc(contact_rates%viscosity), &
-                c_loc(contact_rates%decay), c_loc(contact_rates%gain), &
-                c_loc(contact_rates%bend)])
-    case (20)
-      call put(c_sizeof(contact_motion), [c_loc(contact_motion%struct_size), c_loc(contact_motion%overlap), &
-                c_loc(contact_motion%velocity), c_loc(contact_motion%displacement), c_loc(contact_motion%axis), &
-                c_loc(contact_motion%mobility(1)), c_loc(contact_motion%mobility(2)), &
-                c_loc(contact_motion%radius), c_loc(contact_motion%friction)])
-    case (21)
-      call put(c_sizeof(contact_force), [c_loc(contact_force%normal), c_loc(contact_force%tangential)])
 #endif
     end select
 

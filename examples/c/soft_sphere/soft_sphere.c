@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { spheres = 45, walls = 5, doubles = 50 }; /* doubles: of a standard solid, with energies */
+enum { spheres = 45, walls = 5, doubles = 55 }; /* doubles: of a standard solid, with details */
 static const double radius = 0.005, density = 1100, friction = 0.4, gravity = 9.81, width = 0.04, duration = 0.25;
 static const double wall[walls][4] = {{0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, -1}, {0, 1, 0, 0}, {0, -1, 0, -1}};
 
@@ -16,7 +16,7 @@ struct sphere {
 };
 static struct sphere sphere[spheres];
 static double state[spheres][spheres + walls][doubles]; /* of every possible contact; all zeros: none */
-static restitute_contact_energies open, closed;         /* of present contacts, of ended ones */
+static restitute_contact_details open, closed;          /* of present contacts, of ended ones */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -52,26 +52,24 @@ static int touch(const restitute_contact_law *law, const restitute_contact_rates
 {
     struct sphere at_rest = {0}, *one = &sphere[i], *two = j < spheres ? &sphere[j] : &at_rest;
     const double bodies = j < spheres ? 2 : 1; /* 1/m = 1/m1 + 1/m2, 1/R = 1/R1 + 1/R2; a wall has none */
-    double *memory = state[i][j], v[3], w[3];
+    double *memory = state[i][j], w[3];
     restitute_contact_motion m;
     restitute_contact_force f;
-    restitute_contact_energies e;
+    restitute_contact_details e;
     restitute_error error;
     restitute_contact_motion_init(&m);
-    restitute_contact_energies_init(&e);
+    restitute_contact_details_init(&e);
     m.overlap = overlap_of(i, j, m.normal);
     if (m.overlap <= 0 && memory[0] == 0) return 0;
     for (int k = 0; k < 3; k++)
-        v[k] = one->v[k] - two->v[k], w[k] = one->w[k] + two->w[k];
-    m.normal_velocity = dot(v, m.normal);
-    add_cross(radius, w, m.normal, v); /* of the surfaces */
-    for (int k = 0; k < 3; k++)
-        m.displacement[k] = rates->step * v[k];
-    m.half_step_over_mass = bodies * rates->step / (2 * mass);
-    m.half_step_over_tangential_mass = 3.5 * m.half_step_over_mass; /* 1 + m R^2/J of a solid sphere */
+        m.velocity[k] = one->v[k] - two->v[k], w[k] = one->w[k] + two->w[k];
+    add_cross(radius, w, m.normal, m.velocity); /* of the surfaces */
+    m.spin = dot(w, m.normal) / 2;
+    m.inverse_mass = bodies / mass;
+    m.inverse_tangential_mass = 3.5 * m.inverse_mass; /* 1 + m R^2/J of a solid sphere */
     m.radius = radius / bodies, m.friction = friction;
     if (restitute_contact_step(law, rates, &m, memory, &f, &error) < 0 ||
-        restitute_contact_energies_get(law, m.radius, memory, &e, &error) < 0)
+        restitute_contact_details_get(law, m.radius, memory, &e, &error) < 0)
         return printf("%d and %d: %s\n", i, j, error.message);
     for (int k = 0; k < 3; k++) {
         one->force[k] += f.tangential[k] - f.normal * m.normal[k];
@@ -79,7 +77,7 @@ static int touch(const restitute_contact_law *law, const restitute_contact_rates
     }
     add_cross(radius, m.normal, f.tangential, one->torque);
     add_cross(radius, m.normal, f.tangential, two->torque);
-    restitute_contact_energies *account = m.overlap > 0 ? &open : &closed;
+    restitute_contact_details *account = m.overlap > 0 ? &open : &closed;
     account->stored += e.stored, account->friction += e.friction, account->viscous += e.viscous;
     if (m.overlap <= 0) memset(memory, 0, sizeof state[i][j]);
     return 0;
@@ -103,7 +101,7 @@ int main(void)
     restitute_contact_law_options_init(&options);
     restitute_contact_rates_init(&rates);
     options.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
-    options.energies = 1;
+    options.details = 1;
     if (restitute_material_standard_solid(2e7, 4e7, 5e3, 0.5, &rubber, NULL) < 0 ||
         restitute_contact_law_create(rubber, &options, &law, NULL) < 0 || restitute_contact_law_state_size(law) != doubles ||
         restitute_contact_time_step_limit(law, mass / 2, radius / 2, 2, &h, NULL) < 0 || /* for up to 2 m/s */
@@ -120,7 +118,7 @@ int main(void)
     for (long step = 0; step * h <= duration; step++) {
         double potential = 0;
         kinetic = 0;
-        open = (restitute_contact_energies){0};
+        open = (restitute_contact_details){0};
         for (int i = 0; i < spheres; i++) {
             kick(&sphere[i], h, mass, inertia);
             memset(sphere[i].force, 0, sizeof sphere[i].force), memset(sphere[i].torque, 0, sizeof sphere[i].torque);

@@ -17,7 +17,7 @@ program contact_law
   type(restitute_result) :: result
   type(restitute_error) :: error
   real(rk), allocatable :: state(:)
-  real(rk) :: h, height, velocity(3), spin, slide, ez, ex
+  real(rk) :: h, height, velocity(3), spin, ez, ex
   integer :: steps
 
   ! G1, G2 (Pa), eta (Pa s), nu
@@ -41,8 +41,8 @@ program contact_law
   allocate (state(restitute_contact_law_state_size(law)), source=0.0_rk) ! zeros: a new contact
   motion = restitute_contact_motion()
   motion%normal = normal
-  motion%half_step_over_mass = h/(2*mass)
-  motion%half_step_over_tangential_mass = h/2*(1/mass + radius**2/inertia)
+  motion%inverse_mass = 1/mass
+  motion%inverse_tangential_mass = 1/mass + radius**2/inertia
   motion%radius = radius
   motion%friction = friction
 
@@ -54,10 +54,8 @@ program contact_law
   do ! velocity Verlet: half a kick, drift, the force there, half a kick
     call kick()
     height = height + h*velocity(3)
-    slide = velocity(1) - radius*spin
     motion%overlap = -height
-    motion%normal_velocity = -velocity(3)
-    motion%displacement = [h*slide, 0.0_rk, 0.0_rk]
+    motion%velocity = velocity - [radius*spin, 0.0_rk, 0.0_rk]
     if (restitute_contact_step(law, rates, motion, state, force, error) < 0) call fail()
     call kick()
     steps = steps + 1

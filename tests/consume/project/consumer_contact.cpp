@@ -23,7 +23,7 @@ int main()
     }
     std::vector<double> state(restitute_contact_law_state_size(law), 0.0);
     motion.radius = 0.005;
-    motion.normal_velocity = 0.1;
+    motion.velocity[2] = 0.1;
     for (int i = 1; i <= 10; i++) {
         motion.overlap = 1e-7 * i;
         if (restitute_contact_step(law, &rates, &motion, state.data(), &force, &error) < 0) {
