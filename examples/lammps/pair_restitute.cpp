@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 using namespace LAMMPS_NS;
@@ -232,33 +231,16 @@ void PairRestitute::find_largest_radii()
             radius += 0.5 * neighbor->skin;
 }
 
-/* For each law with a speed: the limit of the time step for impacts of the lightest spheres of its
- * types. */
+/* For impacts of the lightest spheres of each two types. */
 void PairRestitute::report_limits()
 {
-    const auto none = std::numeric_limits<double>::infinity();
-    std::vector<double> own(width, none), mass(width), radius(width);
-    for (int i = 0; i < atom->nlocal; i++)
-        own[atom->type[i]] = std::min(own[atom->type[i]], atom->rmass[i]);
-    MPI_Allreduce(own.data(), mass.data(), width, MPI_DOUBLE, MPI_MIN, world);
-    std::fill(own.begin(), own.end(), none);
-    for (int i = 0; i < atom->nlocal; i++)
-        if (const int type = atom->type[i]; atom->rmass[i] == mass[type])
-            own[type] = std::min(own[type], atom->radius[i]);
-    MPI_Allreduce(own.data(), radius.data(), width, MPI_DOUBLE, MPI_MIN, world);
+    std::vector<double> mass, radius;
+    find_lightest(lmp, mass, radius);
     for (int i = 1; i < width; i++)
-        for (int j = i; j < width; j++) {
-            const Model &its = model(i, j);
-            if (!its || its->speed == 0 || mass[i] == none || mass[j] == none || comm->me) continue;
-            const double limit =
-                its->step_limit(1 / (1 / mass[i] + 1 / mass[j]), 1 / (1 / radius[i] + 1 / radius[j]), its->speed);
-            utils::logmesg(lmp,
-                           "restitute: types {} {}, radii {:.6g} and {:.6g}, speed {:.6g}: time step at most {:.4g}\n",
-                           i, j, radius[i], radius[j], its->speed, limit);
-            if (update->dt > limit)
-                error->warning(FLERR, "restitute: types {} {}: the time step {:.6g} is longer than that, {:.4g}", i, j,
-                               update->dt, limit);
-        }
+        for (int j = i; j < width; j++)
+            if (const Model &its = model(i, j))
+                report_limit(lmp, fmt::format("types {} {}, radii {:.6g} and {:.6g}", i, j, radius[i], radius[j]), *its,
+                             1 / (1 / mass[i] + 1 / mass[j]), 1 / (1 / radius[i] + 1 / radius[j]));
 }
 
 double PairRestitute::init_one(int i, int j)
