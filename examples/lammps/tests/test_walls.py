@@ -271,3 +271,42 @@ half.run("run 100\nwrite_restart corner.restart\nclear\nread_restart corner.rest
 whole.run("run 300")
 check(half.bits() == whole.bits(), f"a restart between moving walls: {half.bits()} is not {whole.bits()}")
 print("a restart between moving walls: the same bits")
+
+# Energy of motion, stored and lost, in a corner of a bowl and two planes. The work is summed by the
+# trapezoidal rule, losses by another one: they meet within a percent. With LAMMPS's energy of fixes
+# the potential energy is what the contacts store.
+its = Scene()
+its.add((0.06, 0, 0), (SPEED, ALONG, 0.01), (0, 3, 2), RADIUS, 2000)
+its.run(f"""
+    pair_style restitute
+    pair_coeff * * {WORDS}
+    region bowl sphere 0 0 0 {0.06 + RADIUS + 1e-7} units box
+    region half plane 0 {-RADIUS - 1e-7} 0 0 1 0
+    region low plane 0 0 {-RADIUS - 1e-7} 0 0 1
+    region all intersect 3 bowl half low
+    fix w all wall/restitute {GEL} friction 0.3 details yes region all
+    fix_modify w energy yes
+    timestep {STEP}
+    fix move all nve/sphere
+    thermo_style custom step pe f_w f_w[8] f_w[9] f_w[10]
+    thermo 10
+    run 0
+    """)
+
+
+def of_motion(its):
+    v, omega, mass = (its.all(name)[1] for name in ("v", "omega", "rmass"))
+    return mass * (0.5 * sum(k * k for k in v) + 0.2 * RADIUS**2 * sum(k * k for k in omega))
+
+
+first, seen = of_motion(its), []
+for _ in range(40):
+    its.run("run 10 post no")
+    seen.append([of_motion(its), *(number(its, name) for name in ("f_w[8]", "f_w[9]", "f_w[10]", "pe", "f_w"))])
+_, stored, friction, viscous, potential, scalar = zip(*seen)
+errors = [abs(sum(row[:4]) - first) / first for row in seen]
+print(f"energies: {first:.3e} J in the beginning, stored up to {max(stored):.3e}, lost to friction {friction[-1]:.3e}, "
+      f"in dashpots {viscous[-1]:.3e}, sum off by {max(errors):.1e}")
+check(stored == potential == scalar and max(stored) > 0.3 * first and stored[-1] == 0, "the stored energy")
+check(friction[-1] > 0.05 * first and viscous[-1] > 0.05 * first and max(errors) <= 0.01, f"energies: {seen}")
+its.close()
