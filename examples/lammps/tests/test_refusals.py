@@ -55,6 +55,24 @@ refused("a wall without place", ["xplane"], f"fix w all wall/restitute {rubber} 
 refused("a wall that shears into the spheres", ["shear"],
         f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL shear z 1")
 
+BLOCK = "region r block 0 1 0 1 0 1 units box\n"
+for what, words, before, wall in (
+        ("a low wall above the high one", ["zplane 0.05 0", "low must be below high"], "", "zplane 0.05 0"),
+        ("a wall without its second place", ["zplane", "two positions"], "", "zplane 0.05"),
+        ("a cylinder without radius", ["xcylinder -1", "must be positive"], "", "xcylinder -1"),
+        ("a region that is none", ["region r does not exist"], "", "region r"),
+        ("a region that a wall moves", ["'move'", "region has its own motion"], BLOCK, "region r move x 1"),
+        ("a block with variable sides", ["region r", "block with variable", "rotate"],
+         "variable a equal 0\n" + BLOCK.replace("0", "v_a", 1), "region r"),
+        ("an axis that is none", ["wiggle 'w'", "x, y or z"], "", "zplane 0 NULL wiggle w 1 1"),
+        ("a period of 0", ["wiggle period 0", "positive"], "", "zplane 0 NULL wiggle z 1 0"),
+        ("a word too many", ["'contact'", "contacts"], "", "zplane 0 NULL shear x 1 contact")):
+    refused(what, words, f"{before}fix w all wall/restitute {rubber} friction 0.3 {wall}")
+refused("the energy of a wall without details", ["fix w", "fix_modify energy yes", "'details yes'"],
+        LAW + f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL\nfix_modify w energy yes\n" + RUN)
+refused("a sphere larger than its bowl", ["atom 1 and wall w at step", "radius 0.005", "curvature of the wall, 0.004"],
+        LAW + f"region r sphere 0.001 0 0 0.004 units box\nfix w all wall/restitute {rubber} friction 0.3 region r\n" + RUN)
+
 for name, solid in (("another law", other), ("a law of another size", glass)):
     refused("a restart with " + name, ["restart file", "types 1 1", solid], LAW + RUN + f"""
         write_restart law.restart
