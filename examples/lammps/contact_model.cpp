@@ -111,6 +111,7 @@ std::unique_ptr<Batch> ContactModel::make_batch() const
 {
     auto batch = std::make_unique<Batch>();
     std::fill_n(batch->motion, Batch::SIZE, motion);
+    batch->resists = has_resistance();
     return batch;
 }
 
@@ -131,7 +132,7 @@ int ContactModel::advance(Batch &b, const char **problem)
     }
     for (int k = 0; k < b.n; k++) {
         to_force(found[k], b.motion[k].normal, b.force[k]);
-        if (has_resistance()) resist(b, k, found[k].normal);
+        if (b.resists) resist(b, k, found[k].normal);
     }
     note(b, is_new);
     return -1;

@@ -30,7 +30,8 @@ struct Batch {
     static constexpr int SIZE = 64;
     int n = 0;
     restitute_contact_motion motion[SIZE];
-    double spin[SIZE][3]; /* of body 1 relative to body 2 */
+    bool resists = false;
+    double spin[SIZE][3]; /* of body 1 relative to body 2, if the law has resistance */
     double arm1[SIZE], arm2[SIZE];
     double *history[SIZE]; /* of a contact: its label, then its state. All zeros: a new one */
     double label[SIZE];    /* of a new contact: a positive number that identifies it */
@@ -65,7 +66,7 @@ inline bool touching(const Body &first, const Body &second, Batch &batch, int k)
     m.inverse_mass = inverse_mass;
     m.inverse_tangential_mass = 3.5 * inverse_mass; /* of solid spheres: 1 + m R^2/J */
     m.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && batch.resists; i++)
         batch.spin[k][i] = p[i] - q[i];
     batch.arm1[k] = arm1;
     batch.arm2[k] = arm2;

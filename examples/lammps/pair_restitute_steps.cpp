@@ -115,8 +115,8 @@ void PairRestitute::collect(ContactModel &its, Batch &b, int i, int j, double *h
  * sphere with the smaller tag is. */
 bool PairRestitute::is_counted(int i, int j) const
 {
-    const int first = atom->tag[i] < atom->tag[j] ? i : j;
-    return force->newton_pair || std::max(i, j) < atom->nlocal || first < atom->nlocal;
+    if (force->newton_pair || std::max(i, j) < atom->nlocal) return true;
+    return (atom->tag[i] < atom->tag[j] ? i : j) < atom->nlocal;
 }
 
 void PairRestitute::compute_batch(ContactModel &its, Batch &b)
@@ -140,7 +140,7 @@ void PairRestitute::compute_batch(ContactModel &its, Batch &b)
                    atom->tag[b.second[bad]], update->ntimestep, problem);
     for (int k = 0; k < b.n; k++) {
         apply(b, k);
-        if (const double *couple = its.couple(b.history[k])) apply_couple(couple, b.first[k], b.second[k]);
+        if (b.resists) apply_couple(its.couple(b.history[k]), b.first[k], b.second[k]);
     }
     b.n = 0;
 }

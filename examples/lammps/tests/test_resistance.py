@@ -77,8 +77,10 @@ def largest(found, wanted, columns):
     return max(abs(a - b) for one, other in zip(found, wanted) for a, b in zip(one, other)) / (scale or 1)
 
 
-def compare(name, words, spin, friction=0, velocity=(0, 0), tangential="mindlin NULL", tolerance=1e-12, told=1e-12):
-    """Tolerances: of spins over the first one, and of what pair/local tells over the largest."""
+def compare(name, words, spin, friction=0, velocity=(0, 0), tangential="mindlin NULL", tolerance=1e-12, told=1e-12,
+            shear=None):
+    """Tolerances: of spins over the first one, and of what pair/local tells over the largest; `shear`:
+    of tangential forces there."""
     settle = friction > 0
     wanted, theirs = course(granular(friction, words, tangential), spin, velocity, settle, False)
     theirs = [as_torque(line) for line in theirs if len(line) == 16]
@@ -95,6 +97,7 @@ def compare(name, words, spin, friction=0, velocity=(0, 0), tangential="mindlin 
               *(f"{what} {its:.0e}" for what, its in errors.items()))
         check(len(found) == len(wanted) == 11 and len(ours) == len(theirs) >= 10, f"{name}: {len(ours)} looks")
         check(error <= tolerance, f"{name}: {found} instead of {wanted}")
+        check(errors.pop("tangential", 0) <= (shear or told), f"{name}: {ours} instead of {theirs}")
         check(max(errors.values()) <= told, f"{name}: {ours} instead of {theirs}")
     change = max(abs(a - b) for a, b in zip(wanted[5], spin))
     check(change > 0.03 * max(map(abs, spin)), f"{name}: hardly any change, no test")
@@ -111,7 +114,8 @@ compare("Marshall", "twisting marshall", (0, 0, 10), 0.3, tolerance=1e-8, told=1
 # Until it slides all over, partial slip makes the contact softer than Mindlin's spring.
 compare("a sliding sphere", "rolling sds 2e4 0 0.1", (0, 10, 0), 0.05, (0.6, 0), tolerance=1e-3, told=1e-5)
 # Partial slip damps the swings of the tangential force, which are the spring's.
-compare("a rolling sphere", "rolling sds 2e4 0 0.1", (0, 40, 0), 0.5, (0.2, 0), tolerance=0.01, told=0.3)
+for words in "rolling sds 2e4 0 0.1", "rolling sds 50 0 10":
+    compare("a rolling sphere", words, (0, 40, 0), 0.5, (0.2, 0), tolerance=0.01, told=1e-3, shear=0.3)
 
 # LAMMPS divides by a stiffness of 0. The sphere stops.
 spins, _ = course(restitute(0, "rolling sds 0 5 0.2 twisting sds 0 1e-6 2e-3"), (40, -30, 50), (0, 0), False, False)
