@@ -468,19 +468,21 @@ INLINE double size_of(const double *v)
 /* A place in the cell beyond the element `in`, where the next one or the rim is, the limit there, and the ends of the cell. */
 struct place {
     int in;
-    double y, limit, y_in, y_out, q_in[2], q_out[2];
+    double x, y, limit, x_in, y_in, x_out, y_out, q_in[2], q_out[2];
 };
 
 INLINE struct place place_of(const struct call c, double y, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
-    struct place p = {.y = y};
+    struct place p = {.x = sqrt(y), .y = y};
     while (p.in + 1 < s->last[l] && c.law->y[p.in + 1] <= y)
         p.in++;
     const bool cut = p.in + 1 == s->last[l];
     const double f_out = cut ? s->at_rim[l] : row->f[p.in + 1];
+    p.x_in = c.law->x[p.in];
     p.y_in = c.law->y[p.in];
-    p.y_out = cut ? s->edge[l] * s->edge[l] : c.law->y[p.in + 1];
+    p.x_out = cut ? s->edge[l] : c.law->x[p.in + 1];
+    p.y_out = p.x_out * p.x_out;
     for (int d = 0; d < 2; d++) {
         p.q_in[d] = row->q[d][p.in];
         p.q_out[d] = cut ? s->rim[d][l] : row->q[d][p.in + 1];
@@ -489,13 +491,13 @@ INLINE struct place place_of(const struct call c, double y, int l, const struct 
     return p;
 }
 
-/* Of an integral of q that is linear from y_in and to the outer end of the cell of `p`, what that without the bend at y lacks. */
-INLINE void bend_at(double y_in, const double *q_in, double y, const double *q, const struct place *p, int l, struct work *s)
+/* What an integral of q that is linear from the inner to the outer end of a cell lacks if it bends at p. */
+INLINE void bend_at(const struct place *p, const double *q, int l, struct work *s)
 {
-    const double share = (y - y_in) / larger(p->y_out - y_in, DBL_MIN), x = sqrt(y);
-    const double weight = weight_of(x, sqrt(y_in)) + weight_of(x, sqrt(p->y_out));
+    const double share = (p->y - p->y_in) / larger(p->y_out - p->y_in, DBL_MIN);
+    const double weight = weight_of(p->x, p->x_in) + weight_of(p->x, p->x_out);
     for (int d = 0; d < 2; d++)
-        s->total[d][l] += weight * (q[d] - q_in[d] - share * (p->q_out[d] - q_in[d]));
+        s->total[d][l] += weight * (q[d] - p->q_in[d] - share * (p->q_out[d] - p->q_in[d]));
 }
 
 /* Where slip begins beyond a turning point. When slip ended there, the force density q was at the limit between it and the rim, and
@@ -547,8 +549,9 @@ INLINE bool move_turn(const struct call c, int l,
         for (int k = 0; k < c.at.terms; k++)
             q[d] += c.law->g[k] * (turn[turn_w + d * c.at.terms + k] *= c.r->decay[k]);
     }
-    const double front = front_of(p, q, then, edge, at_edge, along);
-    if (front > 0 && along[0] * s->move[0][l] + along[1] * s->move[1][l] < 0) { /* slip has turned again */
+    const bool turns = (q[0] - then[0]) * s->move[0][l] + (q[1] - then[1]) * s->move[1][l] < 0;
+    const double front = turns ? front_of(p, q, then, edge, at_edge, along) : 0;
+    if (front > 0) { /* slip has turned again */
         *p = place_of(c, front, l, s);
         put_turn(c, p, along, q, turn);
         q[0] = then[0];
@@ -571,12 +574,12 @@ INLINE void count_slip(const struct call c, const struct place *p, const double 
 {
     const struct rows *const row = &s->row[l];
     const int out = p->in + 1;
-    const double slip = larger(along[0] * s->move[0][l] + along[1] * s->move[1][l], 0), x = sqrt(p->y), x_out = sqrt(p->y_out);
+    const double slip = larger(along[0] * s->move[0][l] + along[1] * s->move[1][l], 0);
     const double limit = along[0] * p->q_out[0] + along[1] * p->q_out[1];
-    s->slipped[l] += slip * (p->limit * weight_of(x, x_out) + limit * weight_of(x_out, x));
+    s->slipped[l] += slip * (p->limit * weight_of(p->x, p->x_out) + limit * weight_of(p->x_out, p->x));
     for (int d = 0; d < 2 && out < s->last[l]; d++)
         s->slipped[l] -=
-            weight_of(x_out, c.law->x[p->in]) * row->q[d][out] * (row->trial[d][out] - row->q[d][out]) * c.r->compliance;
+            weight_of(p->x_out, p->x_in) * row->q[d][out] * (row->trial[d][out] - row->q[d][out]) * c.r->compliance;
 }
 
 /* q is not linear in y between elements at the turning point, nor where slip begins beyond it. */
@@ -590,7 +593,7 @@ INLINE void follow_turn(const struct call c, int l, struct work *s)
         turn[turn_y] = 0;
         return;
     }
-    bend_at(p.y_in, p.q_in, p.y, q, &p, l, s);
+    bend_at(&p, q, l, s);
     const double front = front_of(&p, q, turn + turn_q, s->edge[l] * s->edge[l], at_edge, along);
     if (!(front > 0)) return;
     struct place f = place_of(c, front, l, s);
@@ -605,10 +608,13 @@ INLINE void follow_turn(const struct call c, int l, struct work *s)
         s->total[d][l] += s->outer[l] * (f.q_out[d] - s->rim[d][l]);
     }
     if (c.at.details) count_slip(c, &f, along, l, s);
-    if (p.in == f.in)
-        bend_at(p.y, q, front, slips, &f, l, s);
-    else
-        bend_at(f.y_in, f.q_in, front, slips, &f, l, s);
+    if (p.in == f.in) { /* the turning point is the inner end of what bends again */
+        f.x_in = p.x;
+        f.y_in = p.y;
+        f.q_in[0] = q[0];
+        f.q_in[1] = q[1];
+    }
+    bend_at(&f, slips, l, s);
 }
 
 /* Where slip begins and no turning point is yet, one is put: slip may turn there. */
