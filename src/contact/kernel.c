@@ -487,7 +487,8 @@ INLINE struct place place_of(const struct call c, double y, int l, const struct 
         p.q_in[d] = row->q[d][p.in];
         p.q_out[d] = cut ? s->rim[d][l] : row->q[d][p.in + 1];
     }
-    p.limit = s->limit_ratio[l] * (row->f[p.in] + (y - p.y_in) / larger(p.y_out - p.y_in, DBL_MIN) * (f_out - row->f[p.in]));
+    p.limit =
+        s->limit_ratio[l] * (row->f[p.in] + (y - p.y_in) / larger(p.y_out - p.y_in, DBL_MIN) * (f_out - row->f[p.in]));
     return p;
 }
 
@@ -503,7 +504,8 @@ INLINE void bend_at(const struct place *p, const double *q, int l, struct work *
 /* Where slip begins beyond a turning point. When slip ended there, the force density q was at the limit between it and the rim, and
  * what sticks has since been displaced alike: so q is at the limit anew where the margin, linear in y from the turning point to the
  * rim, is zero. A limit that has changed by now has changed alike, too. Returns y there, or 0, and the direction of slip. */
-INLINE double front_of(const struct place *p, const double *q, const double *then, double edge, double at_edge, double *along)
+INLINE double front_of(const struct place *p, const double *q, const double *then, double edge, double at_edge,
+                       double *along)
 {
     static const double least = 1e-6; /* of the limit; below, the direction would be of rounding */
     const double x = q[0] - then[0], y = q[1] - then[1], moved = sqrt(x * x + y * y), was = size_of(then);
@@ -535,11 +537,11 @@ INLINE void put_turn(const struct call c, const struct place *p, const double *a
 
 /* The turning point over the step, displaced as an element that sticks, and its force density `q`. Returns whether it still holds:
  * the limit there has not changed much, and it does not slip. */
-INLINE bool move_turn(const struct call c, int l,
-                      const struct work *s, struct place *p, double *q, double *turn)
+INLINE bool move_turn(const struct call c, int l, const struct work *s, struct place *p, double *q, double *turn)
 {
     static const double most_change = 1; /* of the limit. Impacts are as accurate with 0 to 2, with 10 they are not */
-    const double edge = s->edge[l] * s->edge[l], at_edge = s->limit_ratio[l] * s->at_rim[l], *const then = turn + turn_q;
+    const double edge = s->edge[l] * s->edge[l],
+                 at_edge = s->limit_ratio[l] * s->at_rim[l], *const then = turn + turn_q;
     double along[2];
     if (!(turn[turn_y] < edge) || s->last[l] == 0) return false;
     *p = place_of(c, turn[turn_y], l, s);
