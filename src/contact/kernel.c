@@ -46,6 +46,7 @@ struct rows {
     struct arms own;
     double touch[most_n];                       /* part of the step in contact, 0 outside */
     double f[most_n];                           /* normal */
+    double pressed[most_n];                     /* beyond the free surface, negative outside */
     double trial[2][most_n];                    /* tangential, if all sticks */
     double q[2][most_n];                        /* within the limit of friction */
     double spent[most_n];                       /* by dashpots in the step, normal */
@@ -60,7 +61,7 @@ struct work {
     lanes width, before, approach, sum, force;
     /* the rim: places of the last element, f and w there; edge: contact radius in grid widths; weights of the last, cut cell: of
      * the last element, beside its own, and of the rim; f at the rim, and w there over w of the last element */
-    lanes x, y, y_before, next, per_cell, outwards, f_last, f_before, virgin, touches;
+    lanes x, y, y_before, next, per_cell, outwards, f_last, f_before, virgin, meets, touches;
     lanes w_last[most_k], ratio[most_k], edge, inner, outer, at_rim;
     /* tangential: the frame, displacement and velocity at the end of the step, integrals over the contact radius in widths */
     lanes axis[3], other[3], move[2], speed[2], limit_ratio, total[2], sticking, slipped, spent, back[2], rim[2];
@@ -155,7 +156,8 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
     const double dashpot = c.at.surface ? c.law->eta * s->approach[l] : 0;
     double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
     struct rows *const row = &s->row[l];
-    double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], pressed[most_n], f[most_n], part[most_n];
+    double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], f[most_n], part[most_n];
+    double *const pressed = row->pressed;
     EACH_ELEMENT held[i] = pull[i] = 0;
     for (int k = 0; k < c.at.terms; k++) {
         const double g = c.law->g[k], later = c.law->g[k] * c.r->decay[k];
@@ -228,6 +230,13 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
     }
     if (c.at.surface) virgin &= last == n || state[rst_at_surface(c.law) + last] == 0;
     s->virgin[l] = if_so(virgin);
+    s->meets[l] = beyond;
+    if (!c.at.surface || last == n) return;
+    const double *const pressed = s->row[l].pressed,
+                        out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
+    const double fall = pressed[last] - out;
+    if (pressed[last] < 0 && fall > 0)
+        s->meets[l] = larger(s->y[l], c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / fall);
 }
 
 /* Where the contact ends beyond its last element, f there, and the whole force. A contact that grows over virgin elements ends where
@@ -259,7 +268,9 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
     {
         const double y = s->y[l], x = s->x[l], f = s->f_last[l], next = s->next[l], touches = s->touches[l];
         const double slope = (s->f_before[l] - f) * s->per_cell[l], soft = c.law->g_inf * s->scale[l];
-        const double free = c.in->overlap[l] / s->scale[l], several = if_so(s->per_cell[l] > 0);
+        const bool enters = (s->approach[l] > 0) & (s->virgin[l] == 0);
+        const double at_rest = c.in->overlap[l] / s->scale[l], free = enters ? smaller(at_rest, s->meets[l]) : at_rest;
+        const double several = if_so(s->per_cell[l] > 0);
         const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
         const double fall = slope > 0 ? slope : soft;
         const bool ends = (f < fall * (free - y)) & !grows;

@@ -1,5 +1,5 @@
-/* Elastic contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not
- * matter.
+/* Contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter; loaded
+ * again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 
@@ -302,6 +302,45 @@ static void radii_are_those_of_hertz_and_mindlin(void **unused)
     }
 }
 
+/* Normal forces of a Kelvin-Voigt contact that is loaded four times by half a sine; `recovery`: its
+ * eta/G over the time between. */
+static void press_again(int elements, double recovery, double forces[800])
+{
+    restitute_material *material;
+    assert_int_equal(restitute_material_kelvin_voigt(1, recovery, nu, &material, NULL), 0);
+    restitute_contact_law *law = law_of(material, elements, 0);
+    struct drive d = drive_of(law, 1.0 / 200, 0);
+    for (int i = 0; i < 800; i++) {
+        const double to = overlap * sin(acos(-1.0) * ((i + 1) % 200) / 200);
+        drive_by(&d, to - d.motion.overlap, 0, 0);
+        forces[i] = d.force.normal;
+    }
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+}
+
+/* A surface that has not recovered meets the sphere between two elements. The law finds the place from
+ * the gaps of the next two. It is off by part of a cell where the surface bends, at the rim of the
+ * contact before: 9.4 % of the largest force here with 8 elements, 4.0 % with 16. With the rim at the
+ * next element they were 17 % and 6 %. */
+static void dashpot_solids_are_loaded_again(void **unused)
+{
+    (void)unused;
+    static double few[800], more[800], most[800];
+    for (double recovery = 0.01; recovery < 4; recovery *= 3) {
+        double largest = 0, worst[2] = {0, 0};
+        press_again(8, recovery, few), press_again(16, recovery, more), press_again(32, recovery, most);
+        for (int i = 0; i < 800; i++) {
+            largest = fmax(largest, most[i]);
+            worst[0] = fmax(worst[0], fabs(few[i] - most[i])), worst[1] = fmax(worst[1], fabs(more[i] - most[i]));
+        }
+        print_message("eta/G %.2f: 8 elements within %.3f of the largest force, 16 within %.3f\n", recovery,
+                      worst[0] / largest, worst[1] / largest);
+        CHECK_NEAR(worst[0] / largest, 0, 0.12, "8 elements, eta/G %g", recovery);
+        CHECK_NEAR(worst[1] / largest, 0, 0.05, "16 elements, eta/G %g", recovery);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +350,7 @@ int main(void)
         cmocka_unit_test(force_turns_with_the_normal),
         cmocka_unit_test(force_turns_with_the_bodies),
         cmocka_unit_test(stored_energy_is_the_work),
+        cmocka_unit_test(dashpot_solids_are_loaded_again),
         cmocka_unit_test(radii_are_those_of_hertz_and_mindlin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
