@@ -31,8 +31,8 @@ def numbers(dump):
 
 
 def course(law, spin, velocity, settle, turn):
-    """Spins of the upper sphere, and the numbers of pair/local of the lower one. `settle`: the sphere
-    has come to rest before it is given spin and velocity. `turn` swaps the tags."""
+    """Spins of the upper sphere, and the numbers of pair/local of the lower one. `settle`: the
+    sphere has come to rest before it is given spin and velocity. `turn` swaps the tags."""
     scene = Scene(half_width=0.05)
     lower, upper = ((0, 0, 0), (0, 0, 0), (0, 0, 0)), ((0, 0, 2 * RADIUS), (0, 0, 0), (0, 0, 0))
     tags = [scene.add(*sphere, RADIUS, DENSITY) for sphere in ((upper, lower) if turn else (lower, upper))]
@@ -79,8 +79,8 @@ def largest(found, wanted, columns):
 
 def compare(name, words, spin, friction=0, velocity=(0, 0), tangential="mindlin NULL", tolerance=1e-12, told=1e-12,
             shear=None):
-    """Tolerances: of spins over the first one, and of what pair/local tells over the largest; `shear`:
-    of tangential forces there."""
+    """Tolerances: of spins over the first one, and of what pair/local tells over the largest;
+    `shear`: of tangential forces there."""
     settle = friction > 0
     wanted, theirs = course(granular(friction, words, tangential), spin, velocity, settle, False)
     theirs = [as_torque(line) for line in theirs if len(line) == 16]
