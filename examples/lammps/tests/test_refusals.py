@@ -205,6 +205,13 @@ _, warned = log_of(TELLS.replace("1e-6", f"{1.001 * limit}").replace(" speed 0.0
 print(*warned)
 check(len(warned) == 1 and "shorter by a factor of 1.01 " in warned[0], "a step that is 1.001 times too long")
 
+# An elastic contact with a wall lasts 2^(1/5) times as long as with an equal sphere.
+words = f"{glass} friction 0.3 speed 0.03"
+text, _ = log_of(f"pair_style restitute\npair_coeff * * {words}\nfix w all wall/restitute {words} xplane -0.4 NULL\n{RUN}")
+pair, wall = (float(re.search(rf"restitute: {what}, .*time step at most (\S+)", text).group(1))
+              for what in ("types 1 1", "wall w, type 1"))
+check(abs(wall / pair - 2**0.2) <= 1e-3, f"the limit of a wall is {wall}, of a pair {pair}")
+
 # There is no variant for threads.
 _, warned = log_of(TELLS.replace(" speed 0.03", ""), switches=["-sf", "omp"])
 print(*warned)
