@@ -23,7 +23,7 @@ typedef double lanes[LANES];
 
 /* What a compiler is to know of a law. */
 struct shape {
-    int n, terms, surface, slips, details;
+    int n, terms, surface, slips, turns, details;
 };
 
 /* What a step is of. */
@@ -673,7 +673,7 @@ INLINE void add_kinks(const struct call c, int l, struct work *s)
     for (uint32_t turns = (stuck ^ stuck >> 1) & before_last; turns; turns &= turns - 1) {
         const int j = __builtin_ctz(turns), inwards = !(stuck >> j & 1); /* 1: slip within, stick without */
         const int in = j + inwards, out = j + !inwards, behind = 2 * in - out;
-        if (behind < 0 || behind >= last || !(stuck >> behind & 1) || s->known[l] == in + 1) continue;
+        if (behind < 0 || behind >= last || !(stuck >> behind & 1) || (c.at.turns && s->known[l] == in + 1)) continue;
         const double *const f = row->f, *const qx = row->q[0], *const qy = row->q[1], ratio = s->limit_ratio[l];
         const double limit = ratio * f[out];
         if (!(limit > 0)) continue;
@@ -765,11 +765,11 @@ INLINE void close_slide(const struct call c, int viscous, struct work *s)
     hold_rim(c, s);
     for (int l = 0; l < LANES; l++) {
         s->front[l] = s->known[l] = 0;
-        if (!viscous) follow_turn(c, l, s);
+        if (c.at.turns && !viscous) follow_turn(c, l, s);
         add_kinks(c, l, s);
     }
     add_kink_at_rim(s);
-    for (int l = 0; l < LANES && !viscous; l++)
+    for (int l = 0; l < LANES && c.at.turns && !viscous; l++)
         keep_turn(c, l, s);
 }
 
@@ -938,16 +938,16 @@ INLINE void advance(const struct call c)
 void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
           struct rst_batch *restrict batch)
 {
-    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->details}};
-    const int kind = c.at.n == 8 && c.at.slips && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
+    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->turns, law->details}};
+    const int kind = c.at.n == 8 && c.at.slips && !c.at.turns && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
     if (kind == 0)
-        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0, 0}});
     else if (kind == 10)
-        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0, 0}});
     else if (kind == 1)
-        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0, 0}});
     else if (kind == 3)
-        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0, 0}});
     else
         advance(c);
 }

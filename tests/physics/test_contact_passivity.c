@@ -76,7 +76,7 @@ static void no_drive_gains_work(void **unused)
     for (uint64_t i = 0; i < 10000; i++) {
         uint64_t seed = i;
         restitute_material *material = random_material(&seed);
-        restitute_contact_law *law = law_of(material, 8, 0);
+        restitute_contact_law *law = law_of(material, 8, i % 2 ? SLIP_CYCLES : 0);
         const double size = random_log(&seed, 1e-6, 1e-2);
         struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
         drive_at_random(&d, &seed, size, NULL, i);
@@ -101,7 +101,7 @@ static void losses_never_fall(void **unused)
     for (uint64_t i = 0; i < 2000; i++) {
         uint64_t seed = i;
         restitute_material *material = random_material(&seed);
-        restitute_contact_law *law = law_of(material, 8, 1);
+        restitute_contact_law *law = law_of(material, 8, i % 2 ? DETAILS | SLIP_CYCLES : DETAILS);
         const double size = random_log(&seed, 1e-6, 1e-2);
         struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
         struct losses l = {0};
