@@ -724,6 +724,8 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
     double back[most_n], slipped[most_n], by_square = c.law->eta / c.step;
     for (int k = 0; k < c.at.terms; k++)
         by_square += c.r->spent[k][2];
+    /* The trapezoidal rule, as for the work. What a dashpot held before the step is not known. */
+    const double half = c.law->eta > 0 ? 0 : 0.5;
     if (c.at.details) EACH_ELEMENT slipped[i] = 0;
     for (int d = 0; d < 2; d++) {
         double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
@@ -741,7 +743,8 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
             {
                 const double moved = row->touch[i] * s->move[d][l] - back[i];
                 row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
-                slipped[i] += 0.5 * (row->held[d][i] + row->q[d][i]) * back[i]; /* the trapezoid, as of the work */
+                const double mean = row->q[d][i] + half * (row->held[d][i] - row->q[d][i]);
+                slipped[i] += mean * back[i];
             }
     }
     if (!c.at.details) return;

@@ -91,9 +91,8 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
-/* In these coarse steps many elements leave at once, with what their tangential springs held: the
- * energies miss up to 15 % and 1.1 % in the mean. With steps of an eighth and 32 elements it is 1.8 %
- * and 0.1 %. */
+/* In these coarse steps many elements leave at once, with what their springs held: the energies miss
+ * up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and 0.1 %. */
 static void losses_never_fall(void **unused)
 {
     (void)unused;
@@ -116,7 +115,7 @@ static void losses_never_fall(void **unused)
         restitute_material_destroy(material);
     }
     print_message("energies beside work: off by at most %.3g, mean %.3g\n", worst, mean);
-    CHECK(worst < 0.2 && mean < 0.015, "energies are off by up to %.3g, mean %.3g", worst, mean);
+    CHECK(worst < 0.25 && mean < 0.012, "energies are off by up to %.3g, mean %.3g", worst, mean);
 }
 
 int main(void)
