@@ -489,7 +489,7 @@ struct place {
 INLINE struct place place_of(const struct call c, double y, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
-    struct place p = {.x = sqrt(y), .y = y};
+    struct place p = {.x = sqrt(larger(y, 0)), .y = y};
     while (p.in + 1 < s->last[l] && c.law->y[p.in + 1] <= y)
         p.in++;
     const bool cut = p.in + 1 == s->last[l];
@@ -541,7 +541,7 @@ INLINE void put_turn(const struct call c, const struct place *p, const double *a
     for (int k = 0; k < c.at.terms; k++)
         stiffness += c.law->g[k] * c.r->gain[k];
     turn[turn_y] = 0;
-    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit * p->limit > DBL_MIN)) return; /* dashpots hold no kink */
+    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit > 1e-100 && p->limit < 1e100)) return; /* dashpots hold no kink */
     turn[turn_y] = p->y;
     for (int d = 0; d < 2; d++) {
         const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / stiffness;
@@ -876,7 +876,7 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
     while (j < s->last[l] && stuck >> j & 1)
         j++;
     if (j == 0) return 0;
-    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(s->front[l]) : s->edge[l]);
+    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(larger(s->front[l], 0)) : s->edge[l]);
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
     const double inwards = c.law->y[j - 1], outwards = c.law->y[j]; /* rounding may make any margin zero */
