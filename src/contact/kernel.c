@@ -541,10 +541,11 @@ INLINE void put_turn(const struct call c, const struct place *p, const double *a
     for (int k = 0; k < c.at.terms; k++)
         stiffness += c.law->g[k] * c.r->gain[k];
     turn[turn_y] = 0;
-    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit > 1e-100 && p->limit < 1e100)) return; /* dashpots hold no kink */
+    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit > 1e-100 && p->limit < 1e100))
+        return; /* dashpots hold no kink */
     turn[turn_y] = p->y;
     for (int d = 0; d < 2; d++) {
-        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / stiffness;
+        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / larger(stiffness, DBL_MIN);
         turn[turn_u + d] -= back;
         for (int k = 0; k < c.at.terms; k++)
             turn[turn_w + d * c.at.terms + k] -= c.r->gain[k] * back;
