@@ -236,8 +236,9 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
     const double *const pressed = s->row[l].pressed,
                         out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
     const double fall = pressed[last] - out;
-    if (pressed[last] < 0 && fall > 0)
-        s->meets[l] = larger(s->y[l], c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / fall);
+    const bool apart = (pressed[last] < 0) & (fall > 0);
+    const double meets = c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / (apart ? fall : 1);
+    if (apart) s->meets[l] = larger(s->y[l], meets);
 }
 
 /* Where the contact ends beyond its last element, f there, and the whole force. A contact that grows over virgin elements ends where
@@ -488,7 +489,7 @@ struct place {
 INLINE struct place place_of(const struct call c, double y, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
-    struct place p = {.x = sqrt(y), .y = y};
+    struct place p = {.x = sqrt(larger(y, 0)), .y = y};
     while (p.in + 1 < s->last[l] && c.law->y[p.in + 1] <= y)
         p.in++;
     const bool cut = p.in + 1 == s->last[l];
@@ -524,12 +525,13 @@ INLINE double front_of(const struct place *p, const double *q, const double *the
     static const double least = 1e-6; /* of the limit; below, the direction would be of rounding */
     const double x = q[0] - then[0], y = q[1] - then[1], moved = sqrt(x * x + y * y), was = size_of(then);
     if (!(moved > least * p->limit)) return 0;
-    along[0] = x / moved;
-    along[1] = y / moved;
-    const double cosine = (along[0] * then[0] + along[1] * then[1]) / was;
+    along[0] = x / larger(moved, DBL_MIN);
+    along[1] = y / larger(moved, DBL_MIN);
+    const double cosine = (along[0] * then[0] + along[1] * then[1]) / larger(was, DBL_MIN);
     const double margin = p->limit - (along[0] * q[0] + along[1] * q[1]);
     const double margin_at_edge = at_edge - moved - cosine * (at_edge - (p->limit - was));
-    return (margin > 0) & (margin_at_edge < 0) ? p->y + (edge - p->y) * margin / (margin - margin_at_edge) : 0;
+    const bool begins = (margin > 0) & (margin_at_edge < 0);
+    return begins ? p->y + (edge - p->y) * margin / (begins ? margin - margin_at_edge : 1) : 0;
 }
 
 /* A turning point is put where slip begins: u and w, as of an element near by with the force density q, are displaced to the limit. */
@@ -539,10 +541,11 @@ INLINE void put_turn(const struct call c, const struct place *p, const double *a
     for (int k = 0; k < c.at.terms; k++)
         stiffness += c.law->g[k] * c.r->gain[k];
     turn[turn_y] = 0;
-    if (!(stiffness > 0) || !(p->limit * p->limit > DBL_MIN)) return;
+    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit > 1e-100 && p->limit < 1e100))
+        return; /* dashpots hold no kink */
     turn[turn_y] = p->y;
     for (int d = 0; d < 2; d++) {
-        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / stiffness;
+        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / larger(stiffness, DBL_MIN);
         turn[turn_u + d] -= back;
         for (int k = 0; k < c.at.terms; k++)
             turn[turn_w + d * c.at.terms + k] -= c.r->gain[k] * back;
@@ -556,7 +559,7 @@ INLINE bool move_turn(const struct call c, int l, const struct work *s, struct p
     static const double most_change = 1; /* of the limit. Impacts are as accurate with 0 to 2, with 10 they are not */
     const double edge = s->edge[l] * s->edge[l],
                  at_edge = s->limit_ratio[l] * s->at_rim[l], *const then = turn + turn_q;
-    double along[2];
+    double along[2] = {0};
     if (!(turn[turn_y] < edge) || s->last[l] == 0) return false;
     *p = place_of(c, turn[turn_y], l, s);
     if (!(fabs(p->limit - size_of(then)) <= most_change * size_of(then))) return false;
@@ -585,12 +588,14 @@ INLINE bool move_turn(const struct call c, int l, const struct work *s, struct p
     return size_of(q) <= p->limit;
 }
 
-/* Slip in the cell where it begins takes more than the outer element tells. */
+/* What slip takes in the cell where it begins, instead of what its outer element tells. Slip is what the displacement exceeds that of
+ * the limit by, which grows with the approach. */
 INLINE void count_slip(const struct call c, const struct place *p, const double *along, int l, struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const int out = p->in + 1;
-    const double slip = larger(along[0] * s->move[0][l] + along[1] * s->move[1][l], 0);
+    const double move = along[0] * s->move[0][l] + along[1] * s->move[1][l];
+    const double slip = larger(move - s->limit_ratio[l] * s->approach[l] * c.step, 0);
     const double limit = along[0] * p->q_out[0] + along[1] * p->q_out[1];
     s->slipped[l] += slip * (p->limit * weight_of(p->x, p->x_out) + limit * weight_of(p->x_out, p->x));
     for (int d = 0; d < 2 && out < s->last[l]; d++)
@@ -601,9 +606,9 @@ INLINE void count_slip(const struct call c, const struct place *p, const double 
 /* q is not linear in y between elements at the turning point, nor where slip begins beyond it. */
 INLINE void follow_turn(const struct call c, int l, struct work *s)
 {
-    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2], along[2];
+    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2] = {0}, along[2] = {0};
     const double at_edge = s->limit_ratio[l] * s->at_rim[l];
-    struct place p;
+    struct place p = {0};
     if (!(turn[turn_y] > 0)) return;
     if (!move_turn(c, l, s, &p, q, turn)) {
         turn[turn_y] = 0;
@@ -875,7 +880,7 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
     while (j < s->last[l] && stuck >> j & 1)
         j++;
     if (j == 0) return 0;
-    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(s->front[l]) : s->edge[l]);
+    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(larger(s->front[l], 0)) : s->edge[l]);
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
     const double inwards = c.law->y[j - 1], outwards = c.law->y[j]; /* rounding may make any margin zero */
