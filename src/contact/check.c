@@ -19,11 +19,19 @@ static int is_unit(const double v[3])
     return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
 }
 
+static int may_shrink(const restitute_contact_law *law, double step, const struct rst_batch *b, int l)
+{
+    double approach = 0;
+    for (int i = 0; i < 3; i++)
+        approach += b->normal[i][l] * b->velocity[i][l];
+    return rst_contact_may_shrink(&law->kernel, approach * step, b->overlap[l], b->radius[l], b->state[l]);
+}
+
 /* Comparisons are false for NaN. A new contact has no width. */
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *b, int n)
 {
     const double per_step = 1 / step, mobility = largest_mobility * per_step;
-    int good = 1, wide[rst_lanes], some = 0;
+    int good = 1, wide = 0;
     for (int l = 0; l < n; l++) {
         const double r = b->radius[l], fastest = r * per_step, nx = b->normal[0][l], ny = b->normal[1][l],
                      nz = b->normal[2][l], ax = b->axis[0][l], ay = b->axis[1][l], az = b->axis[2][l];
@@ -35,13 +43,12 @@ int rst_all_good(const restitute_contact_law *law, double step, const struct rst
         good &= (b->inverse_mass[0][l] >= 0) & (b->inverse_mass[0][l] <= mobility) & (b->inverse_mass[1][l] >= 0) &
                 (b->inverse_mass[1][l] <= mobility) & (b->friction[l] >= 0) & (b->friction[l] <= largest_friction);
         good &= (fabs(unit - 1) <= 1e-6) & (ax * ax + ay * ay + az * az - out * out >= least_in_plane);
-        const double approach = nx * b->velocity[0][l] + ny * b->velocity[1][l] + nz * b->velocity[2][l];
-        some |= wide[l] = rst_rests_wide(step, approach, b->overlap[l], r, b->width[l]);
+        wide |= rst_is_wide(b->overlap[l] * r, b->width[l]);
     }
     for (int l = 0; l < n; l++)
         good &= rst_is_own(law, b->state[l]);
-    for (int l = 0; l < n && good && some; l++)
-        good = !wide[l] || !rst_contact_may_shrink(&law->kernel, b->overlap[l], b->radius[l], b->state[l]);
+    for (int l = 0; l < n && good && wide; l++)
+        good = !may_shrink(law, step, b, l);
     return good;
 }
 

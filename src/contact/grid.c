@@ -7,6 +7,8 @@
 #include "contact/kernel.h"
 #include "contact/law.h"
 
+static const double least_overlap = 1e-30; /* over the radius: the square of the width is not to underflow */
+
 static double weight_of(double x1, double x2)
 {
     return x1 + x2 > 0 ? fabs(x2 - x1) * (2 * x2 + x1) / (3 * (x1 + x2)) : 0;
@@ -65,10 +67,15 @@ static int first_outside(const struct rst_law *law, double edge)
     return j;
 }
 
-int rst_contact_may_shrink(const struct rst_law *law, double overlap, double radius, const double *state)
+/* `change`: of the overlap in the step. An elastic impact of N steps that is as shallow as this changes its
+ * overlap by more than 8/N in a step. */
+int rst_contact_may_shrink(const struct rst_law *law, double change, double overlap, double radius, const double *state)
 {
-    static const double nothing = 1e-6; /* of the overlap; the sphere slides by friction times it */
-    const int out = first_outside(law, overlap * radius / (state[at_width] * state[at_width]));
+    static const double slow = 1e-4;    /* over the overlap; impacts have less than 80 000 steps */
+    static const double nothing = 1e-6; /* over the overlap; slip is of friction times it */
+    const double width = state[at_width], area = overlap * radius;
+    if (!(rst_is_wide(area, width) && fabs(change) < slow * overlap && overlap > least_overlap * radius)) return 0;
+    const int out = first_outside(law, area / (width * width));
     for (const double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n)
         for (int j = out; j < law->n; j++)
             if (!(fabs(values[j]) <= nothing * overlap)) return 0;
@@ -96,10 +103,9 @@ void rst_contact_shrink(const struct rst_law *law, double area, double *state)
 
 int rst_contact_begin(const struct rst_law *law, double step, const restitute_contact_motion *m, double *state)
 {
-    static const double margin = 1.02;         /* of the grid over the expected radius */
-    static const double least_overlap = 1e-30; /* over the radius: the square of the width is not to underflow */
-    static const double least_steps = 10;      /* below, the first steps alone may exceed the largest force */
-    static const double at_rest = 1e-60;       /* m/s, s/kg: below, energies underflow, masses overflow */
+    static const double margin = 1.02;    /* of the grid over the expected radius */
+    static const double least_steps = 10; /* below, the first steps alone may exceed the largest force */
+    static const double at_rest = 1e-60;  /* m/s, s/kg: below, energies underflow, masses overflow */
     const double *n = m->normal, *v = m->velocity, approach = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
     double overlap = fmax(m->overlap, least_overlap * m->radius);
     if (approach > at_rest && 0.5 * step * m->inverse_mass > at_rest) {

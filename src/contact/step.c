@@ -44,8 +44,7 @@ static int prepare(const restitute_contact_law *law, const restitute_contact_rat
         return 0;
     }
     if (area > state[at_width] * state[at_width]) rst_contact_stretch(&law->kernel, area, state);
-    if (rst_rests_wide(rates->step, approach, m->overlap, m->radius, state[at_width]) &&
-        rst_contact_may_shrink(&law->kernel, m->overlap, m->radius, state))
+    if (rst_contact_may_shrink(&law->kernel, approach * rates->step, m->overlap, m->radius, state))
         rst_contact_shrink(&law->kernel, area, state);
     rst_mark(law, &state[at_width]);
     return 1;

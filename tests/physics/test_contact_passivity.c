@@ -111,8 +111,8 @@ static void slide_steps(struct drive *d, int n, double approach, double x, doubl
 }
 
 /* Pressed deep, brought back and slid; a rest, in which the grid shrinks under the tangential force; slid
- * back, again and again. With elements beyond the edge interpolated, too, 4 of these drives gained work,
- * with the last value kept up to the edge 208. Solids that relax are in the other drives. */
+ * back, again and again. Where the last value was kept up to the edge of the contact, 224 of these drives
+ * gained work. Solids that relax shrink in the other drives. */
 static void grids_that_shrink_gain_no_work(void **unused)
 {
     (void)unused;
