@@ -42,6 +42,12 @@ class FixRestitute : public Fix
      * of the host. */
     void compute(const Meeting &met, int offset, double force[3]);
 
+    /* The same for pairs of spheres in batches: those collected get their forces at the end of the
+     * pass. begin_pass: false, if it must not be. */
+    bool begin_pass(class PairGran *pair);
+    void collect(const Meeting &met, int offset);
+    void end_pass();
+
     double tangential[3] = {}; /* of the present contact: from the normal model for the tangential one */
 
   private:
@@ -63,6 +69,8 @@ class FixRestitute : public Fix
     bool meet_wall(const Meeting &met, int offset, bool moves, restitute_dem::Batch &batch) const;
     bool follow_mesh(const Meeting &met, const restitute_contact_motion &now, int offset, double *history) const;
     void run(Law &law, bool moves) const;
+    void compute_batch(Law &law);
+    void apply(const restitute_dem::Batch &batch, int k) const;
     void stop(int i, int j, const std::string &problem) const;
     restitute_dem::Record own_record() const;
     restitute_dem::Record record() const; /* of all processes */
@@ -71,6 +79,7 @@ class FixRestitute : public Fix
     std::vector<Model> table, models; /* of pairs of types; those that differ */
     int states = 0;                   /* doubles of a contact that are the law's */
     int frozen = 0;
+    PairGran *host = nullptr; /* of the present pass */
     bool warned[restitute_dem::RATIOS] = {};
 };
 

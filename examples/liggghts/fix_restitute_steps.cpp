@@ -6,6 +6,8 @@
 #include "error.h"
 #include "fix_contact_history_mesh.h"
 #include "fix_mesh_surface.h"
+#include "force.h"
+#include "pair_gran.h"
 #include "tri_mesh.h"
 #include "update.h"
 
@@ -98,6 +100,82 @@ bool FixRestitute::meet_sphere(int k, int n, bool moves, Batch &b) const
     b.density[n] = history[0] == 0 ? std::max(density(i), density(j)) : 0;
     b.on_record[n] = i < atom->nlocal; /* the owner of the other one computes the contact, too */
     return true;
+}
+
+/* ---- spheres, many at once */
+
+/* May forces wait for the end of a pass? Then LIGGGHTS finds none of a pair when it asks for it.
+ * Rolling friction and cohesion need them in the same call, and so do fixes and computes that store
+ * forces of contacts. `compute pair/gran/local` does not: it has a pass of its own. */
+bool FixRestitute::begin_pass(PairGran *pair)
+{
+    host = pair;
+    std::fill_n(tangential, 3, 0.0);
+    return pair->computeflag() && pair->shearupdate() && pair->contact_match("rolling_friction", "off") &&
+           pair->contact_match("cohesion", "off") && !pair->storeContactForces() && !pair->storeContactForcesStress() &&
+           !pair->store_sum_normal_force();
+}
+
+static void prefetch(const double *place)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(place, 1);
+#else
+    (void)place;
+#endif
+}
+
+void FixRestitute::collect(const Meeting &met, int offset)
+{
+    Law &law = *model(met.itype, met.jtype);
+    Batch &b = *law.batch;
+    double *history = met.contact_history + offset;
+    for (int k = 0; k < states + NUMBERS_OF_PAIRS; k += 8)
+        prefetch(history + k);
+    order(met.i, met.j, history, b, b.n);
+    if (++b.n == Batch::SIZE) compute_batch(law);
+}
+
+void FixRestitute::end_pass()
+{
+    for (const Model &its : models)
+        compute_batch(*its);
+}
+
+void FixRestitute::compute_batch(Law &law)
+{
+    Batch &b = *law.batch;
+    int n = 0;
+    for (int k = 0; k < b.n; k++)
+        n += meet_sphere(k, n, true, b);
+    b.n = n;
+    run(law, true);
+    for (int k = 0; k < n; k++) {
+        b.history[k][states + LAST_STEP] = update->ntimestep;
+        apply(b, k);
+    }
+    b.n = 0;
+}
+
+static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
+{
+    for (int k = 0; k < 3; k++) {
+        force[k] += sign * f[k];
+        torque[k] += arm * turn[k];
+    }
+}
+
+/* As LIGGGHTS does after each contact, see Granular::compute_force in its pair_gran_base.h. */
+void FixRestitute::apply(const Batch &b, int k) const
+{
+    const int i = b.first[k], j = b.second[k], all = force->newton_pair;
+    const double *n = b.motion[k].normal, *f = b.force[k], *x = atom->x[i], *y = atom->x[j];
+    const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
+    const double relax_i = host->relax(i), relax_j = host->relax(j);
+    if (all || i < atom->nlocal) add_to(atom->f[i], atom->torque[i], relax_i, f, relax_i * b.arm1[k], turn);
+    if (all || j < atom->nlocal) add_to(atom->f[j], atom->torque[j], -relax_j, f, relax_j * b.arm2[k], turn);
+    if (host->evflag)
+        host->ev_tally_xyz(i, j, atom->nlocal, all, 0, 0, f[0], f[1], f[2], x[0] - y[0], x[1] - y[1], x[2] - y[2]);
 }
 
 /* ---- walls */
