@@ -4,7 +4,6 @@
 #include "host.h"
 
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "memory.h"
 #include "update.h"
@@ -18,57 +17,45 @@ using namespace FixConst;
 using restitute_dem::Batch;
 using restitute_dem::Record;
 
-static const char *const shapes[] = {"xplane", "yplane", "zplane", "zcylinder"};
-static const double nowhere = 1e99; /* of the plane that there is not */
-
-/* fix ID group wall/restitute FILE friction MU [...] xplane|yplane|zplane LOW HIGH [shear AXIS V]
- *                                                    zcylinder RADIUS [shear z V] */
+/* fix ID group wall/restitute FILE friction MU [...]
+ *     xplane|yplane|zplane LOW HIGH  or  xcylinder|ycylinder|zcylinder RADIUS  or  region ID
+ *     [shear AXIS V | move AXIS V | wiggle AXIS AMPLITUDE PERIOD]  [contacts] */
 FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-    char **end = arg + narg;
-    char **place = std::find_first_of(arg + 3, end, shapes, shapes + 4, [](auto a, auto b) { return !strcmp(a, b); });
-    model = make_model(lmp, "fix wall/restitute", arg + 3, place);
-    if (place == end) error->all(FLERR, "fix wall/restitute: needs xplane, yplane, zplane or zcylinder");
+    char **end = arg + narg, **word = std::find_if(arg + 3, end, names_wall);
+    model = make_model(lmp, "fix wall/restitute", arg + 3, word);
+    if (word == end)
+        error->all(FLERR,
+                   "fix wall/restitute: needs xplane, yplane, zplane, xcylinder, ycylinder, zcylinder or region");
+    shape = make_wall(lmp, word, end);
+    peratom_flag = word != end && !strcmp(*word, "contacts");
+    if (word + peratom_flag != end)
+        error->all(FLERR,
+                   "fix wall/restitute: '{}': must be one of shear, move, wiggle (a region has its own motion), then "
+                   "contacts",
+                   word[peratom_flag]);
     batch = model->make_batch();
-    batch->label[0] = 1;
-    batch->on_record[0] = true;
-    shape = (Shape)(std::find(shapes, shapes + 4, std::string(*place)) - shapes);
-    const int numbers = shape == Z_CYLINDER ? 1 : 2;
-    if (end - place <= numbers) error->all(FLERR, "fix wall/restitute: {} needs a position", *place);
-    const auto at = [&](int k) {
-        return strcmp(place[k], "NULL") ? utils::numeric(FLERR, place[k], false, lmp) : nowhere;
-    };
-    low = at(1) == nowhere ? -nowhere : at(1);
-    high = at(numbers);
-    read_shear(place + numbers + 1, (int)(end - place) - numbers - 1);
-    if (shape == Z_CYLINDER ? domain->xperiodic || domain->yperiodic : domain->periodicity[shape])
-        error->all(FLERR, "fix wall/restitute: the box is periodic across the wall");
-    restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = 1;
-    size_vector = 7;
-    maxexchange = history_size = model->history_size();
+    std::fill_n(batch->on_record, Batch::SIZE, true);
+    size_peratom_cols = 8;
+    restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = peratom_freq = 1;
+    virial_global_flag = virial_peratom_flag = 1;
+    energy_global_flag = scalar_flag = extscalar = 1;
+    size_vector = 10;
+    history_size = model->history_size() + 1;
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
     for (int i = 0; i < atom->nlocal; i++)
         set_arrays(i);
     if (comm->me == 0) utils::logmesg(lmp, model->about());
+    warn_of_suffix(lmp, "fix wall/restitute");
 }
 
 FixWallRestitute::~FixWallRestitute()
 {
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);
-    memory->destroy(history);
-}
-
-void FixWallRestitute::read_shear(char **word, int words)
-{
-    if (words == 0) return;
-    const std::string axis = words == 3 && !strcmp(word[0], "shear") ? word[1] : "";
-    const int k = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : -1;
-    if (k < 0 || (shape == Z_CYLINDER ? k != 2 : k == (int)shape))
-        error->all(FLERR, "fix wall/restitute: '{}': must be shear AXIS V, with an axis along the wall", word[0]);
-    velocity[k] = utils::numeric(FLERR, word[2], false, lmp);
+    memory->destroy(array_atom);
 }
 
 int FixWallRestitute::setmask()
@@ -79,9 +66,18 @@ int FixWallRestitute::setmask()
 void FixWallRestitute::init()
 {
     frozen = check_host(lmp, "fix wall/restitute");
+    shape->init();
+    maxexchange = 1 + shape->faces() * history_size;
     model->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
+    if (thermo_energy && !model->has_details)
+        error->all(FLERR, "fix {} wall/restitute: fix_modify energy yes: needs the words 'details yes' of the law", id);
     reset_dt();
+    std::vector<double> mass, radius;
+    find_lightest(lmp, mass, radius);
+    for (int type = 1; type <= atom->ntypes; type++)
+        report_limit(lmp, fmt::format("wall {}, type {}, radius {:.6g}", id, type, radius[type]), *model, mass[type],
+                     radius[type]);
 }
 
 void FixWallRestitute::setup(int vflag)
@@ -96,66 +92,182 @@ void FixWallRestitute::reset_dt()
 
 /* ---- a time step */
 
-/* The nearest point of the wall; false: there is none. */
-bool FixWallRestitute::nearest(const double *x, double *point) const
+void FixWallRestitute::post_force(int vflag)
 {
-    std::copy_n(x, 3, point);
-    if (shape != Z_CYLINDER) {
-        point[shape] = x[shape] - low < high - x[shape] ? low : high;
-        return std::fabs(point[shape]) < nowhere;
-    }
-    const double r = std::sqrt(x[0] * x[0] + x[1] * x[1]);
-    for (int k = 0; k < 2; k++)
-        point[k] *= low / r;
-    return r > 0;
-}
-
-void FixWallRestitute::post_force(int)
-{
-    const Spheres spheres(atom, frozen);
-    double point[3];
+    if (!update->setupflag) time += update->dt;
+    shape->place(time, update->dt);
+    v_init(vflag);
     std::fill_n(force_on_wall, 3, 0.0);
-    for (int i = 0; i < atom->nlocal; i++) {
-        if (!(atom->mask[i] & groupbit)) continue;
-        const double *x = atom->x[i];
-        const auto square = [&](int k) { return (point[k] - x[k]) * (point[k] - x[k]); };
-        if (nearest(x, point) && square(0) + square(1) + square(2) < atom->radius[i] * atom->radius[i])
-            compute_contact(i, spheres, point);
-        else if (history[i][0] != 0)
-            set_arrays(i);
-    }
+    if (peratom_flag && atom->nlocal) std::fill_n(array_atom[0], atom->nlocal * size_peratom_cols, 0.0);
+    for (int i = 0; i < atom->nlocal; i++)
+        if (atom->mask[i] & groupbit) collect(i);
+    compute_batch();
     warn(lmp, model->record, warned);
 }
 
-/* Body 1 is the sphere. */
-void FixWallRestitute::compute_contact(int i, const Spheres &spheres, const double *point)
+/* Adds the contacts of a sphere to the batch, all of them to the same one. */
+void FixWallRestitute::collect(int i)
 {
-    static const double still[3] = {};
-    const char *problem;
     Batch &b = *batch;
-    if (!touching(spheres.body(i), {point, velocity, still, 0, 0}, b, 0)) return;
-    b.n = 1;
-    b.history[0] = history[i];
-    b.density[0] = spheres.density(i);
-    if ((update->setupflag ? model->repeat(b, &problem) : model->advance(b, &problem)) >= 0)
-        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[i], id, update->ntimestep,
-                   problem);
-    const double *n = b.motion[0].normal, *f = b.force[0];
+    const Spheres spheres(atom, frozen);
+    points.clear();
+    shape->touch(atom->x[i], atom->radius[i], points);
+    if (points.empty() && histories[i].empty()) return;
+    if ((int)points.size() > Batch::SIZE)
+        error->one(FLERR, "restitute: atom {} and wall {} at step {}: touches {} faces: must be at most {}",
+                   atom->tag[i], id, update->ntimestep, points.size(), (int)Batch::SIZE);
+    if (b.n + (int)points.size() > Batch::SIZE) compute_batch();
+    int last = b.n; /* body 1 is the sphere */
+    for (const WallPoint &point : points) {
+        if (!touching(spheres.body(i), {point.position, point.velocity, point.spin, 0, 0}, b, last)) continue;
+        b.motion[last].radius = effective_radius(i, point);
+        b.first[last] = i;
+        b.label[last] = point.label;
+        b.density[last] = spheres.density(i);
+        std::copy_n(point.position, 3, places[last++]);
+    }
+    find_histories(i, last);
+}
+
+/* As of a sphere on one of the mean curvature of the wall. */
+double FixWallRestitute::effective_radius(int i, const WallPoint &point) const
+{
+    const double radius = atom->radius[i], flatter = 1 + radius * point.curvature;
+    if (!(flatter > 0))
+        error->one(FLERR,
+                   "restitute: atom {} and wall {} at step {}: radius {:.6g}: must be below the radius of curvature of "
+                   "the wall, {:.6g}",
+                   atom->tag[i], id, update->ntimestep, radius, -1 / point.curvature);
+    return radius / flatter;
+}
+
+/* Of the contacts of a sphere, which are in the batch up to `last`. Histories of others have
+ * ended. */
+void FixWallRestitute::find_histories(int i, int last)
+{
+    Batch &b = *batch;
+    std::vector<double> &all = histories[i];
+    const double *labels = b.label + b.n, *end = b.label + last;
+    for (size_t k = all.size(); k > 0;) {
+        k -= history_size;
+        if (std::find(labels, end, std::fabs(all[k])) != end) continue;
+        const restitute_contact_details its = details(&all[k]);
+        ended_friction += its.friction;
+        ended_viscous += its.stored + its.viscous; /* springs relax */
+        all.erase(all.begin() + k, all.begin() + k + history_size);
+    }
+    const auto find = [&](double label) {
+        size_t k = 0;
+        while (k < all.size() && std::fabs(all[k]) != label)
+            k += history_size;
+        return k;
+    };
+    size_t place[Batch::SIZE];
+    for (int k = b.n; k < last; k++) {
+        place[k] = find(b.label[k]);
+        if (place[k] == all.size()) all.resize(all.size() + history_size);
+    }
+    for (int k = b.n; k < last; k++) {
+        b.history[k] = &all[place[k]];
+        b.history[k][history_size - 1] = b.motion[k].radius;
+    }
+    b.n = last;
+}
+
+void FixWallRestitute::compute_batch()
+{
+    Batch &b = *batch;
+    const char *problem;
+    const int bad = update->setupflag ? model->repeat(b, &problem) : model->advance(b, &problem);
+    if (bad >= 0)
+        error->one(FLERR, "restitute: atom {} and wall {} at step {}: {}", atom->tag[b.first[bad]], id,
+                   update->ntimestep, problem);
+    for (int k = 0; k < b.n; k++)
+        apply(k);
+    if (peratom_flag) show();
+    b.n = 0;
+}
+
+void FixWallRestitute::apply(int of_batch)
+{
+    const int i = batch->first[of_batch];
+    const double *n = batch->motion[of_batch].normal, *f = batch->force[of_batch], *x = atom->x[i],
+                 *at = places[of_batch];
+    const double *couple = model->couple(batch->history[of_batch]);
+    const double r[3] = {x[0] - at[0], x[1] - at[1], x[2] - at[2]};
+    double virial[6] = {r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]};
     for (int k = 0; k < 3; k++) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         atom->f[i][k] += f[k];
-        atom->torque[i][k] += b.arm1[0] * (n[l] * f[m] - n[m] * f[l]);
+        atom->torque[i][k] += batch->arm1[of_batch] * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
+        if (couple) atom->torque[i][k] += couple[k];
+    }
+    if (vflag_either) v_tally(i, virial);
+}
+
+/* As LAMMPS's `contacts`: 1, force on the sphere (3), contact point (3), radius. Of several contacts
+ * the forces are added, and the point is that of the largest. */
+void FixWallRestitute::show()
+{
+    const Batch &b = *batch;
+    double largest = 0;
+    for (int k = 0; k < b.n; k++) {
+        const double *f = b.force[k], square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        double *row = array_atom[b.first[k]];
+        if (k == 0 || b.first[k] != b.first[k - 1]) largest = 0;
+        row[0] = 1;
+        row[7] = atom->radius[b.first[k]];
+        for (int l = 0; l < 3; l++)
+            row[1 + l] += f[l];
+        if (square < largest) continue;
+        largest = square;
+        std::copy_n(places[k], 3, row + 4);
     }
 }
 
-/* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s. */
+/* ---- reports */
+
+restitute_contact_details FixWallRestitute::details(const double *history)
+{
+    return model->details(history[history_size - 1], history);
+}
+
+/* Stored, lost to friction, lost in dashpots; of this process. */
+void FixWallRestitute::sum_energies(double sum[3])
+{
+    const double ended[] = {0, ended_friction, ended_viscous};
+    std::copy_n(ended, 3, sum);
+    for (int i = 0; i < atom->nlocal && model->has_details; i++)
+        for (size_t k = 0; k < histories[i].size(); k += history_size) {
+            const restitute_contact_details its = details(&histories[i][k]);
+            sum[0] += its.stored, sum[1] += its.friction, sum[2] += its.viscous;
+        }
+}
+
+/* The stored energy, for `fix_modify energy`. */
+double FixWallRestitute::compute_scalar()
+{
+    return compute_vector(7);
+}
+
+/* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s,
+ * energies (3). */
 double FixWallRestitute::compute_vector(int n)
 {
     const Record &own = model->record;
-    const double values[] = {force_on_wall[0], force_on_wall[1], force_on_wall[2], own.steps,
-                             own.contacts,     own.beyond[0],    own.beyond[1]};
+    double values[] = {force_on_wall[0],
+                       force_on_wall[1],
+                       force_on_wall[2],
+                       own.steps,
+                       own.contacts,
+                       own.beyond[0],
+                       own.beyond[1],
+                       0,
+                       0,
+                       0};
     double sum;
+    if (n >= 7) sum_energies(values + 7);
     MPI_Allreduce(&values[n], &sum, 1, MPI_DOUBLE, MPI_SUM, world);
     return sum;
 }
@@ -166,40 +278,44 @@ void FixWallRestitute::post_run()
     if (comm->me == 0) utils::logmesg(lmp, "fix {} wall/restitute:\n{}", id, all.text(model->limits));
 }
 
-/* ---- states of contacts, one an atom */
+/* ---- histories of contacts */
 
 void FixWallRestitute::grow_arrays(int nmax)
 {
-    memory->grow(history, nmax, history_size, "wall/restitute:history");
+    histories.resize(nmax);
+    if (peratom_flag) memory->grow(array_atom, nmax, size_peratom_cols, "wall/restitute:array_atom");
 }
 
 void FixWallRestitute::copy_arrays(int i, int j, int)
 {
-    std::copy_n(history[i], history_size, history[j]);
+    histories[j] = histories[i];
 }
 
 void FixWallRestitute::set_arrays(int i)
 {
-    std::fill_n(history[i], history_size, 0.0);
+    histories[i].clear();
+    if (peratom_flag) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
 }
 
+/* How many numbers follow, and these. */
 int FixWallRestitute::pack_exchange(int i, double *buffer)
 {
-    std::copy_n(history[i], history_size, buffer);
-    return history_size;
+    buffer[0] = (double)histories[i].size();
+    std::copy(histories[i].begin(), histories[i].end(), buffer + 1);
+    return 1 + (int)histories[i].size();
 }
 
 int FixWallRestitute::unpack_exchange(int i, double *buffer)
 {
-    std::copy_n(buffer, history_size, history[i]);
-    return history_size;
+    histories[i].assign(buffer + 1, buffer + 1 + (int)buffer[0]);
+    return 1 + (int)buffer[0];
 }
 
 /* LAMMPS wants the length first, itself included. */
 int FixWallRestitute::pack_restart(int i, double *buffer)
 {
     buffer[0] = size_restart(i);
-    std::copy_n(history[i], history_size, buffer + 1);
+    std::copy(histories[i].begin(), histories[i].end(), buffer + 1);
     return size_restart(i);
 }
 
@@ -208,36 +324,45 @@ void FixWallRestitute::unpack_restart(int i, int nth)
     const double *values = atom->extra[i];
     for (int k = 0; k < nth; k++)
         values += (int)*values;
-    std::copy_n(values + 1, history_size, history[i]);
+    histories[i].assign(values + 1, values + (int)*values);
 }
 
-int FixWallRestitute::size_restart(int)
+int FixWallRestitute::size_restart(int i)
 {
-    return history_size + 1;
+    return 1 + (int)histories[i].size();
 }
 
 int FixWallRestitute::maxsize_restart()
 {
-    return history_size + 1;
+    return 1 + shape->faces() * history_size;
 }
+
+struct FixState {
+    uint64_t hash;
+    double time;
+};
 
 void FixWallRestitute::write_restart(FILE *file)
 {
-    const uint64_t hash = model->hash();
-    const int size = sizeof hash;
+    const FixState state = {model->hash(), time};
+    const int size = sizeof state;
     if (comm->me) return;
     fwrite(&size, sizeof size, 1, file);
-    fwrite(&hash, sizeof hash, 1, file);
+    fwrite(&state, sizeof state, 1, file);
 }
 
 void FixWallRestitute::restart(char *buffer)
 {
-    uint64_t hash;
-    memcpy(&hash, buffer, sizeof hash);
-    check_law(lmp, std::string("fix ") + id + " wall/restitute", hash, *model);
+    FixState state;
+    memcpy(&state, buffer, sizeof state);
+    check_law(lmp, std::string("fix ") + id + " wall/restitute", state.hash, *model);
+    time = state.time;
 }
 
 double FixWallRestitute::memory_usage()
 {
-    return (double)atom->nmax * history_size * sizeof(double);
+    double bytes = 0;
+    for (const std::vector<double> &its : histories)
+        bytes += (double)(sizeof its + its.capacity() * sizeof(double));
+    return bytes;
 }

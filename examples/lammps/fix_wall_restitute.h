@@ -1,5 +1,4 @@
-/* fix wall/restitute: viscoelastic contacts of spheres with planes and with the inside of a
- * cylinder.
+/* fix wall/restitute: viscoelastic contacts of spheres with planes, cylinders and regions.
  * SPDX-License-Identifier: GPL-2.0-or-later */
 #ifndef LMP_FIX_WALL_RESTITUTE_H
 #define LMP_FIX_WALL_RESTITUTE_H
@@ -7,8 +6,10 @@
 #include "fix.h"
 
 #include "contact_model.h"
+#include "wall_shapes.h"
 
 #include <memory>
+#include <vector>
 
 namespace LAMMPS_NS
 {
@@ -24,6 +25,7 @@ class FixWallRestitute : public Fix
     void reset_dt() override;
     void post_force(int vflag) override;
     void post_run() override;
+    double compute_scalar() override;
     double compute_vector(int n) override;
 
     void grow_arrays(int nmax) override;
@@ -40,20 +42,25 @@ class FixWallRestitute : public Fix
     double memory_usage() override;
 
   private:
-    enum Shape { X_PLANE, Y_PLANE, Z_PLANE, Z_CYLINDER };
-
-    void read_shear(char **word, int words);
-    bool nearest(const double *x, double *point) const;
-    void compute_contact(int i, const class Spheres &spheres, const double *point);
+    void collect(int i);
+    double effective_radius(int i, const WallPoint &point) const;
+    void find_histories(int i, int last);
+    void compute_batch();
+    void apply(int of_batch);
+    void show();
+    restitute_contact_details details(const double *history);
+    void sum_energies(double sum[3]);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
-    std::unique_ptr<restitute_dem::Batch> batch; /* of one contact */
-    Shape shape;
-    double low, high;        /* where the planes are; low: the radius of the cylinder */
-    double velocity[3] = {}; /* of the wall, along itself */
-    double **history = nullptr;
-    double force_on_wall[3] = {};
-    int history_size, frozen = 0;
+    std::unique_ptr<restitute_dem::Batch> batch;
+    double places[restitute_dem::Batch::SIZE][3]; /* of the wall, where the contacts of the batch are */
+    std::unique_ptr<WallShape> shape;
+    double time = 0;                            /* of this wall, which moves from its start */
+    std::vector<std::vector<double>> histories; /* of each atom: those of its contacts, one after the other */
+    std::vector<WallPoint> points;              /* of one sphere */
+    double force_on_wall[3] = {}, ended_friction = 0, ended_viscous = 0;
+    int history_size; /* of a contact: as of the model, then its effective radius */
+    int frozen = 0;
     bool warned[restitute_dem::RATIOS] = {};
 };
 

@@ -208,7 +208,7 @@ typedef struct restitute_contact_details {
                                 are included */
     double friction;       /**< J, lost to slip; never falls */
     double viscous;        /**< J, lost in dashpots; never falls. work = stored + friction +
-                                viscous within some percent */
+                                viscous, see docs/contact.md, Losses */
     double friction_power; /**< W, lost to slip in the last step */
     double viscous_power;  /**< W, lost in dashpots in the last step */
 } restitute_contact_details;

@@ -50,6 +50,7 @@ struct rows {
     double q[2][most_n];                        /* within the limit of friction */
     double spent[most_n];                       /* by dashpots in the step, normal */
     double at_rest[most_n], by_move[2][most_n]; /* likewise tangential: without displacement, by a unit of it */
+    double held[2][most_n];                     /* by the springs before the step, tangential */
 };
 
 struct work {
@@ -342,6 +343,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
                                                                                d * c.at.terms * n;
         double *const trial = row->trial[d];
         const double move = s->move[d][l], dashpot = c.law->eta * per_step * move;
+        if (c.at.details) EACH_ELEMENT row->held[d][i] = c.law->g_inf * u[i];
         EACH_ELEMENT
         {
             u[i] += row->touch[i] * move;
@@ -356,6 +358,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
                 trial[i] += g * w[k * n + i];
                 if (c.at.details) row->at_rest[i] += c.r->spent[k][0] * before * before;
                 if (c.at.details) row->by_move[d][i] += c.r->spent[k][1] * before;
+                if (c.at.details) row->held[d][i] += g * before;
             }
         }
     }
@@ -540,10 +543,11 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
             {
                 const double moved = row->touch[i] * s->move[d][l] - back[i];
                 row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
-                slipped[i] += c.law->weight[i] * row->q[d][i] * back[i];
+                slipped[i] += 0.5 * (row->held[d][i] + row->q[d][i]) * back[i]; /* the trapezoid, as of the work */
             }
     }
     if (!c.at.details) return;
+    EACH_ELEMENT slipped[i] = c.law->weight[i] * larger(slipped[i], 0);
     s->slipped[l] = sum_of(slipped, n);
     EACH_ELEMENT slipped[i] = c.law->weight[i] * row->at_rest[i];
     s->spent[l] += c.law->tangential * s->width[l] * sum_of(slipped, n);
@@ -595,7 +599,7 @@ INLINE void shear(const struct call c, struct work *s)
             const double response =
                 scale * velocity_response(0.5 * c.step * c.in->inverse_mass[1][l], scale * sticking * c.r->viscosity);
             const double x = -response * s->total[0][l], y = -response * s->total[1][l];
-            const double kept = smaller(1, fastest / larger(larger(fabs(x), fabs(y)), DBL_MIN)) * s->touches[l];
+            const double kept = s->touches[l] * fastest / larger(fastest, larger(fabs(x), fabs(y)));
             change[0][l] = kept * x;
             change[1][l] = kept * y;
             s->speed[0][l] += change[0][l];
@@ -607,10 +611,11 @@ INLINE void shear(const struct call c, struct work *s)
         }
         close_slide(c, s);
     }
-    EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit */
+    EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit; its square may underflow */
     {
         const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
-        const double x = scale * s->total[0][l], y = scale * s->total[1][l], size = sqrt(x * x + y * y);
+        const double x = scale * s->total[0][l], y = scale * s->total[1][l], one = larger(fabs(x), fabs(y));
+        const double px = x / larger(one, DBL_MIN), py = y / larger(one, DBL_MIN), size = one * sqrt(px * px + py * py);
         const double kept = limit / larger(larger(size, limit), DBL_MIN);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
@@ -659,7 +664,7 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
-    double y = s->edge[l] * s->edge[l], margin[2];
+    double margin[2];
     int j = 0;
     while (j < s->last[l] && stuck >> j & 1)
         j++;
@@ -667,9 +672,9 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
     if (j == s->last[l]) return s->width[l] * s->edge[l];
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
-    y = smaller(y,
-                c.law->y[j - 1] + (c.law->y[j] - c.law->y[j - 1]) * margin[0] / larger(margin[0] - margin[1], DBL_MIN));
-    return s->width[l] * sqrt(y);
+    const double inwards = c.law->y[j - 1], outwards = c.law->y[j]; /* rounding may make any margin zero */
+    const double share = larger(margin[0], 0) / larger(larger(margin[0], 0) - margin[1], DBL_MIN);
+    return s->width[l] * smaller(s->edge[l], sqrt(inwards + (outwards - inwards) * smaller(share, 1)));
 }
 
 /* The work of the bodies by the trapezoid, as velocity Verlet has it, and what became of it; `state` is still of before. */
