@@ -56,7 +56,8 @@ class FixRestitute : public Fix
         std::unique_ptr<restitute_dem::Batch> batch = make_batch();
     };
     using Model = std::shared_ptr<Law>; /* shared by types with the same words */
-    /* Behind the state of a contact: the step that computed it last, and at a wall the normal then. */
+    /* Behind the state of a contact: the step that computed it last, and at a wall the normal
+     * then. */
     enum { LAST_STEP = 0, NORMAL = 1, NUMBERS_OF_PAIRS = 1, NUMBERS_OF_WALLS = 4 };
 
     [[noreturn]] void refuse(const std::string &what) const;

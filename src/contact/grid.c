@@ -1,6 +1,6 @@
-/* The nodes of a contact and the integral over its radius of what is linear in y = x^2 between them:
- * exact for the elastic force, for any number of nodes (docs/contact.md). Their width when a contact
- * begins, and when it outgrows them.
+/* The nodes of a contact and the integral over its radius of what is linear in y = x^2 between
+ * them: exact for the elastic force, for any number of nodes (docs/contact.md). Their width when a
+ * contact begins, and when it outgrows them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 

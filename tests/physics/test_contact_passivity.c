@@ -91,8 +91,9 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
-/* In these coarse steps many elements leave at once, with what their springs held: the energies miss
- * up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and 0.1 %. */
+/* In these coarse steps many elements leave at once, with what their springs held: the energies
+ * miss up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and
+ * 0.1 %. */
 static void losses_never_fall(void **unused)
 {
     (void)unused;
