@@ -268,14 +268,15 @@ static void least_overlap_spoils_nothing(void **unused)
 
 enum { most_contacts = 17, all_refusals = 13 };
 
-/* Contacts of one law, by single steps and in batches. States of the batch lie in a larger array, in another order. */
+/* Contacts of one law, by single steps and in batches. States of the batch lie in a larger array, in
+ * another order. */
 struct crowd {
     const restitute_contact_law *law;
     restitute_contact_rates rates;
     restitute_contact_motion motion[most_contacts];
     double single[most_contacts][most_state], *state[most_contacts], pool[most_contacts * (most_state + 3)];
     restitute_contact_force one[most_contacts], many[most_contacts];
-    double other[most_state], young[most_state], corrupt[most_state]; /* states that are refused */
+    double other[most_state], young[most_state], corrupt[most_state]; /* of refused contacts */
 };
 
 static void assemble(struct crowd *c, restitute_contact_law *law, restitute_contact_law *other)
@@ -294,8 +295,8 @@ static void assemble(struct crowd *c, restitute_contact_law *law, restitute_cont
     }
 }
 
-/* Approach at 1e-4 m/s and faster retreat, again and again, of some contacts later. A third has a mass that would be stopped within
- * 1e-5 m, a sixteenth of the largest overlap, so that their grids are outgrown. */
+/* Approach at 1e-4 m/s and faster retreat, again and again, of some contacts later. Two thirds have a
+ * mass that stops within some 1e-5 m, a part of the largest overlap, so that grids are outgrown. */
 static void move_contact(restitute_contact_motion *m, int i, int step)
 {
     const double v = (step + 150 - 9 * i) % 260 < 200 ? 1e-4 : -3e-4;

@@ -179,8 +179,8 @@ static void turn_about(const double axis[3], double angle, const double v[3], do
     }
 }
 
-/* Two bodies in contact turn together by 2 rad about an axis. Largest difference between their tangential force, turned, and that of
- * a contact that does not turn, over the latter. */
+/* Two bodies in contact turn together by 2 rad about an axis. Largest difference between their
+ * tangential force and that of a contact that does not turn, turned, over the latter. */
 static double error_of_turn(restitute_contact_law *law, const double axis[3], int steps)
 {
     struct drive still = drive_of(law, 1e-3, friction);

@@ -19,9 +19,35 @@ static restitute_material *random_material(uint64_t *seed)
     return material;
 }
 
+/* What a contact has lost never falls, also when the bodies are apart; powers are its rates. */
+struct losses {
+    double friction, viscous; /* sums of power times step, J */
+    restitute_contact_details now;
+};
+
+static void watch(const struct drive *d, struct losses *l, uint64_t number)
+{
+    restitute_contact_details e;
+    restitute_error error;
+    restitute_contact_details_init(&e);
+    CHECK(restitute_contact_details_get(d->law, 1, d->state, &e, &error) == 0, "%s", error.message);
+    CHECK(e.friction >= l->now.friction && e.viscous >= l->now.viscous,
+          "drive %llu: friction %g after %g J, viscous %g after %g J", (unsigned long long)number, e.friction,
+          l->now.friction, e.viscous, l->now.viscous);
+    CHECK(e.friction_power >= 0 && e.viscous_power >= 0 && e.stored >= 0, "drive %llu: %g W, %g W, %g J",
+          (unsigned long long)number, e.friction_power, e.viscous_power, e.stored);
+    CHECK(e.stick_radius >= 0 && e.stick_radius <= e.contact_radius, "drive %llu: stick radius %g of %g m",
+          (unsigned long long)number, e.stick_radius, e.contact_radius);
+    CHECK(d->force.normal <= 0 || e.contact_radius > 0, "drive %llu: no contact radius at %g N",
+          (unsigned long long)number, d->force.normal);
+    l->friction += e.friction_power * d->rates.step;
+    l->viscous += e.viscous_power * d->rates.step;
+    l->now = e;
+}
+
 /* Approach, retreat, stop, oscillate, slide round corners, with steps of several lengths; then
  * apart. */
-static void drive_at_random(struct drive *d, uint64_t *seed, double size)
+static void drive_at_random(struct drive *d, uint64_t *seed, double size, struct losses *losses, uint64_t number)
 {
     const int legs = 3 + random_below(seed, 12);
     for (int leg = 0; leg < legs; leg++) {
@@ -32,10 +58,13 @@ static void drive_at_random(struct drive *d, uint64_t *seed, double size)
         for (int i = 0; i < n; i++) {
             const double swing = kind == 3 ? sin(0.7 * i) : 1, slide = kind == 0 ? 0 : swing / n;
             drive_by(d, kind == 2 ? 0 : swing * far / n, slide * x, slide * y);
+            if (losses) watch(d, losses, number);
         }
     }
-    while (d->motion.overlap > -size)
+    while (d->motion.overlap > -size) {
         drive_by(d, -0.1 * size, 0.01 * size, 0);
+        if (losses) watch(d, losses, number);
+    }
 }
 
 /* Velocity Verlet computes the work by the trapezoidal rule. No energy may be gained beyond the
@@ -50,7 +79,7 @@ static void no_drive_gains_work(void **unused)
         restitute_contact_law *law = law_of(material, 8, 0);
         const double size = random_log(&seed, 1e-6, 1e-2);
         struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
-        drive_at_random(&d, &seed, size);
+        drive_at_random(&d, &seed, size, NULL, i);
         CHECK(d.force.normal <= 0, "drive %llu: has not ended", (unsigned long long)i);
         const double scale = d.largest_force * size, gain = -d.work - d.trapezoid - 1e-12 * scale;
         CHECK(gain <= 0, "drive %llu: gained %.3g of %.3g J", (unsigned long long)i, gain, scale);
@@ -58,11 +87,40 @@ static void no_drive_gains_work(void **unused)
         restitute_contact_law_destroy(law);
         restitute_material_destroy(material);
     }
-    print_message("work over force times path: at least %.3g; error of the trapezoid in the mean %.3g\n", least, allowed);
+    print_message("work over force times path: at least %.3g; error of the trapezoid in the mean %.3g\n", least,
+                  allowed);
+}
+
+/* In these coarse steps many elements leave at once, with what their tangential springs held: the
+ * energies miss up to 15 % and 1.1 % in the mean. With steps of an eighth and 32 elements it is 1.8 %
+ * and 0.1 %. */
+static void losses_never_fall(void **unused)
+{
+    (void)unused;
+    double worst = 0, mean = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        uint64_t seed = i;
+        restitute_material *material = random_material(&seed);
+        restitute_contact_law *law = law_of(material, 8, 1);
+        const double size = random_log(&seed, 1e-6, 1e-2);
+        struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
+        struct losses l = {0};
+        drive_at_random(&d, &seed, size, &l, i);
+        CHECK_NEAR(l.friction, l.now.friction, 1e-12 * l.now.friction, "friction power times time"); /* 500 sums */
+        CHECK_NEAR(l.viscous, l.now.viscous, 1e-12 * l.now.viscous, "viscous power times time");
+        CHECK_NEAR(l.now.work, d.work, 1e-12 * d.largest_force * size, "work of drive %llu", (unsigned long long)i);
+        const double found = l.now.stored + l.now.friction + l.now.viscous, scale = found + d.largest_force * size;
+        const double off = scale > 0 ? fabs(found - l.now.work) / scale : 0;
+        worst = fmax(worst, off), mean += off / 2000;
+        restitute_contact_law_destroy(law);
+        restitute_material_destroy(material);
+    }
+    print_message("energies beside work: off by at most %.3g, mean %.3g\n", worst, mean);
+    CHECK(worst < 0.2 && mean < 0.015, "energies are off by up to %.3g, mean %.3g", worst, mean);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_drive_gains_work)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_drive_gains_work), cmocka_unit_test(losses_never_fall)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,13 +23,14 @@ struct dem_impact {
     double time_step;
     double phase; /* of the first step before touch, in [0, 1) */
     double angle; /* of the sliding direction in the tangential plane */
-    int elements;
+    int elements, details;
 };
 
 struct dem_result {
     int status;
-    double ez, ex, across; /* across: velocity across the sliding direction over the incoming one */
-    double work;           /* of the contact on the sphere, over the kinetic energy */
+    double ez, ex, across;           /* across: velocity across the sliding direction over the incoming one */
+    double work;                     /* of the contact on the sphere, over the kinetic energy */
+    restitute_contact_details spent; /* with details: in units of the kinetic energy */
     long steps;
 };
 
@@ -64,6 +65,7 @@ static inline restitute_contact_law *dem_law(const struct dem_impact *impact)
     restitute_contact_law_options_init(&options);
     options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     options.elements = impact->elements;
+    options.details = impact->details;
     CHECK(restitute_contact_law_create(impact->material, &options, &law, &error) == 0, "%s", error.message);
     return law;
 }
@@ -87,7 +89,8 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
     restitute_contact_force force = {0};
     restitute_error error;
     double state[most_state] = {0};
-    const double h = impact->time_step, incoming = impact->psi * impact_friction * (2 - impact_nu) / (2 - 2 * impact_nu);
+    const double h = impact->time_step,
+                 incoming = impact->psi * impact_friction * (2 - impact_nu) / (2 - 2 * impact_nu);
     const double along[2] = {cos(impact->angle), sin(impact->angle)};
     double v[3] = {incoming * along[0], incoming * along[1], 1}, half[3];
     const double mass[3] = {impact->tangential_mass, impact->tangential_mass, impact->mass};
@@ -124,7 +127,14 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
         result.ex = -(v[0] * along[0] + v[1] * along[1]) / incoming;
         result.across = (v[1] * along[0] - v[0] * along[1]) / incoming;
     }
-    result.work /= 0.5 * impact->mass + 0.5 * impact->tangential_mass * incoming * incoming;
+    const double energy = 0.5 * impact->mass + 0.5 * impact->tangential_mass * incoming * incoming;
+    result.work /= energy;
+    if (impact->details) {
+        restitute_contact_details_init(&result.spent);
+        CHECK(restitute_contact_details_get(law, 1, state, &result.spent, &error) == 0, "%s", error.message);
+        result.spent.work /= energy, result.spent.stored /= energy;
+        result.spent.friction /= energy, result.spent.viscous /= energy;
+    }
     restitute_contact_law_destroy(law);
     return result;
 }

@@ -11,10 +11,12 @@ struct drive {
     restitute_contact_motion motion;
     restitute_contact_force force;
     double state[most_state];
-    double work;          /* done on the contact so far, by the trapezoid, J */
-    double trapezoid;     /* what that may be off by: where a force bends once in a step, 1/8 of its second difference times the way */
+    double work; /* done on the contact so far, by the trapezoid, J */
+    /* what that may be off by: where a force bends once in a step, 1/8 of its second difference times
+     * the way */
+    double trapezoid;
     restitute_contact_force change; /* of the force in the last step */
-    double largest_force; /* so far, N */
+    double largest_force;           /* so far, N */
 };
 
 static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int details)
@@ -59,14 +61,15 @@ static inline void drive_by(struct drive *d, double approach, double x, double y
     CHECK(restitute_contact_step(d->law, &d->rates, m, d->state, &d->force, &error) == 0, "%s", error.message);
     CHECK(isfinite(d->force.normal) && d->force.normal >= 0, "normal force %g", d->force.normal);
     CHECK(isfinite(d->force.tangential[0]) && isfinite(d->force.tangential[1]), "tangential force");
-    d->work += 0.5 * (approach * (before.normal + d->force.normal) - x * (before.tangential[0] + d->force.tangential[0]) -
-                      y * (before.tangential[1] + d->force.tangential[1]));
-    const restitute_contact_force change = {d->force.normal - before.normal,
-                                            {d->force.tangential[0] - before.tangential[0],
-                                             d->force.tangential[1] - before.tangential[1], 0}};
+    d->work +=
+        0.5 * (approach * (before.normal + d->force.normal) - x * (before.tangential[0] + d->force.tangential[0]) -
+               y * (before.tangential[1] + d->force.tangential[1]));
+    const restitute_contact_force change = {
+        d->force.normal - before.normal,
+        {d->force.tangential[0] - before.tangential[0], d->force.tangential[1] - before.tangential[1], 0}};
     d->trapezoid += 0.125 * (fabs(approach * (change.normal - d->change.normal)) +
-                           fabs(x * (change.tangential[0] - d->change.tangential[0])) +
-                           fabs(y * (change.tangential[1] - d->change.tangential[1])));
+                             fabs(x * (change.tangential[0] - d->change.tangential[0])) +
+                             fabs(y * (change.tangential[1] - d->change.tangential[1])));
     d->change = change;
     d->largest_force = fmax(d->largest_force, d->force.normal);
 }

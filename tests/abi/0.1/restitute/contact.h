@@ -57,8 +57,8 @@ typedef struct restitute_contact_law_options {
     double shortest;
     double longest;     /**< see `shortest` */
     int frictionless;   /**< nonzero: no tangential force, no states for it; default 0 */
-    int energies;       /**< nonzero: two more doubles a contact, for @ref
-                             restitute_contact_energies_get; default 0 */
+    int details;        /**< nonzero: seven more doubles a contact, for @ref
+                             restitute_contact_details_get; default 0 */
 } restitute_contact_law_options;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_law_options)
@@ -83,7 +83,7 @@ RESTITUTE_SINCE_0_1 int restitute_contact_law_create(const restitute_material *m
 RESTITUTE_SINCE_0_1 void restitute_contact_law_destroy(restitute_contact_law *law);
 
 /** Doubles of the state of one contact: 8 + elements x (2 with friction + terms x (1, 3 with
- *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 2 with energies. With 8
+ *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 7 with details. With 8
  *  elements and friction: elastic 24, Kelvin-Voigt 32, standard solid 48. 0 for NULL. */
 RESTITUTE_SINCE_0_1 size_t restitute_contact_law_state_size(const restitute_contact_law *law);
 
@@ -101,11 +101,19 @@ RESTITUTE_SINCE_0_1 int restitute_contact_law_series(const restitute_contact_law
     double *equilibrium_modulus, double *parallel_viscosity, size_t *n_terms,
     double *relaxation_time, double *modulus, double *error_bound, restitute_error *error);
 
-/** Largest time step that is safe for impacts of this speed: a fiftieth of the contact time. It
- *  falls with speed^(-1/5). Mass, radius and speed are in [1e-60, 1e60].
+/** Time scale of an impact: largest overlap over speed. An elastic impact lasts 2.943 of it, of
+ *  which it approaches for half. It falls with speed^(-1/5). Mass, radius and speed are in [1e-60,
+ *  1e60].
  *
  *  @param mass    effective, 1/(1/m1 + 1/m2)        @param radius  effective, 1/(1/R1 + 1/R2)
- *  @param speed   normal                            @param limit   s */
+ *  @param speed   normal                            @param scale   s */
+RESTITUTE_SINCE_0_1 int restitute_contact_time_scale(const restitute_contact_law *law, double mass,
+    double radius, double speed, double *scale, restitute_error *error);
+
+/** Largest time step that is safe for impacts of this speed: a fiftieth of the contact time.
+ *  Arguments as of @ref restitute_contact_time_scale.
+ *
+ *  @param limit  s */
 RESTITUTE_SINCE_0_1 int restitute_contact_time_step_limit(const restitute_contact_law *law,
     double mass, double radius, double speed, double *limit, restitute_error *error);
 
@@ -117,7 +125,7 @@ typedef struct restitute_contact_rates {
     size_t struct_size; /**< set by @ref restitute_contact_rates_init */
     double step;        /**< s */
     uint64_t law;       /**< hash of the law they are of */
-    double values[26];  /**< the law's own */
+    double values[50];  /**< the law's own */
 } restitute_contact_rates;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_rates)
@@ -126,26 +134,25 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_rates)
 RESTITUTE_SINCE_0_1 int restitute_contact_rates_set(const restitute_contact_law *law, double step,
     restitute_contact_rates *rates, restitute_error *error);
 
-/** One time step of one contact. What has no other default is 0. */
+/** The motion of two bodies in contact over one time step. What has no other default is 0. */
 typedef struct restitute_contact_motion {
-    size_t struct_size;                    /**< set by @ref restitute_contact_motion_init */
-    double overlap;                        /**< m, at the end of the step, at most radius; <= 0:
-                                                apart */
-    double normal_velocity;                /**< m/s, mean of the step (velocity Verlet: at its
-                                                middle), positive if approaching; at most
-                                                radius/step either way */
-    double displacement[3];                /**< m, of the surface of body 1 past that of body 2 in
-                                                the step; its normal part is ignored. Each up to
-                                                radius */
-    double normal[3];                      /**< unit vector from body 1 into body 2; default (0,
-                                                0, 1) */
-    double half_step_over_mass;            /**< s/kg, step/(2 m), m effective; 0 for motion that
-                                                forces do not change; up to 1e30, as the next */
-    double half_step_over_tangential_mass; /**< s/kg, the same with 1/m1 + R1^2/J1 + 1/m2 + R2^2/J2
-                                                for 1/m */
-    double radius;                         /**< m, effective, in [1e-15, 1e15]; required, default
-                                                0 */
-    double friction;                       /**< coefficient, in [0, 1e6]; default 0 */
+    size_t struct_size;             /**< set by @ref restitute_contact_motion_init */
+    double overlap;                 /**< m, at the end of the step, at most radius; <= 0: apart */
+    double normal[3];               /**< unit vector from body 1 into body 2, at the end of the
+                                         step; default (0, 0, 1) */
+    double velocity[3];             /**< m/s, of the surface of body 1 at the contact, relative to
+                                         that of body 2, mean of the step (velocity Verlet: at its
+                                         middle). Its part along `normal` closes the contact. Each
+                                         at most radius/step either way */
+    double spin;                    /**< rad/s, mean of the angular velocities of the two bodies
+                                         about `normal`, (spin1 + spin2) . normal/2: the tangential
+                                         force turns with the bodies. At most 1/step either way */
+    double inverse_mass;            /**< 1/kg, 1/m1 + 1/m2, in [0, 2e30/step]; 0: forces do not
+                                         change the motion */
+    double inverse_tangential_mass; /**< 1/kg, 1/m1 + R1^2/J1 + 1/m2 + R2^2/J2, in the same range;
+                                         of solid spheres 3.5 `inverse_mass` */
+    double radius;                  /**< m, effective, in [1e-15, 1e15]; required, default 0 */
+    double friction;                /**< coefficient, in [0, 1e6]; default 0 */
 } restitute_contact_motion;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_motion)
@@ -170,16 +177,17 @@ RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
     const restitute_contact_rates *rates, const restitute_contact_motion *motion, double *state,
     restitute_contact_force *force, restitute_error *error);
 
-/** Advance n contacts of one law, the i-th with states + i stride; n may be 0.
+/** Advance n contacts of one law; n may be 0. Faster than n single steps, with the same bits.
  *
+ *  @param states    n states, each as in @ref restitute_contact_step and no two of them the same
  *  @param statuses  optional: n statuses. A contact that fails stops no other
  *  @return OK, or the status of the first contact that failed, named in `error`, e.g. "motions[7]:
  *          motion.friction = -1: must be in [0, 1e+06]". A call that is refused as a whole
- *          (ERROR_NULL; ERROR_STRUCT_SIZE of rates or any motion; rates of another law; a stride
- *          below the size of a state) touches nothing */
+ *          (ERROR_NULL, also of any state; ERROR_STRUCT_SIZE of rates or any motion; rates of
+ *          another law) touches nothing */
 RESTITUTE_SINCE_0_1 int restitute_contact_step_many(const restitute_contact_law *law,
     const restitute_contact_rates *rates, size_t n, const restitute_contact_motion *motions,
-    double *states, size_t stride, restitute_contact_force *forces, int *statuses,
+    double *const *states, restitute_contact_force *forces, int *statuses,
     restitute_error *error);
 
 /** The force of the last step again, without advancing; zero for a new contact. For hosts that
@@ -190,23 +198,29 @@ RESTITUTE_SINCE_0_1 int restitute_contact_peek(const restitute_contact_law *law,
     const double normal[3], const double *state, restitute_contact_force *force,
     restitute_error *error);
 
-/** Where the work that two bodies have done on their contact went, J. The three add up to it. */
-typedef struct restitute_contact_energies {
-    size_t struct_size; /**< set by @ref restitute_contact_energies_init */
-    double stored;      /**< in springs, those outside the contact that have not relaxed yet
-                             included */
-    double friction;    /**< lost to slip */
-    double viscous;     /**< lost in dashpots: the rest, so that the errors of the other two (some
-                             percent of them) are here */
-} restitute_contact_energies;
+/** What a contact has done since it began, and how it is now. */
+typedef struct restitute_contact_details {
+    size_t struct_size;    /**< set by @ref restitute_contact_details_init */
+    double contact_radius; /**< m */
+    double stick_radius;   /**< m, without slip up to there; 0: all slips */
+    double work;           /**< J, of the two bodies on the contact, by the trapezoidal rule */
+    double stored;         /**< J, in springs; those outside the contact that have not relaxed yet
+                                are included */
+    double friction;       /**< J, lost to slip; never falls */
+    double viscous;        /**< J, lost in dashpots; never falls. work = stored + friction +
+                                viscous within some percent */
+    double friction_power; /**< W, lost to slip in the last step */
+    double viscous_power;  /**< W, lost in dashpots in the last step */
+} restitute_contact_details;
 
-RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_energies)
+RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_details)
 
-/** Energies of a contact since it began; of a law made with `energies`.
+/** Radii, energies and powers of a contact; of a law made with `details`. All are 0 for a new
+ *  contact.
  *
  *  @param radius  effective, m, as in the motion */
-RESTITUTE_SINCE_0_1 int restitute_contact_energies_get(const restitute_contact_law *law,
-    double radius, const double *state, restitute_contact_energies *energies,
+RESTITUTE_SINCE_0_1 int restitute_contact_details_get(const restitute_contact_law *law,
+    double radius, const double *state, restitute_contact_details *details,
     restitute_error *error);
 
 /** Turn the memory of a contact with a normal that jumps, as when a sphere slides onto the next
