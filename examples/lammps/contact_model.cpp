@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "contact_model.h"
 
-#include <restitute/files.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <stdexcept>
 
 namespace restitute_dem
 {
@@ -45,17 +40,25 @@ std::string Record::text(const double limits[RATIOS]) const
     return all;
 }
 
+/* To three digits, so that a ratio beyond 1 does not read as 1. */
+static double rounded_up(double ratio)
+{
+    const double unit = std::pow(10, std::floor(std::log10(ratio)) - 2);
+    return std::ceil(ratio / unit) * unit;
+}
+
 std::string Record::warning(Ratio which, long long step) const
 {
-    char line[200] = "";
+    char line[300] = "";
     if (which == STEP && beyond[STEP] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld that needs a time step shorter by a factor of %.3g",
-                      step, largest[STEP]);
+                      step, rounded_up(largest[STEP]));
     if (which == DEPTH && beyond[DEPTH] > 0)
         std::snprintf(line, sizeof line,
                       "restitute: a contact began at step %lld with %.3g times the overlap that two steps explain: "
-                      "spheres were created with an overlap, or their contact was lost or found late",
+                      "spheres were created with an overlap, or their contact was lost or found late; see 'Spheres "
+                      "that overlap' in contacts.md of the adapter",
                       step, largest[DEPTH]);
     return line;
 }
@@ -73,142 +76,15 @@ void ContactModel::note(Ratio which, double ratio)
  * the impact. */
 void ContactModel::note_first_touch(const restitute_contact_motion &contact, double density)
 {
-    const double speed = dot(contact.velocity, contact.normal);
-    double limit; /* a fiftieth of the contact time, which is 2.9433 time scales */
+    const double speed = dot(contact.velocity, contact.normal), mass = 1 / contact.inverse_mass;
+    double scale;
     record.contacts++;
     note(DEPTH, contact.overlap / (2 * (rates.step * std::max(speed, 0.0) + drift) + 1e-5 * contact.radius));
-    if (restitute_contact_time_step_limit(law, 1 / contact.inverse_mass, contact.radius, speed, &limit, nullptr) < 0)
+    if (restitute_contact_time_scale(law, mass, contact.radius, speed, &scale, nullptr) < 0)
         return; /* no speed of approach: bodies were put into each other */
-    const double modulus = restitute_material_modulus(material, limit * 50 / 2.9433);
+    const double modulus = restitute_material_modulus(material, scale);
     note(SPEED, speed / std::sqrt(modulus / std::max(density, file_density)));
-    note(STEP, rates.step / limit);
-}
-
-/* ---- words of a script */
-
-static double number(const std::string &word)
-{
-    double value = NAN;
-    const char *end = word.data() + word.size();
-    const auto read = std::from_chars(word.data(), end, value); /* whatever the locale */
-    if (read.ec != std::errc() || read.ptr != end || std::isnan(value))
-        throw std::invalid_argument("'" + word + "': must be a number");
-    return value;
-}
-
-static void demand(int status, const restitute_error &error)
-{
-    if (status < 0) throw std::invalid_argument(error.message);
-}
-
-ContactModel::ContactModel(const std::vector<std::string> &words, const Units &units) : words(words)
-{
-    restitute_contact_law_options options;
-    std::string partner;
-    restitute_contact_law_options_init(&options);
-    restitute_contact_motion_init(&motion);
-    restitute_contact_rates_init(&rates);
-    try {
-        read(units, options, partner);
-        options.deformable = partner == "" ? RESTITUTE_BOTH_BODIES_DEFORM : RESTITUTE_ONE_BODY_DEFORMS;
-        if (partner != "" && partner != "rigid") join(partner, units);
-        demand(restitute_contact_law_create(material, &options, &law, &error), error);
-        remark = error.message;
-    } catch (...) {
-        restitute_material_destroy(material);
-        throw;
-    }
-}
-
-ContactModel::~ContactModel()
-{
-    restitute_contact_law_destroy(law);
-    restitute_material_destroy(material);
-}
-
-void ContactModel::read(const Units &units, restitute_contact_law_options &options, std::string &partner)
-{
-    size_t i = 0;
-    const auto next = [&]() {
-        if (++i >= words.size()) throw std::invalid_argument("'" + words[i - 1] + "': something must follow");
-        return words[i];
-    };
-    if (words.empty()) throw std::invalid_argument("the file of a material is missing");
-    for (motion.friction = -1, i = 1; i < words.size(); i++) {
-        const std::string &word = words[i];
-        if (word == "friction")
-            motion.friction = number(next());
-        else if (word == "partner")
-            partner = next();
-        else if (word == "elements")
-            options.elements = (int)number(next());
-        else if (word == "terms")
-            options.terms = (int)number(next());
-        else if (word == "window")
-            options.shortest = number(next()), options.longest = number(next());
-        else if (word == "limits")
-            limits[RADIUS] = number(next()), limits[SPEED] = number(next());
-        else
-            throw std::invalid_argument("'" + word + "': must be friction, partner, elements, terms, window or limits");
-    }
-    if (!(motion.friction >= 0 && motion.friction <= 1e6))
-        throw std::invalid_argument("'friction MU' is required, with MU in [0, 1e6]");
-    options.frictionless = motion.friction == 0;
-    open(words[0], units, &material);
-}
-
-/* A material in units of the host. */
-void ContactModel::open(const std::string &file, const Units &units, restitute_material **opened)
-{
-    restitute_material *si;
-    restitute_material_info info;
-    double g_inf, eta;
-    restitute_material_info_init(&info);
-    demand(restitute_material_read(file.c_str(), &si, &info, &error), error);
-    if (info.density > 0) file_density = std::max(file_density, info.density / units.density);
-    const size_t n = restitute_material_terms(si);
-    std::vector<double> tau(n + 1), g(n + 1);
-    restitute_material_series(si, &g_inf, &eta, tau.data(), g.data(), nullptr);
-    for (double &modulus : g)
-        modulus /= units.stress;
-    const int status = restitute_material_prony(g_inf / units.stress, eta / units.stress, n, tau.data(), g.data(),
-                                                restitute_material_poisson_ratio(si), opened, &error);
-    restitute_material_destroy(si);
-    demand(status, error);
-}
-
-/* Makes one solid of the material and that of the partner. */
-void ContactModel::join(const std::string &partner, const Units &units)
-{
-    restitute_material *other, *effective;
-    open(partner, units, &other);
-    const int status = restitute_material_effective(material, other, &effective, &error);
-    restitute_material_destroy(other);
-    demand(status, error);
-    restitute_material_destroy(material);
-    material = effective;
-}
-
-std::string ContactModel::about() const
-{
-    size_t kept;
-    double bound;
-    char text[200];
-    restitute_contact_law_series(law, nullptr, nullptr, &kept, nullptr, nullptr, &bound, nullptr);
-    std::snprintf(text, sizeof text, ": law %016llx, %zu of %zu terms, G(t) within %.2g %%, %d numbers a contact",
-                  (unsigned long long)hash(), kept, restitute_material_terms(material), 100 * bound, history_size());
-    const std::string warning = remark.empty() ? "" : "WARNING: restitute: " + words[0] + ": " + remark + "\n";
-    return "restitute: " + words[0] + text + "\n" + warning;
-}
-
-uint64_t ContactModel::hash() const
-{
-    return restitute_contact_law_hash(law);
-}
-
-int ContactModel::history_size() const
-{
-    return 1 + (int)restitute_contact_law_state_size(law);
+    note(STEP, rates.step / step_limit(mass, contact.radius, speed));
 }
 
 /* ---- time steps */
@@ -218,17 +94,25 @@ const char *ContactModel::set_step(double step)
     return restitute_contact_rates_set(law, step, &rates, &error) < 0 ? error.message : nullptr;
 }
 
-std::unique_ptr<Batch> ContactModel::make_batch() const
+double ContactModel::step_limit(double mass, double radius, double speed) const
 {
-    auto batch = std::make_unique<Batch>();
-    std::fill_n(batch->motion, Batch::SIZE, motion);
-    return batch;
+    double limit = 0;
+    restitute_contact_time_step_limit(law, mass, radius, speed, &limit, nullptr);
+    return limit;
 }
 
 static void to_force(const restitute_contact_force &f, const double *normal, double force[3])
 {
     for (int i = 0; i < 3; i++)
         force[i] = f.tangential[i] - f.normal * normal[i];
+}
+
+std::unique_ptr<Batch> ContactModel::make_batch() const
+{
+    auto batch = std::make_unique<Batch>();
+    std::fill_n(batch->motion, Batch::SIZE, motion);
+    batch->resists = has_resistance();
+    return batch;
 }
 
 int ContactModel::advance(Batch &b, const char **problem)
@@ -242,14 +126,25 @@ int ContactModel::advance(Batch &b, const char **problem)
         is_new[k] = b.history[k][0] == 0;
     }
     if (restitute_contact_step_many(law, &rates, b.n, b.motion, states, found, status, &error) < 0) {
-        const char *its = std::strstr(error.message, ": "); /* after the number of the contact */
-        *problem = its ? its + 2 : error.message;
-        return (int)(std::find_if(status, status + b.n, [](int one) { return one < 0; }) - status);
+        const int bad = (int)(std::find_if(status, status + b.n, [](int one) { return one < 0; }) - status);
+        *problem = refusal(b.motion[bad]);
+        return bad;
     }
-    for (int k = 0; k < b.n; k++)
+    for (int k = 0; k < b.n; k++) {
         to_force(found[k], b.motion[k].normal, b.force[k]);
+        if (b.resists) resist(b, k, found[k].normal);
+    }
     note(b, is_new);
     return -1;
+}
+
+void ContactModel::resist(Batch &b, int k, double normal_force)
+{
+    const restitute_contact_motion &m = b.motion[k];
+    Turning turning = {{}, {}, m.radius, std::sqrt(m.overlap * m.radius), normal_force, rates.step};
+    std::copy_n(m.normal, 3, turning.normal);
+    std::copy_n(b.spin[k], 3, turning.spin);
+    resistance.advance(turning, b.history[k] + history_size() - resistance.history_size());
 }
 
 void ContactModel::note(Batch &b, const bool *is_new)
@@ -272,15 +167,72 @@ void ContactModel::note(Batch &b, const bool *is_new)
     record.largest[RADIUS] = std::max(record.largest[RADIUS], std::sqrt(deepest));
 }
 
+/* The library names its own arguments. This says what to do in a DEM code. */
+const char *ContactModel::refusal(const restitute_contact_motion &c)
+{
+    char *text = error.message;
+    const size_t size = sizeof error.message;
+    const std::string said = text;
+    const auto is_about = [&said](const char *words) { return said.find(words) != std::string::npos; };
+    const double *n = c.normal, *v = c.velocity, speed = dot(v, n);
+    if (dot(n, n) == 0)
+        std::snprintf(text, size, "the centers coincide, or a center lies on a wall: there is no normal");
+    else if (c.overlap > c.radius)
+        std::snprintf(text, size,
+                      "an overlap of %.6g: must be at most the effective radius, %.6g. Take a shorter time step; of "
+                      "spheres that overlap at the start see 'Spheres that overlap' in contacts.md of the adapter",
+                      c.overlap, c.radius);
+    else if (is_about("another law"))
+        std::snprintf(text, size,
+                      "the contact began under another law: types of spheres or words of the law have changed since. "
+                      "Change them while the bodies are apart, or delete all contacts first (LAMMPS: pair_style none)");
+    else if (is_about("has turned too far"))
+        std::snprintf(text, size,
+                      "the normal has turned by more than 60 degrees in a step: were spheres in contact displaced?");
+    else if (is_about("less than ten steps"))
+        std::snprintf(text, size,
+                      "a contact that begins with speed %.6g would last less than ten steps of %.6g: take a time step "
+                      "of at most %.3g",
+                      speed, rates.step, step_limit(1 / c.inverse_mass, c.radius, speed));
+    else if (is_about("motion.velocity"))
+        std::snprintf(text, size,
+                      "relative velocity (%.6g, %.6g, %.6g): must be at most the effective radius %.6g in a step of "
+                      "%.6g either way",
+                      v[0], v[1], v[2], c.radius, rates.step);
+    else if (is_about("motions["))
+        std::snprintf(text, size, "%s", said.substr(said.find(": ") + 2).c_str());
+    return text;
+}
+
+bool ContactModel::peek(const double normal[3], const double *history, restitute_contact_force &force)
+{
+    return restitute_contact_peek(law, normal, history + 1, &force, &error) >= 0;
+}
+
 int ContactModel::repeat(Batch &b, const char **problem)
 {
     restitute_contact_force found;
     for (int k = 0; k < b.n; k++) {
-        *problem = error.message;
-        if (restitute_contact_peek(law, b.motion[k].normal, b.history[k] + 1, &found, &error) < 0) return k;
+        if (!peek(b.motion[k].normal, b.history[k], found)) {
+            *problem = refusal(b.motion[k]);
+            return k;
+        }
         to_force(found, b.motion[k].normal, b.force[k]);
     }
     return -1;
+}
+
+const double *ContactModel::couple(const double *history) const
+{
+    return has_resistance() ? history + history_size() - resistance.history_size() : nullptr;
+}
+
+restitute_contact_details ContactModel::details(double radius, const double *history)
+{
+    restitute_contact_details found;
+    restitute_contact_details_init(&found);
+    if (has_details) restitute_contact_details_get(law, radius, history + 1, &found, &error);
+    return found;
 }
 
 const char *ContactModel::turn(const double from[3], const double to[3], double *history)

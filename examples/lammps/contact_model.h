@@ -4,6 +4,8 @@
 #ifndef RESTITUTE_CONTACT_MODEL_H
 #define RESTITUTE_CONTACT_MODEL_H
 
+#include "resistance.h"
+
 #include <restitute/contact.h>
 
 #include <cmath>
@@ -28,6 +30,8 @@ struct Batch {
     static constexpr int SIZE = 64;
     int n = 0;
     restitute_contact_motion motion[SIZE];
+    bool resists = false;
+    double spin[SIZE][3]; /* of body 1 relative to body 2, if the law has resistance */
     double arm1[SIZE], arm2[SIZE];
     double *history[SIZE]; /* of a contact: its label, then its state. All zeros: a new one */
     double label[SIZE];    /* of a new contact: a positive number that identifies it */
@@ -38,7 +42,7 @@ struct Batch {
 };
 
 /* Sets the k-th motion of a batch and its arms and returns true. Returns false if the bodies are
- * apart, if they coincide, or if neither can move. */
+ * apart, or if neither can move. Of coincident centres the normal is 0, which a step refuses. */
 inline bool touching(const Body &first, const Body &second, Batch &batch, int k)
 {
     restitute_contact_motion &m = batch.motion[k];
@@ -46,12 +50,12 @@ inline bool touching(const Body &first, const Body &second, Batch &batch, int k)
     const double *p = first.spin, *q = second.spin;
     const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], square = x * x + y * y + z * z;
     const double sum = first.radius + second.radius, inverse_mass = first.inverse_mass + second.inverse_mass;
-    if (!(square < sum * sum) || square == 0 || inverse_mass == 0) return false;
-    const double distance = std::sqrt(square), inverse = 1 / distance, n0 = x * inverse, n1 = y * inverse,
-                 n2 = z * inverse;
+    if (!(square < sum * sum) || inverse_mass == 0) return false;
+    const double distance = std::sqrt(square), inverse = distance > 0 ? 1 / distance : 0;
+    const double n0 = x * inverse, n1 = y * inverse, n2 = z * inverse;
     m.overlap = sum - distance;
-    const double arm1 =
-        first.radius - 0.5 * m.overlap; /* the arms add up to the distance: angular momentum is conserved */
+    /* The arms add up to the distance: angular momentum is conserved. */
+    const double arm1 = first.radius - 0.5 * m.overlap;
     const double arm2 = second.radius > 0 ? second.radius - 0.5 * m.overlap : 0;
     const double t0 = arm1 * p[0] + arm2 * q[0], t1 = arm1 * p[1] + arm2 * q[1], t2 = arm1 * p[2] + arm2 * q[2];
     m.normal[0] = n0, m.normal[1] = n1, m.normal[2] = n2;
@@ -62,6 +66,8 @@ inline bool touching(const Body &first, const Body &second, Batch &batch, int k)
     m.inverse_mass = inverse_mass;
     m.inverse_tangential_mass = 3.5 * inverse_mass; /* of solid spheres: 1 + m R^2/J */
     m.radius = second.radius > 0 ? first.radius * second.radius / sum : first.radius;
+    for (int i = 0; i < 3 && batch.resists; i++)
+        batch.spin[k][i] = p[i] - q[i];
     batch.arm1[k] = arm1;
     batch.arm2[k] = arm2;
     return true;
@@ -91,6 +97,7 @@ class ContactModel
 {
   public:
     /* FILE friction MU [partner rigid|FILE] [elements N] [terms N] [window SHORTEST LONGEST]
+     * [rolling sds K GAMMA MU] [twisting sds K GAMMA MU|marshall] [details yes|no] [speed V]
      * [limits A V] Throws std::invalid_argument. */
     ContactModel(const std::vector<std::string> &words, const Units &units);
     ~ContactModel();
@@ -101,10 +108,16 @@ class ContactModel
     Record record;
     double limits[RATIOS] = {0.1, 0.1, 1, 1};
     double drift = 0; /* largest motion of bodies in a step that is not in their velocities: see DEPTH */
+    double speed = 0; /* for which the user wants the limit of the time step; 0: for none */
+    bool has_details = false;
 
     std::string about() const; /* a line on the law, and a warning about its accuracy */
-    uint64_t hash() const;     /* of the law */
-    int history_size() const;  /* doubles of a contact: its label, then its state. All zeros: a new one */
+    uint64_t hash() const;     /* of the law, and of what its history holds */
+    int history_size() const;  /* doubles of a contact: label, state, resistance. All zeros: a new one */
+
+    /* Largest time step for impacts at a speed; 0: a value is out of its range. Effective mass and
+     * radius. */
+    double step_limit(double mass, double radius, double speed) const;
 
     /* An error text, or NULL. */
     const char *set_step(double step);
@@ -118,6 +131,20 @@ class ContactModel
     int advance(Batch &batch, const char **problem);
     int repeat(Batch &batch, const char **problem);
 
+    /* The force of the last step again; false: the state is refused. */
+    bool peek(const double normal[3], const double *history, restitute_contact_force &force);
+
+    bool has_resistance() const
+    {
+        return resistance.history_size() > 0;
+    }
+    /* The couple of the last step on body 1 by rolling and twisting resistance; on body 2 acts the
+     * opposite. NULL: the law has none. */
+    const double *couple(const double *history) const;
+
+    /* Radii and energies; zeros without `details yes`. */
+    restitute_contact_details details(double radius, const double *history);
+
     /* An error text, or NULL. Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. */
     const char *turn(const double from[3], const double to[3], double *history);
 
@@ -125,14 +152,18 @@ class ContactModel
     void read(const Units &units, restitute_contact_law_options &options, std::string &partner);
     void open(const std::string &file, const Units &units, restitute_material **opened);
     void join(const std::string &partner, const Units &units);
+    void measure_stiffness(int bodies);
     void note(Batch &batch, const bool *is_new);
     void note_first_touch(const restitute_contact_motion &motion, double density);
+    void resist(Batch &batch, int k, double normal_force);
+    const char *refusal(const restitute_contact_motion &motion);
     void note(Ratio which, double ratio);
 
     restitute_material *material = nullptr;
     restitute_contact_law *law = nullptr;
     restitute_contact_rates rates;
     restitute_contact_motion motion;
+    Resistance resistance;
     restitute_error error = {};
     std::string remark;      /* of the library on the law */
     double file_density = 0; /* of the denser material; 0: not given */

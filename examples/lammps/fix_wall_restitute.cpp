@@ -39,14 +39,16 @@ FixWallRestitute::FixWallRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp,
     size_peratom_cols = 8;
     restart_peratom = restart_global = create_attribute = vector_flag = extvector = global_freq = peratom_freq = 1;
     virial_global_flag = virial_peratom_flag = 1;
-    size_vector = 7;
-    history_size = model->history_size();
+    energy_global_flag = scalar_flag = extscalar = 1;
+    size_vector = 10;
+    history_size = model->history_size() + 1;
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
     for (int i = 0; i < atom->nlocal; i++)
         set_arrays(i);
     if (comm->me == 0) utils::logmesg(lmp, model->about());
+    warn_of_suffix(lmp, "fix wall/restitute");
 }
 
 FixWallRestitute::~FixWallRestitute()
@@ -68,7 +70,14 @@ void FixWallRestitute::init()
     maxexchange = 1 + shape->faces() * history_size;
     model->record = Record();
     std::fill_n(warned, restitute_dem::RATIOS, false);
+    if (thermo_energy && !model->has_details)
+        error->all(FLERR, "fix {} wall/restitute: fix_modify energy yes: needs the words 'details yes' of the law", id);
     reset_dt();
+    std::vector<double> mass, radius;
+    find_lightest(lmp, mass, radius);
+    for (int type = 1; type <= atom->ntypes; type++)
+        report_limit(lmp, fmt::format("wall {}, type {}, radius {:.6g}", id, type, radius[type]), *model, mass[type],
+                     radius[type]);
 }
 
 void FixWallRestitute::setup(int vflag)
@@ -141,8 +150,11 @@ void FixWallRestitute::find_histories(int i, int last)
     const double *labels = b.label + b.n, *end = b.label + last;
     for (size_t k = all.size(); k > 0;) {
         k -= history_size;
-        if (std::find(labels, end, std::fabs(all[k])) == end)
-            all.erase(all.begin() + k, all.begin() + k + history_size);
+        if (std::find(labels, end, std::fabs(all[k])) != end) continue;
+        const restitute_contact_details its = details(&all[k]);
+        ended_friction += its.friction;
+        ended_viscous += its.stored + its.viscous; /* springs relax */
+        all.erase(all.begin() + k, all.begin() + k + history_size);
     }
     const auto find = [&](double label) {
         size_t k = 0;
@@ -155,8 +167,10 @@ void FixWallRestitute::find_histories(int i, int last)
         place[k] = find(b.label[k]);
         if (place[k] == all.size()) all.resize(all.size() + history_size);
     }
-    for (int k = b.n; k < last; k++)
+    for (int k = b.n; k < last; k++) {
         b.history[k] = &all[place[k]];
+        b.history[k][history_size - 1] = b.motion[k].radius;
+    }
     b.n = last;
 }
 
@@ -179,6 +193,7 @@ void FixWallRestitute::apply(int of_batch)
     const int i = batch->first[of_batch];
     const double *n = batch->motion[of_batch].normal, *f = batch->force[of_batch], *x = atom->x[i],
                  *at = places[of_batch];
+    const double *couple = model->couple(batch->history[of_batch]);
     const double r[3] = {x[0] - at[0], x[1] - at[1], x[2] - at[2]};
     double virial[6] = {r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]};
     for (int k = 0; k < 3; k++) {
@@ -186,6 +201,7 @@ void FixWallRestitute::apply(int of_batch)
         atom->f[i][k] += f[k];
         atom->torque[i][k] += batch->arm1[of_batch] * (n[l] * f[m] - n[m] * f[l]);
         force_on_wall[k] -= f[k];
+        if (couple) atom->torque[i][k] += couple[k];
     }
     if (vflag_either) v_tally(i, virial);
 }
@@ -210,13 +226,48 @@ void FixWallRestitute::show()
     }
 }
 
-/* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s. */
+/* ---- reports */
+
+restitute_contact_details FixWallRestitute::details(const double *history)
+{
+    return model->details(history[history_size - 1], history);
+}
+
+/* Stored, lost to friction, lost in dashpots; of this process. */
+void FixWallRestitute::sum_energies(double sum[3])
+{
+    const double ended[] = {0, ended_friction, ended_viscous};
+    std::copy_n(ended, 3, sum);
+    for (int i = 0; i < atom->nlocal && model->has_details; i++)
+        for (size_t k = 0; k < histories[i].size(); k += history_size) {
+            const restitute_contact_details its = details(&histories[i][k]);
+            sum[0] += its.stored, sum[1] += its.friction, sum[2] += its.viscous;
+        }
+}
+
+/* The stored energy, for `fix_modify energy`. */
+double FixWallRestitute::compute_scalar()
+{
+    return compute_vector(7);
+}
+
+/* Force on the wall (3), steps of contacts, first touches, contacts beyond a/R and beyond v/c_s,
+ * energies (3). */
 double FixWallRestitute::compute_vector(int n)
 {
     const Record &own = model->record;
-    const double values[] = {force_on_wall[0], force_on_wall[1], force_on_wall[2], own.steps,
-                             own.contacts,     own.beyond[0],    own.beyond[1]};
+    double values[] = {force_on_wall[0],
+                       force_on_wall[1],
+                       force_on_wall[2],
+                       own.steps,
+                       own.contacts,
+                       own.beyond[0],
+                       own.beyond[1],
+                       0,
+                       0,
+                       0};
     double sum;
+    if (n >= 7) sum_energies(values + 7);
     MPI_Allreduce(&values[n], &sum, 1, MPI_DOUBLE, MPI_SUM, world);
     return sum;
 }

@@ -25,6 +25,7 @@ class FixWallRestitute : public Fix
     void reset_dt() override;
     void post_force(int vflag) override;
     void post_run() override;
+    double compute_scalar() override;
     double compute_vector(int n) override;
 
     void grow_arrays(int nmax) override;
@@ -47,6 +48,8 @@ class FixWallRestitute : public Fix
     void compute_batch();
     void apply(int of_batch);
     void show();
+    restitute_contact_details details(const double *history);
+    void sum_energies(double sum[3]);
 
     std::unique_ptr<restitute_dem::ContactModel> model;
     std::unique_ptr<restitute_dem::Batch> batch;
@@ -55,8 +58,9 @@ class FixWallRestitute : public Fix
     double time = 0;                            /* of this wall, which moves from its start */
     std::vector<std::vector<double>> histories; /* of each atom: those of its contacts, one after the other */
     std::vector<WallPoint> points;              /* of one sphere */
-    double force_on_wall[3] = {};
-    int history_size, frozen = 0;
+    double force_on_wall[3] = {}, ended_friction = 0, ended_viscous = 0;
+    int history_size; /* of a contact: as of the model, then its effective radius */
+    int frozen = 0;
     bool warned[restitute_dem::RATIOS] = {};
 };
 

@@ -7,6 +7,9 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
@@ -59,6 +62,41 @@ void LAMMPS_NS::warn(LAMMPS *lmp, const Record &record, bool warned[restitute_de
         warned[which] = true;
         lmp->error->warning(FLERR, record.warning(which, lmp->update->ntimestep));
     }
+}
+
+void LAMMPS_NS::warn_of_suffix(LAMMPS *lmp, const char *who)
+{
+    if (!lmp->suffix_enable || !lmp->suffix || lmp->comm->me) return;
+    lmp->error->warning(FLERR, "{}: has no variant for suffix {}; it runs on one thread of each process", who,
+                        lmp->suffix);
+}
+
+void LAMMPS_NS::find_lightest(LAMMPS *lmp, std::vector<double> &mass, std::vector<double> &radius)
+{
+    const Atom *atom = lmp->atom;
+    const int width = atom->ntypes + 1;
+    const auto none = std::numeric_limits<double>::infinity();
+    std::vector<double> own(width, none);
+    mass.resize(width), radius.resize(width);
+    for (int i = 0; i < atom->nlocal; i++)
+        own[atom->type[i]] = std::min(own[atom->type[i]], atom->rmass[i]);
+    MPI_Allreduce(own.data(), mass.data(), width, MPI_DOUBLE, MPI_MIN, lmp->world);
+    std::fill(own.begin(), own.end(), none);
+    for (int i = 0; i < atom->nlocal; i++)
+        if (const int type = atom->type[i]; atom->rmass[i] == mass[type])
+            own[type] = std::min(own[type], atom->radius[i]);
+    MPI_Allreduce(own.data(), radius.data(), width, MPI_DOUBLE, MPI_MIN, lmp->world);
+}
+
+void LAMMPS_NS::report_limit(LAMMPS *lmp, const std::string &who, const ContactModel &model, double mass, double radius)
+{
+    if (model.speed == 0 || !std::isfinite(mass) || !std::isfinite(radius) || lmp->comm->me) return;
+    const double limit = model.step_limit(mass, radius, model.speed), step = lmp->update->dt;
+    utils::logmesg(lmp, "restitute: {}, speed {:.6g}: time step at most {:.4g}\n", who, model.speed, limit);
+    if (step > limit)
+        lmp->error->warning(FLERR,
+                            "restitute: {}: the time step {:.6g} is longer than {:.4g}, the limit for speed {:.6g}",
+                            who, step, limit, model.speed);
 }
 
 Record LAMMPS_NS::sum_of(const Record &record, MPI_Comm world)

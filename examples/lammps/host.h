@@ -51,6 +51,18 @@ void check_law(LAMMPS *lmp, const std::string &who, uint64_t written, const rest
  * deep overlap. */
 void warn(LAMMPS *lmp, const restitute_dem::Record &record, bool warned[restitute_dem::RATIOS]);
 
+/* Warns if a suffix, as of `-sf omp`, asks for a variant of a style. There are none. */
+void warn_of_suffix(LAMMPS *lmp, const char *who);
+
+/* Of each type the mass of the lightest sphere that is there, and its radius. Infinity: there is
+ * none. */
+void find_lightest(LAMMPS *lmp, std::vector<double> &mass, std::vector<double> &radius);
+
+/* If the law has the word `speed`: prints the limit of the time step for an impact at that speed,
+ * and warns if the step is longer. Effective mass and radius. Nothing if they are not finite. */
+void report_limit(LAMMPS *lmp, const std::string &who, const restitute_dem::ContactModel &model, double mass,
+                  double radius);
+
 /* The record of all processes. */
 restitute_dem::Record sum_of(const restitute_dem::Record &record, MPI_Comm world);
 

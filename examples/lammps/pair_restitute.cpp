@@ -5,12 +5,11 @@
 #include "lammps_declarations.h"
 
 #include "comm.h"
-#include "domain.h"
+#include "compute.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
-#include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -19,20 +18,22 @@
 #include <map>
 
 using namespace LAMMPS_NS;
-using restitute_dem::Batch;
 using restitute_dem::ContactModel;
 using restitute_dem::Record;
 
 PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 {
     restartinfo = 1;
-    single_enable = 0; /* LAMMPS refuses commands that need the force of one pair without its memory */
+    single_enable = 1;
     no_virial_fdotr_compute = 1;
     centroidstressflag = CENTROID_NOTAVAIL;
     finitecutflag = 1;
     nondefault_history_transfer = 1; /* a state is oriented by tags: the swap of two atoms copies it */
-    nextra = 4;
+    nextra = 7;
     pvector = new double[nextra];
+    single_extra = 17;
+    svector = new double[single_extra];
+    warn_of_suffix(lmp, "pair_style restitute");
     history_id = "NEIGH_HISTORY_RESTITUTE"; /* by this name a restart file finds its fix */
     while (modify->get_fix_by_id(history_id) || modify->get_fix_by_id(history_id + "_DUMMY"))
         history_id += "_MORE";                        /* of pair_style hybrid */
@@ -42,6 +43,7 @@ PairRestitute::PairRestitute(LAMMPS *lmp) : Pair(lmp)
 PairRestitute::~PairRestitute()
 {
     delete[] pvector;
+    delete[] svector;
     modify->delete_fix(histories ? history_id : history_id + "_DUMMY");
     if (!allocated) return;
     memory->destroy(setflag);
@@ -86,6 +88,7 @@ void PairRestitute::coeff(int narg, char **arg)
 void PairRestitute::init_style()
 {
     frozen = check_host(lmp, "pair_style restitute");
+    check_computes();
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     check_restart();
     models.clear();
@@ -97,6 +100,9 @@ void PairRestitute::init_style()
         batches.push_back(its->make_batch());
     }
     std::fill_n(warned, restitute_dem::RATIOS, false);
+    has_details = std::any_of(models.begin(), models.end(), [](const Model &its) { return its->has_details; });
+    beyond_contact = 0; /* until compute(): some computes refuse anything else */
+    shrink_pages();
     keep_history();
     /* write_restart makes the fix gather contacts from neighbor lists. That is right within a run,
      * for which compute() sets this to 1. Between runs the fix has the contacts already, and the
@@ -106,6 +112,17 @@ void PairRestitute::init_style()
     change_pages();
     find_largest_radii();
     reset_dt();
+    report_limits();
+}
+
+/* These take forces of pairs along the line between the centers only. */
+void PairRestitute::check_computes()
+{
+    for (const char *style :
+         {"^group/group", "^stress/mop", "^stress/cartesian", "^stress/cylinder", "^stress/spherical"})
+        for (const Compute *found : modify->get_compute_by_style(style))
+            error->all(FLERR, "pair_style restitute: compute {} {}: is not supported, it leaves out tangential forces",
+                       found->id, found->style);
 }
 
 void PairRestitute::reset_dt()
@@ -135,7 +152,7 @@ void PairRestitute::keep_history()
                    history_size);
     if (histories) return;
     const std::string fix = history_id + " all NEIGH_HISTORY " + std::to_string(size);
-    histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 1));
+    histories = static_cast<FixNeighHistory *>(modify->replace_fix(history_id + "_DUMMY", fix, 0)); /* 0: no suffix */
     histories->pair = this;
     history_size = size;
     page = neighbor->pgsize, one = neighbor->oneatom;
@@ -160,6 +177,12 @@ void PairRestitute::check_tags()
                            atom->tag[i]);
         }
     }
+}
+
+/* The default, 100000, reserves 80 MB for a standard solid. LAMMPS demands ten times `one`. */
+void PairRestitute::shrink_pages()
+{
+    if (neighbor->pgsize == 100000) neighbor->pgsize = std::min(neighbor->pgsize, 10 * neighbor->oneatom);
 }
 
 /* The fix drops its pages, and the contacts in them, when `neigh_modify page` or `one` has
@@ -208,167 +231,23 @@ void PairRestitute::find_largest_radii()
             radius += 0.5 * neighbor->skin;
 }
 
+/* For impacts of the lightest spheres of each two types. */
+void PairRestitute::report_limits()
+{
+    std::vector<double> mass, radius;
+    find_lightest(lmp, mass, radius);
+    for (int i = 1; i < width; i++)
+        for (int j = i; j < width; j++)
+            if (const Model &its = model(i, j))
+                report_limit(lmp, fmt::format("types {} {}, radii {:.6g} and {:.6g}", i, j, radius[i], radius[j]), *its,
+                             1 / (1 / mass[i] + 1 / mass[j]), 1 / (1 / radius[i] + 1 / radius[j]));
+}
+
 double PairRestitute::init_one(int i, int j)
 {
     if (!model(i, j))
         error->all(FLERR, "pair_coeff of restitute: none for types {} {}; two materials take 'partner FILE'", i, j);
     return largest_radius[i] + largest_radius[j];
-}
-
-/* ---- a time step */
-
-/* Of the model of two types. */
-int PairRestitute::number(int i, int j)
-{
-    return (int)(std::find(models.begin(), models.end(), model(i, j)) - models.begin());
-}
-
-static void prefetch(const double *place)
-{
-#ifdef __GNUC__
-    __builtin_prefetch(place, 1);
-#else
-    (void)place;
-#endif
-}
-
-void PairRestitute::compute(int eflag, int vflag)
-{
-    const Spheres spheres(atom, frozen);
-    double **x = atom->x, *radius = atom->radius;
-    ev_init(eflag, vflag);
-    histories->restart_global = 1;
-    const double change = change_of_box();
-    const bool several = models.size() > 1;
-    for (const Model &its : models)
-        its->drift = change;
-    for (int ii = 0; ii < list->inum; ii++) {
-        const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
-        int *touched = histories->firstflag[i];
-        double *history = histories->firstvalue[i];
-        check_radius(i);
-        for (int jj = 0; jj < list->numneigh[i]; jj++, history += history_size) {
-            const int j = neighbors[jj] & NEIGHMASK;
-            const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
-            const double sum = radius[i] + radius[j];
-            if (dx * dx + dy * dy + dz * dz < sum * sum) {
-                touched[jj] = 1;
-                const int its = several ? number(atom->type[i], atom->type[j]) : 0;
-                collect(*models[its], *batches[its], i, j, history);
-            } else if (touched[jj]) {
-                touched[jj] = 0;
-                std::fill_n(history, history_size, 0.0);
-            }
-        }
-    }
-    for (size_t k = 0; k < models.size(); k++)
-        compute_batch(*models[k], *batches[k]);
-    const Record own = record(); /* for `compute ID all pair restitute` */
-    const double values[] = {own.steps, own.contacts, own.beyond[restitute_dem::RADIUS],
-                             own.beyond[restitute_dem::SPEED]};
-    std::copy_n(values, nextra, pvector);
-    warn(lmp, own, warned);
-}
-
-/* Largest change of a side or a tilt since the last step. Periodic images and the spheres that
- * `fix deform` maps move by as much, without velocities. With `remap v` they have them. Sides that
- * LAMMPS wraps around the spheres move no sphere. */
-double PairRestitute::change_of_box()
-{
-    std::vector<double> now = {domain->prd[0], domain->prd[1], domain->prd[2], domain->xy, domain->xz, domain->yz};
-    double change = 0;
-    for (int k = 0; k < 3; k++)
-        if (std::max(domain->boundary[k][0], domain->boundary[k][1]) >= 2) now[k] = 0;
-    for (size_t k = 0; k < box.size(); k++)
-        change = std::max(change, std::fabs(now[k] - box[k]));
-    box = now;
-    return domain->deform_vremap ? 0 : change;
-}
-
-/* LAMMPS may not find the contacts of a larger sphere. */
-void PairRestitute::check_radius(int i)
-{
-    const double largest = largest_radius[atom->type[i]];
-    if (atom->radius[i] > largest)
-        error->one(
-            FLERR,
-            "restitute: atom {} at step {}: radius {:.6g}: must be at most {:.6g}, the largest of type {} when the "
-            "run began, plus half of the skin under fix adapt. Begin a new run when radii have grown, or take a "
-            "larger skin",
-            atom->tag[i], update->ntimestep, atom->radius[i], largest, atom->type[i]);
-}
-
-/* The atom with the smaller tag is body 1: in every list, on every process. */
-void PairRestitute::collect(ContactModel &its, Batch &b, int i, int j, double *history)
-{
-    const bool ordered = atom->tag[i] < atom->tag[j];
-    b.first[b.n] = ordered ? i : j;
-    b.second[b.n] = ordered ? j : i;
-    b.history[b.n] = history;
-    for (int k = 0; k < history_size; k += 8)
-        prefetch(history + k);
-    if (++b.n == Batch::SIZE) compute_batch(its, b);
-}
-
-void PairRestitute::compute_batch(ContactModel &its, Batch &b)
-{
-    const Spheres spheres(atom, frozen);
-    const char *problem;
-    int n = 0;
-    for (int k = 0; k < b.n; k++) {
-        const int i = b.first[k], j = b.second[k];
-        if (!touching(spheres.body(i), spheres.body(j), b, n)) continue;
-        const bool twice = std::max(i, j) >= atom->nlocal && !force->newton_pair; /* the owner of the other, too */
-        b.first[n] = i, b.second[n] = j;
-        b.history[n] = b.history[k];
-        b.label[n] = (double)atom->tag[i] + atom->tag[j];
-        b.density[n] = b.history[k][0] == 0 ? std::max(spheres.density(i), spheres.density(j)) : 0;
-        b.on_record[n++] = !twice || i < atom->nlocal;
-    }
-    b.n = n;
-    const int bad = update->setupflag ? its.repeat(b, &problem) : its.advance(b, &problem);
-    if (bad >= 0)
-        error->one(FLERR, "restitute: atoms {} and {} at step {}: {}", atom->tag[b.first[bad]],
-                   atom->tag[b.second[bad]], update->ntimestep, problem);
-    for (int k = 0; k < b.n; k++)
-        apply(b, k);
-    b.n = 0;
-}
-
-static void add_to(double *force, double *torque, double sign, const double *f, double arm, const double *turn)
-{
-    for (int i = 0; i < 3; i++) {
-        force[i] += sign * f[i];
-        torque[i] += arm * turn[i];
-    }
-}
-
-void PairRestitute::apply(const Batch &batch, int k)
-{
-    const int first = batch.first[k], second = batch.second[k];
-    const double *n = batch.motion[k].normal, *f = batch.force[k];
-    const double turn[3] = {n[1] * f[2] - n[2] * f[1], n[2] * f[0] - n[0] * f[2], n[0] * f[1] - n[1] * f[0]};
-    const bool all = force->newton_pair;
-    if (all || first < atom->nlocal) add_to(atom->f[first], atom->torque[first], 1, f, batch.arm1[k], turn);
-    if (all || second < atom->nlocal) add_to(atom->f[second], atom->torque[second], -1, f, batch.arm2[k], turn);
-    if (!evflag) return;
-    const double *a = atom->x[first], *b = atom->x[second];
-    ev_tally_xyz(first, second, atom->nlocal, all, 0, 0, f[0], f[1], f[2], a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-Record PairRestitute::record() const
-{
-    Record own;
-    for (const Model &its : models)
-        own.add(its->record);
-    return own;
-}
-
-/* The limits shown are those of the first law. */
-void PairRestitute::finish()
-{
-    const Record all = sum_of(record(), world);
-    if (comm->me == 0) utils::logmesg(lmp, all.text(models[0]->limits));
 }
 
 /* ---- restart files */

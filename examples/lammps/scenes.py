@@ -18,8 +18,8 @@ class Scene:
     """A box of 1 m in LAMMPS without atoms, its own input lines and its atoms in SI units."""
 
     def __init__(self, half_width=0.5, units="si", boundary="f f f", newton="off", kinds=1, screen="none",
-                 atom_style="sphere"):
-        self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen])
+                 atom_style="sphere", switches=()):
+        self.lammps = lammps(cmdargs=["-log", "none", "-nocite", "-screen", screen, *switches])
         self.spheres, w = 0, half_width
         self.run(f"""
             units {units}

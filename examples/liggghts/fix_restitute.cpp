@@ -127,6 +127,8 @@ void FixRestitute::read_laws()
             } catch (const std::invalid_argument &problem) {
                 refuse(types(i, j) + ": " + problem.what());
             }
+            if (its->has_resistance() || its->speed != 0)
+                refuse(types(i, j) + ": rolling, twisting and speed are for LAMMPS; take rolling_friction cdt here");
             table[i * width + j] = its;
         }
     if (models.empty())

@@ -14,7 +14,7 @@
  *      restitute_contact_rates rates; restitute_contact_rates_init(&rates);
  *      restitute_contact_law_create(rubber, &options, &law, &error);
  *      restitute_contact_rates_set(law, dt, &rates, &error);            // once for a time step
- *      double state[48] = {0};                        // restitute_contact_law_state_size(law)
+ *      double state[55] = {0};                        // restitute_contact_law_state_size(law)
  *      restitute_contact_step(law, &rates, &motion, state, &force, &error);
  *
  *  What the host does: it keeps the state from the first overlap until the bodies separate and then
@@ -83,8 +83,9 @@ RESTITUTE_SINCE_0_1 int restitute_contact_law_create(const restitute_material *m
 RESTITUTE_SINCE_0_1 void restitute_contact_law_destroy(restitute_contact_law *law);
 
 /** Doubles of the state of one contact: 8 + elements x (2 with friction + terms x (1, 3 with
- *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 7 with details. With 8
- *  elements and friction: elastic 24, Kelvin-Voigt 32, standard solid 48. 0 for NULL. */
+ *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 5 + 2 terms with friction
+ *  + 7 with details. With 8 elements and friction: elastic 29, Kelvin-Voigt 37, standard solid 55. 0
+ *  for NULL. */
 RESTITUTE_SINCE_0_1 size_t restitute_contact_law_state_size(const restitute_contact_law *law);
 
 /** A number that two laws share if they are the same, for restart files; 0 for NULL. A state
@@ -208,7 +209,7 @@ typedef struct restitute_contact_details {
                                 are included */
     double friction;       /**< J, lost to slip; never falls */
     double viscous;        /**< J, lost in dashpots; never falls. work = stored + friction +
-                                viscous within some percent */
+                                viscous, see docs/contact.md, Losses */
     double friction_power; /**< W, lost to slip in the last step */
     double viscous_power;  /**< W, lost in dashpots in the last step */
 } restitute_contact_details;

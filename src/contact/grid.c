@@ -49,8 +49,9 @@ void rst_contact_stretch(const struct rst_law *law, double area, double *state)
     double ratio = 1;
     while (area > ratio * width * (ratio * width))
         ratio *= step;
-    for (double *values = state + at_arrays; values < state + rst_at_details(law); values += law->n)
+    for (double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n)
         resample(law->n, law->y, ratio * ratio, values);
+    if (law->slips) state[rst_at_turn(law) + turn_y] /= ratio * ratio;
     state[at_width] = ratio * width;
 }
 

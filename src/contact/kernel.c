@@ -46,10 +46,12 @@ struct rows {
     struct arms own;
     double touch[most_n];                       /* part of the step in contact, 0 outside */
     double f[most_n];                           /* normal */
+    double pressed[most_n];                     /* beyond the free surface, negative outside */
     double trial[2][most_n];                    /* tangential, if all sticks */
     double q[2][most_n];                        /* within the limit of friction */
     double spent[most_n];                       /* by dashpots in the step, normal */
     double at_rest[most_n], by_move[2][most_n]; /* likewise tangential: without displacement, by a unit of it */
+    double held[2][most_n];                     /* by the springs before the step, tangential */
 };
 
 struct work {
@@ -60,11 +62,13 @@ struct work {
     lanes width, before, approach, sum, force;
     /* the rim: places of the last element, f and w there; edge: contact radius in grid widths; weights of the last, cut cell: of
      * the last element, beside its own, and of the rim; f at the rim, and w there over w of the last element */
-    lanes x, y, y_before, next, per_cell, outwards, f_last, f_before, virgin, touches;
+    lanes x, y, y_before, next, per_cell, outwards, f_last, f_before, virgin, meets, touches;
     lanes w_last[most_k], ratio[most_k], edge, inner, outer, at_rim;
     /* tangential: the frame, displacement and velocity at the end of the step, integrals over the contact radius in widths */
     lanes axis[3], other[3], move[2], speed[2], limit_ratio, total[2], sticking, slipped, spent, back[2], rim[2];
     lanes q_last[2], q_before[2], wt_last[2][most_k], stuck, last_sticks, both_stick;
+    /* where slip begins beyond all that sticks: y, direction; that element, counted from 1, if it is known from a turning point */
+    lanes front, front_along[2], known;
 };
 
 INLINE double larger(double a, double b)
@@ -153,7 +157,8 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
     const double dashpot = c.at.surface ? c.law->eta * s->approach[l] : 0;
     double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
     struct rows *const row = &s->row[l];
-    double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], pressed[most_n], f[most_n], part[most_n];
+    double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], f[most_n], part[most_n];
+    double *const pressed = row->pressed;
     EACH_ELEMENT held[i] = pull[i] = 0;
     for (int k = 0; k < c.at.terms; k++) {
         const double g = c.law->g[k], later = c.law->g[k] * c.r->decay[k];
@@ -226,6 +231,13 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
     }
     if (c.at.surface) virgin &= last == n || state[rst_at_surface(c.law) + last] == 0;
     s->virgin[l] = if_so(virgin);
+    s->meets[l] = beyond;
+    if (!c.at.surface || last == n) return;
+    const double *const pressed = s->row[l].pressed,
+                        out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
+    const double fall = pressed[last] - out;
+    if (pressed[last] < 0 && fall > 0)
+        s->meets[l] = larger(s->y[l], c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / fall);
 }
 
 /* Where the contact ends beyond its last element, f there, and the whole force. A contact that grows over virgin elements ends where
@@ -257,7 +269,9 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
     {
         const double y = s->y[l], x = s->x[l], f = s->f_last[l], next = s->next[l], touches = s->touches[l];
         const double slope = (s->f_before[l] - f) * s->per_cell[l], soft = c.law->g_inf * s->scale[l];
-        const double free = c.in->overlap[l] / s->scale[l], several = if_so(s->per_cell[l] > 0);
+        const bool enters = (s->approach[l] > 0) & (s->virgin[l] == 0);
+        const double at_rest = c.in->overlap[l] / s->scale[l], free = enters ? smaller(at_rest, s->meets[l]) : at_rest;
+        const double several = if_so(s->per_cell[l] > 0);
         const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
         const double fall = slope > 0 ? slope : soft;
         const bool ends = (f < fall * (free - y)) & !grows;
@@ -342,6 +356,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
                                                                                d * c.at.terms * n;
         double *const trial = row->trial[d];
         const double move = s->move[d][l], dashpot = c.law->eta * per_step * move;
+        if (c.at.details) EACH_ELEMENT row->held[d][i] = c.law->g_inf * u[i];
         EACH_ELEMENT
         {
             u[i] += row->touch[i] * move;
@@ -356,6 +371,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
                 trial[i] += g * w[k * n + i];
                 if (c.at.details) row->at_rest[i] += c.r->spent[k][0] * before * before;
                 if (c.at.details) row->by_move[d][i] += c.r->spent[k][1] * before;
+                if (c.at.details) row->held[d][i] += g * before;
             }
         }
     }
@@ -458,16 +474,192 @@ INLINE double weight_of(double x1, double x2)
     return fabs(x2 - x1) * (2 * x2 + x1) / larger(3 * (x1 + x2), DBL_MIN);
 }
 
+INLINE double size_of(const double *v)
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+/* A place in the cell beyond the element `in`, where the next one or the rim is, the limit there, and the ends of the cell. */
+struct place {
+    int in;
+    double x, y, limit, x_in, y_in, x_out, y_out, q_in[2], q_out[2];
+};
+
+INLINE struct place place_of(const struct call c, double y, int l, const struct work *s)
+{
+    const struct rows *const row = &s->row[l];
+    struct place p = {.x = sqrt(y), .y = y};
+    while (p.in + 1 < s->last[l] && c.law->y[p.in + 1] <= y)
+        p.in++;
+    const bool cut = p.in + 1 == s->last[l];
+    const double f_out = cut ? s->at_rim[l] : row->f[p.in + 1];
+    p.x_in = c.law->x[p.in];
+    p.y_in = c.law->y[p.in];
+    p.x_out = cut ? s->edge[l] : c.law->x[p.in + 1];
+    p.y_out = p.x_out * p.x_out;
+    for (int d = 0; d < 2; d++) {
+        p.q_in[d] = row->q[d][p.in];
+        p.q_out[d] = cut ? s->rim[d][l] : row->q[d][p.in + 1];
+    }
+    p.limit =
+        s->limit_ratio[l] * (row->f[p.in] + (y - p.y_in) / larger(p.y_out - p.y_in, DBL_MIN) * (f_out - row->f[p.in]));
+    return p;
+}
+
+/* What an integral of q that is linear from the inner to the outer end of a cell lacks if it bends at p. */
+INLINE void bend_at(const struct place *p, const double *q, int l, struct work *s)
+{
+    const double share = (p->y - p->y_in) / larger(p->y_out - p->y_in, DBL_MIN);
+    const double weight = weight_of(p->x, p->x_in) + weight_of(p->x, p->x_out);
+    for (int d = 0; d < 2; d++)
+        s->total[d][l] += weight * (q[d] - p->q_in[d] - share * (p->q_out[d] - p->q_in[d]));
+}
+
+/* Where slip begins beyond a turning point. When slip ended there, the force density q was at the limit between it and the rim, and
+ * what sticks has since been displaced alike: so q is at the limit anew where the margin, linear in y from the turning point to the
+ * rim, is zero. A limit that has changed by now has changed alike, too. Returns y there, or 0, and the direction of slip. */
+INLINE double front_of(const struct place *p, const double *q, const double *then, double edge, double at_edge,
+                       double *along)
+{
+    static const double least = 1e-6; /* of the limit; below, the direction would be of rounding */
+    const double x = q[0] - then[0], y = q[1] - then[1], moved = sqrt(x * x + y * y), was = size_of(then);
+    if (!(moved > least * p->limit)) return 0;
+    along[0] = x / moved;
+    along[1] = y / moved;
+    const double cosine = (along[0] * then[0] + along[1] * then[1]) / was;
+    const double margin = p->limit - (along[0] * q[0] + along[1] * q[1]);
+    const double margin_at_edge = at_edge - moved - cosine * (at_edge - (p->limit - was));
+    return (margin > 0) & (margin_at_edge < 0) ? p->y + (edge - p->y) * margin / (margin - margin_at_edge) : 0;
+}
+
+/* A turning point is put where slip begins: u and w, as of an element near by with the force density q, are displaced to the limit. */
+INLINE void put_turn(const struct call c, const struct place *p, const double *along, const double *q, double *turn)
+{
+    double stiffness = c.law->g_inf; /* without dashpot: it holds no force */
+    for (int k = 0; k < c.at.terms; k++)
+        stiffness += c.law->g[k] * c.r->gain[k];
+    turn[turn_y] = 0;
+    if (!(stiffness > 0) || !(p->limit * p->limit > DBL_MIN)) return;
+    turn[turn_y] = p->y;
+    for (int d = 0; d < 2; d++) {
+        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / stiffness;
+        turn[turn_u + d] -= back;
+        for (int k = 0; k < c.at.terms; k++)
+            turn[turn_w + d * c.at.terms + k] -= c.r->gain[k] * back;
+    }
+}
+
+/* The turning point over the step, displaced as an element that sticks, and its force density `q`. Returns whether it still holds:
+ * the limit there has not changed much, and it does not slip. */
+INLINE bool move_turn(const struct call c, int l, const struct work *s, struct place *p, double *q, double *turn)
+{
+    static const double most_change = 1; /* of the limit. Impacts are as accurate with 0 to 2, with 10 they are not */
+    const double edge = s->edge[l] * s->edge[l],
+                 at_edge = s->limit_ratio[l] * s->at_rim[l], *const then = turn + turn_q;
+    double along[2];
+    if (!(turn[turn_y] < edge) || s->last[l] == 0) return false;
+    *p = place_of(c, turn[turn_y], l, s);
+    if (!(fabs(p->limit - size_of(then)) <= most_change * size_of(then))) return false;
+    for (int d = 0; d < 2; d++) {
+        q[d] = c.law->g_inf * turn[turn_u + d];
+        for (int k = 0; k < c.at.terms; k++)
+            q[d] += c.law->g[k] * (turn[turn_w + d * c.at.terms + k] *= c.r->decay[k]);
+    }
+    const bool turns = (q[0] - then[0]) * s->move[0][l] + (q[1] - then[1]) * s->move[1][l] < 0;
+    const double front = turns ? front_of(p, q, then, edge, at_edge, along) : 0;
+    if (front > 0) { /* slip has turned again */
+        *p = place_of(c, front, l, s);
+        put_turn(c, p, along, q, turn);
+        q[0] = then[0];
+        q[1] = then[1];
+    }
+    for (int d = 0; d < 2; d++) {
+        const double move = s->move[d][l], change = s->speed[d][l] - move / c.step;
+        turn[turn_u + d] += move;
+        q[d] += (c.law->g_inf + c.law->eta / c.step) * move + c.r->viscosity * change;
+        for (int k = 0; k < c.at.terms; k++) {
+            turn[turn_w + d * c.at.terms + k] += c.r->gain[k] * move + c.r->bend[k] * change;
+            q[d] += c.law->g[k] * c.r->gain[k] * move;
+        }
+    }
+    return size_of(q) <= p->limit;
+}
+
+/* Slip in the cell where it begins takes more than the outer element tells. */
+INLINE void count_slip(const struct call c, const struct place *p, const double *along, int l, struct work *s)
+{
+    const struct rows *const row = &s->row[l];
+    const int out = p->in + 1;
+    const double slip = larger(along[0] * s->move[0][l] + along[1] * s->move[1][l], 0);
+    const double limit = along[0] * p->q_out[0] + along[1] * p->q_out[1];
+    s->slipped[l] += slip * (p->limit * weight_of(p->x, p->x_out) + limit * weight_of(p->x_out, p->x));
+    for (int d = 0; d < 2 && out < s->last[l]; d++)
+        s->slipped[l] -=
+            weight_of(p->x_out, p->x_in) * row->q[d][out] * (row->trial[d][out] - row->q[d][out]) * c.r->compliance;
+}
+
+/* q is not linear in y between elements at the turning point, nor where slip begins beyond it. */
+INLINE void follow_turn(const struct call c, int l, struct work *s)
+{
+    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2], along[2];
+    const double at_edge = s->limit_ratio[l] * s->at_rim[l];
+    struct place p;
+    if (!(turn[turn_y] > 0)) return;
+    if (!move_turn(c, l, s, &p, q, turn)) {
+        turn[turn_y] = 0;
+        return;
+    }
+    bend_at(&p, q, l, s);
+    const double front = front_of(&p, q, turn + turn_q, s->edge[l] * s->edge[l], at_edge, along);
+    if (!(front > 0)) return;
+    struct place f = place_of(c, front, l, s);
+    const bool at_rim = f.in + 1 == s->last[l];
+    const uint32_t sticks = (uint32_t)(int64_t)s->stuck[l] >> f.in & 3;
+    if (!(sticks & 1) || (sticks & 2 && !at_rim)) return; /* elements have another past than the turning point */
+    s->known[l] = 1 + f.in;
+    s->front[l] = front;
+    const double slips[2] = {f.limit * along[0], f.limit * along[1]};
+    for (int d = 0; d < 2 && at_rim; d++) {
+        f.q_out[d] = at_edge * along[d];
+        s->total[d][l] += s->outer[l] * (f.q_out[d] - s->rim[d][l]);
+    }
+    if (c.at.details) count_slip(c, &f, along, l, s);
+    if (p.in == f.in) { /* the turning point is the inner end of what bends again */
+        f.x_in = p.x;
+        f.y_in = p.y;
+        f.q_in[0] = q[0];
+        f.q_in[1] = q[1];
+    }
+    bend_at(&f, slips, l, s);
+}
+
+/* Where slip begins and no turning point is yet, one is put: slip may turn there. */
+INLINE void keep_turn(const struct call c, int l, struct work *s)
+{
+    double *const state = c.in->state[l], *const turn = state + rst_at_turn(c.law);
+    if (turn[turn_y] > 0 || !(s->front[l] > 0)) return;
+    const double along[2] = {s->front_along[0][l], s->front_along[1][l]};
+    const struct place p = place_of(c, s->front[l], l, s);
+    if (c.at.details) count_slip(c, &p, along, l, s);
+    for (int d = 0; d < 2; d++) {
+        turn[turn_u + d] = state[rst_at_u(c.law) + d * c.at.n + p.in];
+        for (int k = 0; k < c.at.terms; k++)
+            turn[turn_w + d * c.at.terms + k] = state[rst_at_w(c.law) + (d * c.at.terms + k) * c.at.n + p.in];
+    }
+    put_turn(c, &p, along, p.q_in, turn);
+}
+
 /* Slip begins between an element that sticks, at y_in, as the one behind does, at y_behind, and y_out, where it slips: there the
  * margin to the limit, extrapolated from the sticking side, is zero. The quadrature took it to fall to zero at y_out with the weight
  * `weight`. Returns what it lacks. */
 INLINE double lacking(double margin, double behind, double x_in, double y_in, double y_behind, double y_out,
-                      double weight)
+                      double weight, double *front)
 {
     const double change = behind - margin;
     const bool extrapolates = (margin > 0) & (change > 0);
     const double divisor = extrapolates ? change : 1, y = y_in + margin * (y_in - y_behind) / divisor;
     const double kept = if_so(extrapolates) * if_so((y_out - y) * (y_out - y_in) > 0) * if_so(y > 0);
+    *front = kept * y;
     return kept * margin * (weight - weight_of(x_in, sqrt(larger(y, 0))));
 }
 
@@ -481,17 +673,21 @@ INLINE void add_kinks(const struct call c, int l, struct work *s)
     for (uint32_t turns = (stuck ^ stuck >> 1) & before_last; turns; turns &= turns - 1) {
         const int j = __builtin_ctz(turns), inwards = !(stuck >> j & 1); /* 1: slip within, stick without */
         const int in = j + inwards, out = j + !inwards, behind = 2 * in - out;
-        if (behind < 0 || behind >= last || !(stuck >> behind & 1)) continue;
+        if (behind < 0 || behind >= last || !(stuck >> behind & 1) || s->known[l] == in + 1) continue;
         const double *const f = row->f, *const qx = row->q[0], *const qy = row->q[1], ratio = s->limit_ratio[l];
         const double limit = ratio * f[out];
         if (!(limit > 0)) continue;
         const double x = qx[out] / limit, y = qy[out] / limit;
         const double weight = inwards ? c.law->weight[in] - c.law->outwards[in] : c.law->outwards[in];
+        double front;
         const double more =
             lacking(ratio * f[in] - (x * qx[in] + y * qy[in]), ratio * f[behind] - (x * qx[behind] + y * qy[behind]),
-                    c.law->x[in], c.law->y[in], c.law->y[behind], c.law->y[out], weight);
+                    c.law->x[in], c.law->y[in], c.law->y[behind], c.law->y[out], weight, &front);
         s->total[0][l] += more * x;
         s->total[1][l] += more * y;
+        s->front[l] = inwards ? 0 : front;
+        s->front_along[0][l] = x;
+        s->front_along[1][l] = y;
     }
 }
 
@@ -504,14 +700,19 @@ INLINE void add_kink_at_rim(struct work *s)
         const double reach = (edge - y_in) * s->per_cell[l];
         const double qx = s->q_last[0][l], qy = s->q_last[1][l], px = s->q_before[0][l], py = s->q_before[1][l];
         const double bx = qx + reach * (qx - px), by = qy + reach * (qy - py), size = sqrt(bx * bx + by * by);
-        const bool slips = (s->both_stick[l] > 0) & (reach > 0) & (size > limit);
+        const bool slips = (s->both_stick[l] > 0) & (reach > 0) & (size > limit) & (s->known[l] == 0);
         const double length = slips ? size : 1, x = bx / length, y = by / length;
         const double margin = s->limit_ratio[l] * s->f_last[l] - (x * qx + y * qy);
         const double behind = s->limit_ratio[l] * s->f_before[l] - (x * px + y * py);
-        const double lacks = lacking(margin, behind, s->x[l], y_in, s->y_before[l], edge, s->inner[l] + s->outwards[l]);
+        double front;
+        const double lacks =
+            lacking(margin, behind, s->x[l], y_in, s->y_before[l], edge, s->inner[l] + s->outwards[l], &front);
         const double more = larger(lacks, 0) * if_so(slips), outer = s->outer[l] * if_so(more > 0);
         s->total[0][l] += more * x + outer * (limit * x - s->rim[0][l]);
         s->total[1][l] += more * y + outer * (limit * y - s->rim[1][l]);
+        s->front[l] = more > 0 ? front : (s->last_sticks[l] > 0) & (s->known[l] == 0) ? 0 : s->front[l];
+        s->front_along[0][l] = more > 0 ? x : s->front_along[0][l];
+        s->front_along[1][l] = more > 0 ? y : s->front_along[1][l];
     }
 }
 
@@ -540,10 +741,11 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
             {
                 const double moved = row->touch[i] * s->move[d][l] - back[i];
                 row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
-                slipped[i] += c.law->weight[i] * row->q[d][i] * back[i];
+                slipped[i] += 0.5 * (row->held[d][i] + row->q[d][i]) * back[i]; /* the trapezoid, as of the work */
             }
     }
     if (!c.at.details) return;
+    EACH_ELEMENT slipped[i] = c.law->weight[i] * larger(slipped[i], 0);
     s->slipped[l] = sum_of(slipped, n);
     EACH_ELEMENT slipped[i] = c.law->weight[i] * row->at_rest[i];
     s->spent[l] += c.law->tangential * s->width[l] * sum_of(slipped, n);
@@ -558,12 +760,17 @@ INLINE void slide(const struct call c, int viscous, int l, struct work *s)
 }
 
 /* The integral over the contact radius. */
-INLINE void close_slide(const struct call c, struct work *s)
+INLINE void close_slide(const struct call c, int viscous, struct work *s)
 {
     hold_rim(c, s);
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < LANES; l++) {
+        s->front[l] = s->known[l] = 0;
+        if (!viscous) follow_turn(c, l, s);
         add_kinks(c, l, s);
+    }
     add_kink_at_rim(s);
+    for (int l = 0; l < LANES && !viscous; l++)
+        keep_turn(c, l, s);
 }
 
 INLINE void shear(const struct call c, struct work *s)
@@ -585,7 +792,7 @@ INLINE void shear(const struct call c, struct work *s)
         stick(c, per_step, l, s);
         slide(c, viscous, l, s);
     }
-    close_slide(c, s);
+    close_slide(c, viscous, s);
     if (viscous) {
         lanes change[2];
         EACH_LANE
@@ -595,7 +802,7 @@ INLINE void shear(const struct call c, struct work *s)
             const double response =
                 scale * velocity_response(0.5 * c.step * c.in->inverse_mass[1][l], scale * sticking * c.r->viscosity);
             const double x = -response * s->total[0][l], y = -response * s->total[1][l];
-            const double kept = smaller(1, fastest / larger(larger(fabs(x), fabs(y)), DBL_MIN)) * s->touches[l];
+            const double kept = s->touches[l] * fastest / larger(fastest, larger(fabs(x), fabs(y)));
             change[0][l] = kept * x;
             change[1][l] = kept * y;
             s->speed[0][l] += change[0][l];
@@ -605,12 +812,13 @@ INLINE void shear(const struct call c, struct work *s)
             feel_end_slide(c, (const double[]){change[0][l], change[1][l]}, l, s);
             slide(c, 0, l, s);
         }
-        close_slide(c, s);
+        close_slide(c, 0, s);
     }
-    EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit */
+    EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit; its square may underflow */
     {
         const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
-        const double x = scale * s->total[0][l], y = scale * s->total[1][l], size = sqrt(x * x + y * y);
+        const double x = scale * s->total[0][l], y = scale * s->total[1][l], one = larger(fabs(x), fabs(y));
+        const double px = x / larger(one, DBL_MIN), py = y / larger(one, DBL_MIN), size = one * sqrt(px * px + py * py);
         const double kept = limit / larger(larger(size, limit), DBL_MIN);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
@@ -659,17 +867,19 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const uint32_t stuck = (uint32_t)(int64_t)s->stuck[l];
-    double y = s->edge[l] * s->edge[l], margin[2];
+    double margin[2];
     int j = 0;
     while (j < s->last[l] && stuck >> j & 1)
         j++;
     if (j == 0) return 0;
-    if (j == s->last[l]) return s->width[l] * s->edge[l];
+    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(s->front[l]) : s->edge[l]);
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
-    y = smaller(y,
-                c.law->y[j - 1] + (c.law->y[j] - c.law->y[j - 1]) * margin[0] / larger(margin[0] - margin[1], DBL_MIN));
-    return s->width[l] * sqrt(y);
+    const double inwards = c.law->y[j - 1], outwards = c.law->y[j]; /* rounding may make any margin zero */
+    const double share = larger(margin[0], 0) / larger(larger(margin[0], 0) - margin[1], DBL_MIN);
+    double y = inwards + (outwards - inwards) * smaller(share, 1);
+    if (s->front[l] > inwards) y = smaller(y, s->front[l]);
+    return s->width[l] * smaller(s->edge[l], sqrt(y));
 }
 
 /* The work of the bodies by the trapezoid, as velocity Verlet has it, and what became of it; `state` is still of before. */

@@ -53,6 +53,10 @@ struct rst_batch {
  * components), first tangential axis. Then the arrays. */
 enum { at_width, at_overlap, at_force, at_axis = at_force + 3, at_arrays = at_axis + 3 };
 
+/* A turning point: where the slip annulus began when slip turned to stick. Its y in that of the grid, 0: none; the tangential force
+ * density there then; u and w[2][terms] as of an element. */
+enum { turn_y, turn_q, turn_u = turn_q + 2, turn_w = turn_u + 2 };
+
 /* Where the arrays of a state begin: w_z[terms][n], u[2][n], w[2][terms][n], surface[n]; then the work of the bodies on the
  * contact and what friction took of it. */
 static inline int rst_at_u(const struct rst_law *law)
@@ -67,9 +71,13 @@ static inline int rst_at_surface(const struct rst_law *law)
 {
     return rst_at_w(law) + 2 * law->n * law->n_terms * law->slips;
 }
-static inline int rst_at_details(const struct rst_law *law)
+static inline int rst_at_turn(const struct rst_law *law)
 {
     return rst_at_surface(law) + law->n * law->surface;
+}
+static inline int rst_at_details(const struct rst_law *law)
+{
+    return rst_at_turn(law) + (turn_w + 2 * law->n_terms) * law->slips;
 }
 
 /* How many numbers of details there are: work, friction, viscous, their powers, contact and stick radius. */

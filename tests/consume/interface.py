@@ -64,7 +64,7 @@ def bindings(source):
 
 def expected(argument, structs):
     """Possible Fortran types of an argument in C; is it passed by value, and is it constant?"""
-    constant = argument.startswith("const ")
+    constant = argument.startswith("const ") or "* const *" in argument
     kind = re.sub(r"\bconst\b ?", "", argument)
     stars = kind.count("*") + kind.count("[")
     kind = kind.split()[0]

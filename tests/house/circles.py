@@ -47,7 +47,8 @@ def calls_of(src):
     """{file: files that define what it calls}."""
     texts = {path.relative_to(src).with_suffix("").as_posix(): text_of(path) for path in sorted(src.rglob("*.c"))}
     owner = {name: file for file, text in texts.items() for name in DEFINITION.findall(text)}
-    return {file: {owner[name] for name in re.findall(r"\w+", text) if name in owner} for file, text in texts.items()}
+    words = {file: re.findall(r"\w+", re.sub(r'"[^"\n]*"', "", text)) for file, text in texts.items()}
+    return {file: {owner[name] for name in names if name in owner} for file, names in words.items()}
 
 
 def uses_of(root):

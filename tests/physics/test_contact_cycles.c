@@ -1,5 +1,5 @@
-/* Elastic contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not
- * matter.
+/* Contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter; loaded
+ * again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 
@@ -53,13 +53,14 @@ struct cycle {
     double worst, loss, exact_loss;
 };
 
-/* Load to the peak, unload to its opposite, reload. Forces over mu F_z, displacements over that of
- * gross slip. */
-static struct cycle run_cycle(int elements, double peak)
+/* Load to the peak, unload to its opposite, reload, in a contact that was pressed deeper before: its
+ * radius^2 is the part `rim` of that of its grid, or a little less. Forces over mu F_z, displacements
+ * over that of gross slip. */
+static struct cycle run_cycle(restitute_contact_law *law, double rim, double peak)
 {
-    restitute_contact_law *law = elastic_law(elements);
     struct drive d = drive_of(law, 1e-3, friction);
-    drive_steps(&d, 100, overlap, 0, 0);
+    drive_steps(&d, 1, overlap / rim, 0, 0);
+    drive_steps(&d, 1, overlap - overlap / rim, 0, 0);
     const double limit = friction * d.force.normal, reach = 3 * limit * (2 - nu) / (16 * sqrt(overlap));
     struct cycle c = {0};
     double u = 0, force = 0, exact = 0;
@@ -76,27 +77,39 @@ static struct cycle run_cycle(int elements, double peak)
             if (leg > 0) c.loss += 0.5 * (before + force) * du, c.exact_loss += 0.5 * (exact_before + exact) * du;
         }
     }
-    restitute_contact_law_destroy(law);
     return c;
 }
 
-/* Where slip turned round, the profile of the tangential force keeps a kink that lies between two
- * elements: the less of the contact slips, the more it shows in the loss. Sixteen elements follow
- * small cycles too. */
-static void tangential_force_follows_mindlin_and_deresiewicz(void **unused)
+static void check_cycles(restitute_contact_law *law, const char *name, double worst_force)
+{
+    static const double rims[] = {1, 0.9, 0.7, 0.5, 0.35}, peaks[] = {0.05, 0.1, 0.2, 0.5, 1};
+    double worst = 0;
+    for (int i = 0; i < 25; i++) {
+        const double rim = rims[i / 5], peak = peaks[i % 5];
+        const struct cycle c = run_cycle(law, rim, peak);
+        CHECK_NEAR(c.loss / c.exact_loss, 1, 0.005, "%s, rim %.2f, loss with peak %.2f", name, rim, peak);
+        CHECK_NEAR(c.worst, 0, worst_force, "%s, rim %.2f, force with peak %.2f", name, rim, peak);
+        worst = fmax(worst, fabs(c.loss / c.exact_loss - 1));
+    }
+    print_message("%s: loss within %.2g of the exact one\n", name, worst);
+}
+
+/* The law remembers where slip turned, so the loss is exact up to the gross slip itself: there the
+ * stick zone falls within the innermost cell. With 8 elements this costs 0.62 % of mu F_z at rim 0.35
+ * and a fourth of that with 16. A solid that has not begun to relax is elastic. */
+static void cycles_of_any_size_follow_mindlin_and_deresiewicz(void **unused)
 {
     (void)unused;
-    for (int i = 3; i <= 12; i++) {
-        const struct cycle few = run_cycle(8, 0.1 * i), more = run_cycle(16, 0.1 * i);
-        print_message("peak %.1f: force within %.4f and %.4f of mu F_z, loss %.3f and %.3f of the exact one\n", 0.1 * i,
-                      few.worst, more.worst, few.loss / few.exact_loss, more.loss / more.exact_loss);
-        CHECK_NEAR(few.worst, 0, 0.0125, "8 elements, peak %.1f", 0.1 * i);
-        CHECK_NEAR(more.worst, 0, 0.005, "16 elements, peak %.1f", 0.1 * i);
-        CHECK_NEAR(more.loss / more.exact_loss, 1, 0.02, "16 elements, loss with peak %.1f", 0.1 * i);
-        if (i < 9) continue;
-        CHECK_NEAR(few.worst, 0, 0.01, "8 elements, peak %.1f", 0.1 * i);
-        CHECK_NEAR(few.loss / few.exact_loss, 1, 0.02, "8 elements, loss with peak %.1f", 0.1 * i);
-    }
+    const double tau = 1e6, g = 0.7;
+    restitute_material *material;
+    assert_int_equal(restitute_material_prony(1 - g, 0, 1, &tau, &g, nu, &material, NULL), 0);
+    restitute_contact_law *laws[] = {elastic_law(8), elastic_law(16), law_of(material, 8, 0)};
+    check_cycles(laws[0], "8 elements", 0.007);
+    check_cycles(laws[1], "16 elements", 0.002);
+    check_cycles(laws[2], "8 elements, not relaxed", 0.007);
+    for (int i = 0; i < 3; i++)
+        restitute_contact_law_destroy(laws[i]);
+    restitute_material_destroy(material);
 }
 
 /* A path that loads, slides round corners and unloads, in a frame turned by an angle about a
@@ -289,15 +302,55 @@ static void radii_are_those_of_hertz_and_mindlin(void **unused)
     }
 }
 
+/* Normal forces of a Kelvin-Voigt contact that is loaded four times by half a sine; `recovery`: its
+ * eta/G over the time between. */
+static void press_again(int elements, double recovery, double forces[800])
+{
+    restitute_material *material;
+    assert_int_equal(restitute_material_kelvin_voigt(1, recovery, nu, &material, NULL), 0);
+    restitute_contact_law *law = law_of(material, elements, 0);
+    struct drive d = drive_of(law, 1.0 / 200, 0);
+    for (int i = 0; i < 800; i++) {
+        const double to = overlap * sin(acos(-1.0) * ((i + 1) % 200) / 200);
+        drive_by(&d, to - d.motion.overlap, 0, 0);
+        forces[i] = d.force.normal;
+    }
+    restitute_contact_law_destroy(law);
+    restitute_material_destroy(material);
+}
+
+/* A surface that has not recovered meets the sphere between two elements. The law finds the place from
+ * the gaps of the next two. It is off by part of a cell where the surface bends, at the rim of the
+ * contact before: 9.4 % of the largest force here with 8 elements, 4.0 % with 16. With the rim at the
+ * next element they were 17 % and 6 %. */
+static void dashpot_solids_are_loaded_again(void **unused)
+{
+    (void)unused;
+    static double few[800], more[800], most[800];
+    for (double recovery = 0.01; recovery < 4; recovery *= 3) {
+        double largest = 0, worst[2] = {0, 0};
+        press_again(8, recovery, few), press_again(16, recovery, more), press_again(32, recovery, most);
+        for (int i = 0; i < 800; i++) {
+            largest = fmax(largest, most[i]);
+            worst[0] = fmax(worst[0], fabs(few[i] - most[i])), worst[1] = fmax(worst[1], fabs(more[i] - most[i]));
+        }
+        print_message("eta/G %.2f: 8 elements within %.3f of the largest force, 16 within %.3f\n", recovery,
+                      worst[0] / largest, worst[1] / largest);
+        CHECK_NEAR(worst[0] / largest, 0, 0.12, "8 elements, eta/G %g", recovery);
+        CHECK_NEAR(worst[1] / largest, 0, 0.05, "16 elements, eta/G %g", recovery);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(normal_force_is_that_of_hertz),
-        cmocka_unit_test(tangential_force_follows_mindlin_and_deresiewicz),
+        cmocka_unit_test(cycles_of_any_size_follow_mindlin_and_deresiewicz),
         cmocka_unit_test(paths_do_not_depend_on_directions),
         cmocka_unit_test(force_turns_with_the_normal),
         cmocka_unit_test(force_turns_with_the_bodies),
         cmocka_unit_test(stored_energy_is_the_work),
+        cmocka_unit_test(dashpot_solids_are_loaded_again),
         cmocka_unit_test(radii_are_those_of_hertz_and_mindlin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

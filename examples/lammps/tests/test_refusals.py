@@ -46,7 +46,7 @@ refused("rigid bodies", ["rigid bodies"], LAW + "fix move all rigid single\nrun 
 refused("a minimizer", ["minimizer"], LAW + "minimize 0 1e-9 10 10")
 refused("rRESPA", ["run_style verlet"], LAW + "run_style respa 2 2\n" + RUN)
 refused("no velocities of ghosts", ["comm_modify vel yes"], "comm_modify vel no\n" + LAW + RUN)
-refused("a time step of less than ten in a contact", ["atoms 1 and 2", "step 1", "less than ten steps"],
+refused("a time step of less than ten in a contact", ["atoms 1 and 2", "step 1", "speed 0.02999", "less than ten steps of 0.0002", "at most 2.11e-06"],
         LAW + RUN.replace("1e-6", "2e-4"))
 refused("no time step", ["step"], LAW + RUN.replace("1e-6", "0"))
 refused("a periodic wall", ["periodic"], f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL",
@@ -68,6 +68,8 @@ for what, words, before, wall in (
         ("a period of 0", ["wiggle period 0", "positive"], "", "zplane 0 NULL wiggle z 1 0"),
         ("a word too many", ["'contact'", "contacts"], "", "zplane 0 NULL shear x 1 contact")):
     refused(what, words, f"{before}fix w all wall/restitute {rubber} friction 0.3 {wall}")
+refused("the energy of a wall without details", ["fix w", "fix_modify energy yes", "'details yes'"],
+        LAW + f"fix w all wall/restitute {rubber} friction 0.3 zplane 0 NULL\nfix_modify w energy yes\n" + RUN)
 refused("a sphere larger than its bowl", ["atom 1 and wall w at step", "radius 0.005", "curvature of the wall, 0.004"],
         LAW + f"region r sphere 0.001 0 0 0.004 units box\nfix w all wall/restitute {rubber} friction 0.3 region r\n" + RUN)
 
@@ -88,13 +90,38 @@ for name, solid in (("another law", other), ("a law of another size", glass)):
         fix w all wall/restitute {solid} friction 0.3 zplane -0.1 NULL
         {RUN}""")
 
+refused("a restart with another resistance", ["restart file", "types 1 1"], LAW + RUN + f"""
+    write_restart law.restart
+    clear
+    read_restart law.restart
+    pair_style restitute
+    pair_coeff * * {rubber} friction 0.3 rolling sds 1 0 0.1
+    {RUN}""")
+
 THIRD = "create_atoms 1 single {} 0 0 units box\nset atom 3 diameter 0.01 density 1000\n"
 LEFT = THIRD.format(-0.009999)  # touches atom 1
 TOUCH = LEFT + LAW + RUN.replace("100", "1") + "\n"
-refused("the force of one pair", ["does not support compute pair/local"],
-        LAW + "compute c all pair/local force\n" + RUN)
-refused("the force between groups", ["does not support compute group/group"],
-        LAW + "group g id 1\ncompute c g group/group all\n" + RUN)
+for line in ("group/group all", "stress/mop x 0.004 total", "stress/cartesian x 0.1 NULL 0"):
+    refused("compute " + line, ["compute c " + line.split()[0], "tangential"],
+            LAW + f"group g id 1\ncompute c g {line}\n" + RUN, boundary="p p p")
+refused("spheres far inside each other", ["atoms 1 and 3 at step 1", "an overlap of 0.003", "effective radius, 0.0025", "at the start"],
+        THIRD.format(0.007) + "set atom 2 x 0.1\n" + LAW + RUN)
+refused("two spheres in one place", ["atoms 1 and 3", "centers coincide"], THIRD.format(0) + LAW + RUN)
+BEGUN = "the contact began under another law"
+refused("a type that changes in contact", ["atoms 1 and 3 at step 1:", BEGUN, "pair_style none"],
+        LEFT + LAW + f"pair_coeff * 2 {other} friction 0.3\n" + RUN.replace("100", "1") +
+        "\nset atom 3 type 2\nrun 1", kinds=2)
+refused("friction that ends in contact", ["atoms 1 and 3 at step 1", BEGUN],
+        TOUCH + f"pair_coeff * * {rubber} friction 0\nrun 1")
+refused("spheres in contact that are displaced", ["atoms 1 and 2 at step 2", "60 degrees in a step"],
+        TOUCH + "displace_atoms all rotate 0 0 0 0 1 0 90\nrun 1")
+refused("a speed of more than a radius in a step", ["atoms 1 and 3 at step 2", "velocity (", "effective radius 0.0025 in a step of 1e-06"],
+        TOUCH + "set atom 3 omega 0 0 1e6\nrun 1")
+for words, names in (("rolling", ["'rolling'", "must follow"]), ("rolling marshall", ["'rolling marshall'", "sds"]),
+                     ("twisting x", ["'twisting x'", "marshall or sds"]), ("twisting sds 1 2", ["'2'", "must follow"]),
+                     ("rolling sds 1 -2 3", ["'-2'", "[0, 1e60]"]), ("speed -1", ["'-1'", "[0, 1e60]"]),
+                     ("details maybe", ["'details maybe'", "yes or no"])):
+    refused(words, names, f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 {words}")
 refused("IDs that reset_atoms has changed", ["atom", "another ID", "reset_atoms id"],
         TOUCH + "reset_atoms id sort yes\nrun 1")
 refused("IDs that delete_atoms has changed", ["atom", "another ID", "compress no"],
@@ -150,6 +177,45 @@ warnings("images of spheres of a box that shrinks", 0, SHRINK.format("none"), fi
 warnings("spheres that have grown", 0, "variable d equal 0.0109\nfix grow all adapt 1 atom diameter v_d\n"
          + RUN.replace("100", "2500"), first=-0.5 + 90 / 181 - 3e-5 - 5.005e-4, distance=0.01125 + 5.005e-4, speed=0.5,
          atom_style="sphere 1")
+
+
+def log_of(lines, **scene_words):
+    """Of three spheres of two types: the log and its warnings."""
+    scene = Scene(screen="log.txt", kinds=2, **scene_words)
+    scene.add((0, 0, 0), (0.03, 0, 0))
+    scene.add((0.01, 0, 0), (0, 0, 0))
+    scene.add((0.3, 0, 0), (0, 0, 0), radius=0.002, kind=2)
+    scene.run(lines)
+    scene.close()
+    with open("log.txt") as log:
+        text = log.read()
+    return text, [line for line in text.splitlines() if "WARNING" in line]
+
+
+# The limit of the time step for a speed, of the smallest spheres; and that of a contact.
+TELLS = LAW.replace("0.3", "0.3 speed 0.03") + f"pair_coeff 2 2 {glass} friction 0.3\n" + RUN
+text, warned = log_of(TELLS.replace("1e-6", "1.9e-6"))
+limits = re.findall(r"restitute: types (\d \d), radii (\S+) and (\S+), speed 0.03: time step at most (\S+)", text)
+print(*limits, *warned, sep="\n")
+check([limit[:3] for limit in limits] == [("1 1", "0.005", "0.005"), ("1 2", "0.005", "0.002")], "not the smallest spheres")
+check(len(warned) == 1 and "types 1 2" in warned[0] and "time step 1.9e-06 is longer than" in warned[0], "no warning of a long step")
+check("page size: 20000" in text, "pages of neighbors are larger than LAMMPS needs")
+limit = float(limits[0][3])
+_, warned = log_of(TELLS.replace("1e-6", f"{1.001 * limit}").replace(" speed 0.03", ""))
+print(*warned)
+check(len(warned) == 1 and "shorter by a factor of 1.01 " in warned[0], "a step that is 1.001 times too long")
+
+# An elastic contact with a wall lasts 2^(1/5) times as long as with an equal sphere.
+words = f"{glass} friction 0.3 speed 0.03"
+text, _ = log_of(f"pair_style restitute\npair_coeff * * {words}\nfix w all wall/restitute {words} xplane -0.4 NULL\n{RUN}")
+pair, wall = (float(re.search(rf"restitute: {what}, .*time step at most (\S+)", text).group(1))
+              for what in ("types 1 1", "wall w, type 1"))
+check(abs(wall / pair - 2**0.2) <= 1e-3, f"the limit of a wall is {wall}, of a pair {pair}")
+
+# There is no variant for threads.
+_, warned = log_of(TELLS.replace(" speed 0.03", ""), switches=["-sf", "omp"])
+print(*warned)
+check(len(warned) == 1 and "pair_style restitute" in warned[0] and "suffix omp" in warned[0], "no warning of suffix omp")
 
 
 # A law that misses its material by more than a fifth runs, with a warning.

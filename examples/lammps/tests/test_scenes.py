@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a
-sphere held fast. Spheres that fixes create during a run meet as others do."""
+sphere held fast. Spheres that fixes create during a run meet as others do. Spheres that overlap are
+separated as contacts.md says."""
 import math
+import os
+import random
 
 from scenes import Scene, check, library_pairs, material
 
@@ -114,3 +117,33 @@ for fix in (POUR, DEPOSIT):
     print(f"{name}: {len(found)} spheres, {contacts:.0f} contacts")
     check(len(found) == 40 and answer >= 10, f"{name}: {len(found)} spheres, {answer} contacts: too few for a test")
     check(found == wanted, f"{name}: {contacts} contacts; {answer} if a sphere as large is there from the start")
+
+
+def packing(separation):
+    """60 spheres in random places; their largest speed after 2000 steps, and what the run reports."""
+    scene = Scene(half_width=0.02, boundary="p p p", screen="log.txt")
+    draw = random.Random(3)
+    for _ in range(60):
+        scene.add([draw.uniform(-0.02, 0.02) for _ in range(3)], (0, 0, 0), radius=draw.uniform(0.004, 0.006))
+    scene.run(separation)
+    scene.run(f"""
+        pair_style restitute
+        pair_coeff * * {SOFT} friction 0.3
+        fix move all nve/sphere
+        timestep 5e-6
+        run 2000
+        """)
+    speed = max(math.hypot(*v) for v in scene.all("v").values())
+    scene.close()
+    return speed
+
+
+with open(os.path.join(os.path.dirname(__file__), "..", "contacts.md")) as file:
+    lines = file.read().split("## Spheres that overlap")[1].split("```")[1]
+try:
+    check(False, f"spheres far inside each other run, up to {packing('')} m/s")
+except Exception as problem:
+    check("an overlap of" in str(problem), str(problem))
+speed = packing(lines)
+print(f"60 spheres that overlapped: up to {speed:.1e} m/s")
+check(speed < 0.01, "a separated packing flies apart")

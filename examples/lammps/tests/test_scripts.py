@@ -57,6 +57,9 @@ check(int(counts(one)[0][0]) > 150, f"in.shear: {counts(one)} contacts and steps
 a, b = motions("one.txt")[0], motions("two.txt")[0]
 error = max(abs(x - y) for x, y in zip(a, b))
 print(f"in.shear: {counts(one)[0]} contacts and steps, on two processes the same, motions differ by {error:.1e}")
+numbers = [[float(word) for word in text.split("Loop time")[0].strip().splitlines()[-1].split()[-3:]] for text in (one, two)]
+print("in.shear: energies stored, lost to friction and in dashpots:", *numbers)
+check(all(1e-12 < a and abs(a / b - 1) <= 1e-6 for a, b in zip(*numbers)), "in.shear loses other energies on two processes")
 # Sums of forces round in another order; spins are some 100 1/s, and impacts multiply differences.
 check(len(a) == len(b) == 512 * 10 and error <= 1e-9, "in.shear is another motion on two processes")
 
