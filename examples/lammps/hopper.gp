@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # A hopper with both laws, from the files of hopper.py:
 #   gnuplot -e "figure='hopper.png'" hopper.gp
-set terminal pngcairo size 1000,800 font "Helvetica,12" background "white"
+set terminal pngcairo size 1000,640 font "Helvetica,12" background "white"
 set output figure
 size = 0.03
 opened = 4.5 * sqrt(size / 9.81)
@@ -25,8 +25,8 @@ set arrow from -0.9,-0.6 to 0.9,-0.6 nohead lw 2
 set arrow from 0.9,-0.6 to 0.9,1 nohead lw 2
 titles = "'restitute, full' 'restitute, flowing' 'constant damping, flowing' 'restitute, at rest'"
 do for [k = 0:3] {
-    set origin 0.25 * k, 0.48
-    set size 0.25, 0.52
+    set origin 0.25 * k, 0.56
+    set size 0.25, 0.43
     set lmargin 0; set rmargin 0; set bmargin 0; set tmargin 2
     set title word(titles, k + 1)
     plot "hopper-frames.txt" index k using 1:2:3:4 with circles fc palette notitle
@@ -38,7 +38,7 @@ set style line 1 lc rgb "#1f6f8b" lw 2.5
 set style line 3 lc rgb "#c4451c" lw 2 dt 2
 set grid lc rgb "#dddddd" lw 1
 set xlabel "time from the opening of the outlet, s"
-set size 0.5, 0.46
+set size 0.5, 0.55
 set origin 0, 0
 set xrange [0:*]
 set yrange [0:1]
