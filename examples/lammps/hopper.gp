@@ -3,8 +3,7 @@
 #   gnuplot -e "figure='hopper.png'" hopper.gp
 set terminal pngcairo size 1000,640 font "Helvetica,12" background "white"
 set output figure
-size = 0.03
-opened = 4.5 * sqrt(size / 9.81)
+opened = 4.5 * sqrt(0.03 / 9.81)
 set multiplot
 
 # The rear half of the beads, and the walls cut through the axis
@@ -18,8 +17,8 @@ set xrange [-1.05:1.05]
 set yrange [-0.65:1.05]
 set size ratio -1
 tan30 = tan(pi / 6)
-set arrow from -0.35,0 to -0.9,0.55/tan30 nohead lw 2
-set arrow from 0.35,0 to 0.9,0.55/tan30 nohead lw 2
+set arrow from -0.45,0 to -0.9,0.45/tan30 nohead lw 2
+set arrow from 0.45,0 to 0.9,0.45/tan30 nohead lw 2
 set arrow from -0.9,1 to -0.9,-0.6 nohead lw 2
 set arrow from -0.9,-0.6 to 0.9,-0.6 nohead lw 2
 set arrow from 0.9,-0.6 to 0.9,1 nohead lw 2
@@ -31,8 +30,6 @@ do for [k = 0:3] {
     set title word(titles, k + 1)
     plot "hopper-frames.txt" index k using 1:2:3:4 with circles fc palette notitle
 }
-unset arrow
-unset title
 reset
 set style line 1 lc rgb "#1f6f8b" lw 2.5
 set style line 3 lc rgb "#c4451c" lw 2 dt 2
@@ -47,8 +44,8 @@ set key bottom right
 plot "hopper-restitute.txt" using ($1 - opened):($4 / $3) with lines ls 1 title "restitute", \
      "hopper-granular.txt" using ($1 - opened):($4 / $3) with lines ls 3 title "constant damping"
 set origin 0.5, 0
-set xrange [-opened:*]
-set yrange [1e-8:2e-3]
+set xrange [-0.25:*]
+set yrange [1e-7:3e-3]
 set logscale y
 set format y "10^{%T}"
 set ylabel "kinetic energy, J"

@@ -17,7 +17,7 @@ import sys
 from damping import BEAD, DENSITY, HERE, damped
 from scenes import PLUGIN
 
-GRAVITY, SIZE, OUTLET, FRICTION = 9.81, 0.03, 0.35, 0.5  # as in in.hopper
+GRAVITY, SIZE, OUTLET, FRICTION = 9.81, 0.03, 0.45, 0.5  # as in in.hopper
 LAWS = {"restitute": "restitute", "granular": "constant damping"}
 
 
@@ -37,8 +37,10 @@ def series(law):
 
 
 def when(s, mass):
-    """The time at which this mass has come out."""
-    k = next(k for k, out in enumerate(s["discharged_kg"]) if out >= mass)
+    """The time at which this mass has come out, or nan."""
+    k = next((k for k, out in enumerate(s["discharged_kg"]) if out >= mass), None)
+    if k is None:
+        return math.nan
     low, high = s["discharged_kg"][k - 1:k + 1]
     return s["time_s"][k - 1] + (s["time_s"][k] - s["time_s"][k - 1]) * (mass - low) / (high - low)
 
@@ -82,7 +84,7 @@ def frame(law, number):
     """Beads of the rear half, the nearest last: x, z, radius and height in the full hopper, over
     the size of the hopper."""
     with open(f"hopper-{law}.frames") as file:
-        lines = file.read().split("ITEM: ATOMS")[1 + number].split("ITEM:")[0].splitlines()[1:]
+        lines = file.read().split("ITEM: ATOMS")[1:][number].split("ITEM:")[0].splitlines()[1:]
     beads = [[float(word) / SIZE for word in line.split()[-5:]] for line in lines]
     return [(x, z, r, height) for x, y, z, r, height in sorted(beads, key=lambda bead: -bead[1]) if y > 0]
 
@@ -103,7 +105,7 @@ def report(beads):
     for name in tables[0]:
         print(f"| {name} | {' | '.join(table[name] for table in tables)} |")
     with open("hopper-frames.txt", "w") as out:
-        for law, number in ("restitute", 0), ("restitute", 3), ("granular", 3), ("restitute", -2):
+        for law, number in ("restitute", 0), ("restitute", 3), ("granular", 3), ("restitute", -1):
             out.writelines(" ".join(f"{value:.4f}" for value in bead) + "\n" for bead in frame(law, number))
             out.write("\n\n")
 

@@ -72,11 +72,11 @@ check(int(floor) > 10 and int(beads) > 10, "in.bed: the beads do not meet all th
 check(motions("whole.txt")[1] == motions("halves.txt")[1], "in.bed: a restart changes the motion")
 
 # in.hopper names the columns of its series.
-SIZE, OUTLET, TAN, COS = 0.03, 0.55 * 0.03, math.tan(math.pi / 6), math.cos(math.pi / 6)
-lmp("in.hopper", n=100, outlet=0.55, fill=3, discharge=1.5, every=500, frames="frames.txt")
+BEADS, SIZE, OUTLET, TAN, COS = 100, 0.03, 0.55 * 0.03, math.tan(math.pi / 6), math.cos(math.pi / 6)
+lmp("in.hopper", n=BEADS, outlet=0.55, fill=3.8, discharge=1.5, every=500, frames="frames.txt")
 with open("hopper.txt") as file:
     rows = [[float(word) for word in line.split()] for line in list(file)[1:]]
-opened, rows = 3 * math.sqrt(SIZE / 9.81), [row for row in rows if row[1] == 100]
+opened, rows = 3.8 * math.sqrt(SIZE / 9.81), [row for row in rows if row[1] == BEADS]
 mass, energies = rows[0][2], [row[4] + row[5] for row in rows]
 rise = max(after - before for before, after in zip(energies, energies[1:]))
 print(f"in.hopper: discharged {rows[-1][3] / mass:.2f}, energy falls by {energies[0] - energies[-1]:.2e} J and never "
@@ -85,15 +85,15 @@ check(rows[0][0] < opened and all(row[2] == mass for row in rows), "in.hopper: m
 check(all(row[3] == 0 for row in rows if row[0] < opened), "in.hopper: beads pass the closed outlet")
 check(rows[-1][3] > 0.3 * mass, "in.hopper: beads do not flow")
 # Contacts store some energy for a moment: less than a bead has that fell by its diameter.
-check(rise <= mass / 100 * 9.81 * SIZE / 100 ** (1 / 3), "in.hopper: energy grows")
+check(rise <= mass / BEADS * 9.81 * SIZE / BEADS ** (1 / 3), "in.hopper: energy grows")
 with open("frames.txt") as file:
     frames = [part.splitlines() for part in file.read().split("ITEM: ATOMS id x y z radius f_height\n")[1:]]
-for line in (line for frame in frames for line in frame[:100]):
+for line in (line for frame in frames for line in frame[:BEADS]):
     x, y, z, radius = map(float, line.split()[1:5])
     least, r = 0.99 * radius, math.hypot(x, y)  # an overlap of 1 % has a/R = 0.1
     check(0.9 * SIZE - r >= least and z + 0.6 * SIZE >= least, f"in.hopper: a bead is in a wall: {line}")
     check(z < radius / 2 or (OUTLET + z * TAN - r) * COS >= least, f"in.hopper: a bead is in the hopper's wall: {line}")
-check(len(frames) == 4 and len(frames[-1]) == 100, "in.hopper: frames are missing")
+check(len(frames) == 4 and len(frames[-1]) == BEADS, "in.hopper: frames are missing")
 
 
 CROWD = """
