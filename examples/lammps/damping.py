@@ -59,7 +59,8 @@ def damped(radius=RADIUS, friction=FRICTION):
 
 
 def main():
-    styles = (f"pair_style restitute\npair_coeff * * {BEAD} friction {FRICTION}", "pair_style granular\npair_coeff * * " + damped())
+    styles = (f"pair_style restitute\npair_coeff * * {BEAD} friction {FRICTION}",
+              "pair_style granular\npair_coeff * * " + damped())
     with open("damping.csv", "w") as out:
         out.write("speed_m_s,angle_deg,ez_library,ex_library,ez_restitute,ex_restitute,ez_damping,ex_damping\n")
         for n, cases in enumerate((HEAD_ON, OBLIQUE)):
