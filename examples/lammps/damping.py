@@ -68,7 +68,8 @@ def main():
                 out.write("\n\n")
             for (speed, angle), answer in zip(cases, library(cases)):
                 found = [value for style in styles for value in impact(speed, angle, answer["contact_time"], style)]
-                out.write(",".join(f"{value:.6g}" for value in (speed, angle, answer["ez"], answer["ex"], *found)) + "\n")
+                row = (speed, angle, answer["ez"], answer["ex"], *found)
+                out.write(",".join(f"{value:.6g}" for value in row) + "\n")
 
 
 if __name__ == "__main__":

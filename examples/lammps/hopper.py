@@ -24,10 +24,10 @@ LAWS = {"restitute": "restitute", "granular": "constant damping"}
 
 def run(law, beads, damping):
     lmp = os.path.join(os.path.dirname(sys.executable), "lmp")
-    subprocess.run([lmp, "-in", f"{HERE}/in.hopper", "-log", f"hopper-{law}.log", "-screen", "none", "-nocite", "-var",
-                    "plugin", PLUGIN, "-var", "bead", BEAD, "-var", "n", str(beads), "-var", "law", law, "-var",
-                    "damping", damping, "-var", "series", f"hopper-{law}.txt", "-var", "frames", f"hopper-{law}.frames"],
-                   check=True)
+    command = [lmp, "-in", f"{HERE}/in.hopper", "-log", f"hopper-{law}.log", "-screen", "none", "-nocite"]
+    values = {"plugin": PLUGIN, "bead": BEAD, "n": str(beads), "law": law, "damping": damping,
+              "series": f"hopper-{law}.txt", "frames": f"hopper-{law}.frames"}
+    subprocess.run(command + [word for pair in values.items() for word in ("-var", *pair)], check=True)
 
 
 def series(law):
