@@ -24,8 +24,8 @@ struct Body {
 };
 
 /* Contacts of a law that wait for their forces: they are computed side by side. The normal of a
- * motion points from body 1 into body 2. The arms go from the centres to the contact point, half-way
- * through the overlap. */
+ * motion points from body 1 into body 2. The arms go from the centres to the contact point,
+ * half-way through the overlap. */
 struct Batch {
     static constexpr int SIZE = 64;
     int n = 0;
@@ -125,9 +125,9 @@ class ContactModel
     /* A batch for contacts of this model. */
     std::unique_ptr<Batch> make_batch() const;
 
-    /* Forces after a step, or those of the last step again. Returns the number of the first contact
-     * that was refused, with a text, or -1. The label of a history becomes negative when the contact
-     * counts as beyond RADIUS. */
+    /* Forces after a step, or those of the last step again. Returns the number of the first
+     * contact that was refused, with a text, or -1. The label of a history becomes negative when
+     * the contact counts as beyond RADIUS. */
     int advance(Batch &batch, const char **problem);
     int repeat(Batch &batch, const char **problem);
 
@@ -145,7 +145,8 @@ class ContactModel
     /* Radii and energies; zeros without `details yes`. */
     restitute_contact_details details(double radius, const double *history);
 
-    /* An error text, or NULL. Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. */
+    /* Turns the memory of a contact whose normal has jumped, as at an edge of a mesh. An error
+     * text, or NULL. */
     const char *turn(const double from[3], const double to[3], double *history);
 
   private:

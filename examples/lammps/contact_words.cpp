@@ -99,6 +99,8 @@ void ContactModel::read(const Units &units, restitute_contact_law_options &optio
             if (!resistance.is_marshall) resistance.twisting = sds();
         } else if (word == "details")
             has_details = one_of("yes", "no");
+        else if (word == "slip_cycles")
+            options.slip_cycles = one_of("yes", "no");
         else if (word == "speed")
             speed = not_negative(next());
         else if (word == "limits")
@@ -106,7 +108,7 @@ void ContactModel::read(const Units &units, restitute_contact_law_options &optio
         else
             throw std::invalid_argument("'" + word +
                                         "': must be friction, partner, elements, terms, window, rolling, twisting, "
-                                        "details, speed or limits");
+                                        "details, slip_cycles, speed or limits");
     }
     if (!(motion.friction >= 0 && motion.friction <= 1e6))
         throw std::invalid_argument("'friction MU' is required, with MU in [0, 1e6]");

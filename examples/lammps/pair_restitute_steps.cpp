@@ -226,9 +226,10 @@ const double *PairRestitute::history_of(int i, int j) const
     return nullptr;
 }
 
-/* Numbers for `compute pair/local`: 1 to 12 as of LAMMPS's pair_style granular. The tangential force
- * on i and its length, the rolling torque on i and its length, the twisting torque, x_i - x_j; then
- * the contact radius, the stick radius, stored energy, losses to friction and viscous ones. */
+/* Numbers for `compute pair/local`: 1 to 12 as of LAMMPS's pair_style granular. The tangential
+ * force on i and its length, the rolling torque on i and its length, the twisting torque, x_i -
+ * x_j; then the contact radius, the stick radius, stored energy, losses to friction and viscous
+ * ones. */
 double PairRestitute::single(int i, int j, int, int, double rsq, double, double, double &fforce)
 {
     const Spheres spheres(atom, frozen);

@@ -1,6 +1,6 @@
 /* Rolling and twisting resistance of a contact whose normal force is known: the models `rolling
- * sds`, `twisting sds` and `twisting marshall` of LAMMPS's pair_style granular. Does not depend on a
- * DEM code.
+ * sds`, `twisting sds` and `twisting marshall` of LAMMPS's pair_style granular. Does not depend on
+ * a DEM code.
  *
  * Rolling: S. Luding, Granular Matter 10 (2008) 235, with the rolling velocity of Y. Wang et al.,
  * Particuology 23 (2015) 49, eq. 31. Twisting: J. S. Marshall, J. Comput. Phys. 228 (2009) 1541,

@@ -37,7 +37,7 @@ module restitute_contact_module
   !> What a law is made of besides the material.
   type, bind(c) :: restitute_contact_law_options
     integer(c_size_t) :: struct_size = 0
-    integer(c_int) :: deformable = 0, elements = 0, terms = 0
+    integer(c_int) :: deformable = 0, elements = 0, terms = 0, slip_cycles = 0
     real(c_double) :: shortest = 0, longest = 0
     integer(c_int) :: frictionless = 0, details = 0
   end type restitute_contact_law_options

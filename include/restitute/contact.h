@@ -14,7 +14,7 @@
  *      restitute_contact_rates rates; restitute_contact_rates_init(&rates);
  *      restitute_contact_law_create(rubber, &options, &law, &error);
  *      restitute_contact_rates_set(law, dt, &rates, &error);            // once for a time step
- *      double state[55] = {0};                        // restitute_contact_law_state_size(law)
+ *      double state[48] = {0};                        // restitute_contact_law_state_size(law)
  *      restitute_contact_step(law, &rates, &motion, state, &force, &error);
  *
  *  What the host does: it keeps the state from the first overlap until the bodies separate and then
@@ -52,6 +52,9 @@ typedef struct restitute_contact_law_options {
                              memory grow */
     int terms;          /**< most Prony terms kept, 1 to 8; default 4. A material with more is
                              reduced to so many, which meet G(t) from `shortest` to `longest` */
+    int slip_cycles;    /**< nonzero: the law remembers where slip turned, so that cycles far below
+                             gross slip lose what they should (docs/contact.md, Accuracy); 5 + 2
+                             terms more doubles, and half as much time again; default 0 */
     /** s, 1e-60 <= shortest < longest <= 1e60: the time step of the host and the longest contact
      *  time of interest. Required if terms are reduced, else not read; default 0 */
     double shortest;
@@ -83,9 +86,9 @@ RESTITUTE_SINCE_0_1 int restitute_contact_law_create(const restitute_material *m
 RESTITUTE_SINCE_0_1 void restitute_contact_law_destroy(restitute_contact_law *law);
 
 /** Doubles of the state of one contact: 8 + elements x (2 with friction + terms x (1, 3 with
- *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 5 + 2 terms with friction
- *  + 7 with details. With 8 elements and friction: elastic 29, Kelvin-Voigt 37, standard solid 55. 0
- *  for NULL. */
+ *  friction) + 1 with a parallel dashpot or without equilibrium modulus) + 5 + 2 terms with slip
+ *  cycles + 7 with details. With 8 elements and friction: elastic 24, Kelvin-Voigt 32, standard
+ *  solid 48. 0 for NULL. */
 RESTITUTE_SINCE_0_1 size_t restitute_contact_law_state_size(const restitute_contact_law *law);
 
 /** A number that two laws share if they are the same, for restart files; 0 for NULL. A state

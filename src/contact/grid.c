@@ -51,7 +51,7 @@ void rst_contact_stretch(const struct rst_law *law, double area, double *state)
         ratio *= step;
     for (double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n)
         resample(law->n, law->y, ratio * ratio, values);
-    if (law->slips) state[rst_at_turn(law) + turn_y] /= ratio * ratio;
+    if (law->turns) state[rst_at_turn(law) + turn_y] /= ratio * ratio;
     state[at_width] = ratio * width;
 }
 

@@ -23,7 +23,7 @@ typedef double lanes[LANES];
 
 /* What a compiler is to know of a law. */
 struct shape {
-    int n, terms, surface, slips, details;
+    int n, terms, surface, slips, turns, details;
 };
 
 /* What a step is of. */
@@ -236,8 +236,9 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
     const double *const pressed = s->row[l].pressed,
                         out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
     const double fall = pressed[last] - out;
-    if (pressed[last] < 0 && fall > 0)
-        s->meets[l] = larger(s->y[l], c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / fall);
+    const bool apart = (pressed[last] < 0) & (fall > 0);
+    const double meets = c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / (apart ? fall : 1);
+    if (apart) s->meets[l] = larger(s->y[l], meets);
 }
 
 /* Where the contact ends beyond its last element, f there, and the whole force. A contact that grows over virgin elements ends where
@@ -488,7 +489,7 @@ struct place {
 INLINE struct place place_of(const struct call c, double y, int l, const struct work *s)
 {
     const struct rows *const row = &s->row[l];
-    struct place p = {.x = sqrt(y), .y = y};
+    struct place p = {.x = sqrt(larger(y, 0)), .y = y};
     while (p.in + 1 < s->last[l] && c.law->y[p.in + 1] <= y)
         p.in++;
     const bool cut = p.in + 1 == s->last[l];
@@ -524,12 +525,13 @@ INLINE double front_of(const struct place *p, const double *q, const double *the
     static const double least = 1e-6; /* of the limit; below, the direction would be of rounding */
     const double x = q[0] - then[0], y = q[1] - then[1], moved = sqrt(x * x + y * y), was = size_of(then);
     if (!(moved > least * p->limit)) return 0;
-    along[0] = x / moved;
-    along[1] = y / moved;
-    const double cosine = (along[0] * then[0] + along[1] * then[1]) / was;
+    along[0] = x / larger(moved, DBL_MIN);
+    along[1] = y / larger(moved, DBL_MIN);
+    const double cosine = (along[0] * then[0] + along[1] * then[1]) / larger(was, DBL_MIN);
     const double margin = p->limit - (along[0] * q[0] + along[1] * q[1]);
     const double margin_at_edge = at_edge - moved - cosine * (at_edge - (p->limit - was));
-    return (margin > 0) & (margin_at_edge < 0) ? p->y + (edge - p->y) * margin / (margin - margin_at_edge) : 0;
+    const bool begins = (margin > 0) & (margin_at_edge < 0);
+    return begins ? p->y + (edge - p->y) * margin / (begins ? margin - margin_at_edge : 1) : 0;
 }
 
 /* A turning point is put where slip begins: u and w, as of an element near by with the force density q, are displaced to the limit. */
@@ -539,10 +541,11 @@ INLINE void put_turn(const struct call c, const struct place *p, const double *a
     for (int k = 0; k < c.at.terms; k++)
         stiffness += c.law->g[k] * c.r->gain[k];
     turn[turn_y] = 0;
-    if (!(stiffness > 0) || !(p->limit * p->limit > DBL_MIN)) return;
+    if (!(stiffness * c.r->compliance > 1e-6) || !(p->limit > 1e-100 && p->limit < 1e100))
+        return; /* dashpots hold no kink */
     turn[turn_y] = p->y;
     for (int d = 0; d < 2; d++) {
-        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / stiffness;
+        const double then = turn[turn_q + d] = p->limit * along[d], back = (q[d] - then) / larger(stiffness, DBL_MIN);
         turn[turn_u + d] -= back;
         for (int k = 0; k < c.at.terms; k++)
             turn[turn_w + d * c.at.terms + k] -= c.r->gain[k] * back;
@@ -556,7 +559,7 @@ INLINE bool move_turn(const struct call c, int l, const struct work *s, struct p
     static const double most_change = 1; /* of the limit. Impacts are as accurate with 0 to 2, with 10 they are not */
     const double edge = s->edge[l] * s->edge[l],
                  at_edge = s->limit_ratio[l] * s->at_rim[l], *const then = turn + turn_q;
-    double along[2];
+    double along[2] = {0};
     if (!(turn[turn_y] < edge) || s->last[l] == 0) return false;
     *p = place_of(c, turn[turn_y], l, s);
     if (!(fabs(p->limit - size_of(then)) <= most_change * size_of(then))) return false;
@@ -585,12 +588,14 @@ INLINE bool move_turn(const struct call c, int l, const struct work *s, struct p
     return size_of(q) <= p->limit;
 }
 
-/* Slip in the cell where it begins takes more than the outer element tells. */
+/* What slip takes in the cell where it begins, instead of what its outer element tells. Slip is what the displacement exceeds that of
+ * the limit by, which grows with the approach. */
 INLINE void count_slip(const struct call c, const struct place *p, const double *along, int l, struct work *s)
 {
     const struct rows *const row = &s->row[l];
     const int out = p->in + 1;
-    const double slip = larger(along[0] * s->move[0][l] + along[1] * s->move[1][l], 0);
+    const double move = along[0] * s->move[0][l] + along[1] * s->move[1][l];
+    const double slip = larger(move - s->limit_ratio[l] * s->approach[l] * c.step, 0);
     const double limit = along[0] * p->q_out[0] + along[1] * p->q_out[1];
     s->slipped[l] += slip * (p->limit * weight_of(p->x, p->x_out) + limit * weight_of(p->x_out, p->x));
     for (int d = 0; d < 2 && out < s->last[l]; d++)
@@ -601,9 +606,9 @@ INLINE void count_slip(const struct call c, const struct place *p, const double 
 /* q is not linear in y between elements at the turning point, nor where slip begins beyond it. */
 INLINE void follow_turn(const struct call c, int l, struct work *s)
 {
-    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2], along[2];
+    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2] = {0}, along[2] = {0};
     const double at_edge = s->limit_ratio[l] * s->at_rim[l];
-    struct place p;
+    struct place p = {0};
     if (!(turn[turn_y] > 0)) return;
     if (!move_turn(c, l, s, &p, q, turn)) {
         turn[turn_y] = 0;
@@ -673,7 +678,7 @@ INLINE void add_kinks(const struct call c, int l, struct work *s)
     for (uint32_t turns = (stuck ^ stuck >> 1) & before_last; turns; turns &= turns - 1) {
         const int j = __builtin_ctz(turns), inwards = !(stuck >> j & 1); /* 1: slip within, stick without */
         const int in = j + inwards, out = j + !inwards, behind = 2 * in - out;
-        if (behind < 0 || behind >= last || !(stuck >> behind & 1) || s->known[l] == in + 1) continue;
+        if (behind < 0 || behind >= last || !(stuck >> behind & 1) || (c.at.turns && s->known[l] == in + 1)) continue;
         const double *const f = row->f, *const qx = row->q[0], *const qy = row->q[1], ratio = s->limit_ratio[l];
         const double limit = ratio * f[out];
         if (!(limit > 0)) continue;
@@ -724,6 +729,8 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
     double back[most_n], slipped[most_n], by_square = c.law->eta / c.step;
     for (int k = 0; k < c.at.terms; k++)
         by_square += c.r->spent[k][2];
+    /* The trapezoidal rule, as for the work. What a dashpot held before the step is not known. */
+    const double half = c.law->eta > 0 ? 0 : 0.5;
     if (c.at.details) EACH_ELEMENT slipped[i] = 0;
     for (int d = 0; d < 2; d++) {
         double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
@@ -741,7 +748,8 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
             {
                 const double moved = row->touch[i] * s->move[d][l] - back[i];
                 row->at_rest[i] += (row->by_move[d][i] + by_square * moved) * moved;
-                slipped[i] += 0.5 * (row->held[d][i] + row->q[d][i]) * back[i]; /* the trapezoid, as of the work */
+                const double mean = row->q[d][i] + half * (row->held[d][i] - row->q[d][i]);
+                slipped[i] += mean * back[i];
             }
     }
     if (!c.at.details) return;
@@ -765,11 +773,11 @@ INLINE void close_slide(const struct call c, int viscous, struct work *s)
     hold_rim(c, s);
     for (int l = 0; l < LANES; l++) {
         s->front[l] = s->known[l] = 0;
-        if (!viscous) follow_turn(c, l, s);
+        if (c.at.turns && !viscous) follow_turn(c, l, s);
         add_kinks(c, l, s);
     }
     add_kink_at_rim(s);
-    for (int l = 0; l < LANES && !viscous; l++)
+    for (int l = 0; l < LANES && c.at.turns && !viscous; l++)
         keep_turn(c, l, s);
 }
 
@@ -818,8 +826,8 @@ INLINE void shear(const struct call c, struct work *s)
     {
         const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
         const double x = scale * s->total[0][l], y = scale * s->total[1][l], one = larger(fabs(x), fabs(y));
-        const double px = x / larger(one, DBL_MIN), py = y / larger(one, DBL_MIN), size = one * sqrt(px * px + py * py);
-        const double kept = limit / larger(larger(size, limit), DBL_MIN);
+        const double safe = one > 0 ? one : 1, px = x / safe, py = y / safe, size = one * sqrt(px * px + py * py);
+        const double most = larger(size, limit), kept = limit / (most > 0 ? most : 1);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
         s->slipped[l] += (s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l]) * s->back[0][l] +
@@ -872,7 +880,7 @@ INLINE double stick_radius(const struct call c, int l, const struct work *s)
     while (j < s->last[l] && stuck >> j & 1)
         j++;
     if (j == 0) return 0;
-    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(s->front[l]) : s->edge[l]);
+    if (j == s->last[l]) return s->width[l] * (s->front[l] > 0 ? sqrt(larger(s->front[l], 0)) : s->edge[l]);
     for (int i = 0; i < 2; i++)
         margin[i] = s->limit_ratio[l] * row->f[j - 1 + i] - hypot(row->trial[0][j - 1 + i], row->trial[1][j - 1 + i]);
     const double inwards = c.law->y[j - 1], outwards = c.law->y[j]; /* rounding may make any margin zero */
@@ -938,16 +946,16 @@ INLINE void advance(const struct call c)
 void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
           struct rst_batch *restrict batch)
 {
-    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->details}};
-    const int kind = c.at.n == 8 && c.at.slips && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
+    struct call c = {law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->turns, law->details}};
+    const int kind = c.at.n == 8 && c.at.slips && !c.at.turns && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
     if (kind == 0)
-        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0, 0}});
     else if (kind == 10)
-        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0, 0}});
     else if (kind == 1)
-        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0, 0}});
     else if (kind == 3)
-        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0}});
+        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0, 0}});
     else
         advance(c);
 }

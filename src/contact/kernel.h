@@ -12,6 +12,7 @@ struct rst_law {
     int n, n_terms;
     int surface;                   /* 1: the free surface is a state (dashpot or no equilibrium modulus) */
     int slips;                     /* 1: there are tangential states */
+    int turns;                     /* 1: with a turning point */
     int details;                   /* 1: energies and radii are kept */
     double g_inf, eta, compliance; /* compliance: 1/g_inf, 0 if there is none */
     double normal, tangential;     /* 4/(1-nu) and 8/(2-nu): both sides of the contact (9) */
@@ -77,7 +78,7 @@ static inline int rst_at_turn(const struct rst_law *law)
 }
 static inline int rst_at_details(const struct rst_law *law)
 {
-    return rst_at_turn(law) + (turn_w + 2 * law->n_terms) * law->slips;
+    return rst_at_turn(law) + (turn_w + 2 * law->n_terms) * law->turns;
 }
 
 /* How many numbers of details there are: work, friction, viscous, their powers, contact and stick radius. */

@@ -118,6 +118,7 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     const double nu = restitute_material_poisson_ratio(material);
     k->n = own.elements;
     k->slips = !own.frictionless;
+    k->turns = k->slips && own.slip_cycles;
     k->details = own.details != 0;
     k->surface = k->eta > 0 || !(k->g_inf > 0);
     k->normal = 4 / (1 - nu);

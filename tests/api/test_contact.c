@@ -24,22 +24,23 @@ static struct drive loaded(restitute_contact_law *law)
     return d;
 }
 
-static restitute_contact_law *law_with(double g_inf, double eta, size_t n, int elements, int frictionless, int details)
+static restitute_contact_law *law_with(double g_inf, double eta, size_t n, int elements, int frictionless, int with)
 {
     const double tau[] = {0.02, 0.3, 4}, g[] = {2, 1, 0.5};
     restitute_material *material = solid_of(g_inf, eta, n, tau, g);
     restitute_contact_law *law;
     restitute_contact_law_options options;
     restitute_contact_law_options_init(&options);
-    options.elements = elements, options.frictionless = frictionless, options.details = details;
+    options.elements = elements, options.frictionless = frictionless, options.details = with & DETAILS;
+    options.slip_cycles = with & SLIP_CYCLES;
     assert_int_equal(restitute_contact_law_create(material, &options, &law, NULL), 0);
     restitute_material_destroy(material);
     return law;
 }
 
-static size_t size_with(double g_inf, double eta, size_t n, int elements, int frictionless, int details)
+static size_t size_with(double g_inf, double eta, size_t n, int elements, int frictionless, int with)
 {
-    restitute_contact_law *law = law_with(g_inf, eta, n, elements, frictionless, details);
+    restitute_contact_law *law = law_with(g_inf, eta, n, elements, frictionless, with);
     const size_t size = restitute_contact_law_state_size(law);
     restitute_contact_law_destroy(law);
     return size;
@@ -56,7 +57,10 @@ static void states_hold_what_the_law_needs(void **unused)
     assert_int_equal(size_with(1, 0, 1, 16, 0, 0), 88);
     assert_int_equal(size_with(1, 0, 0, 8, 1, 0), 8); /* elastic without friction: only the last force */
     assert_int_equal(size_with(1, 0, 1, 8, 1, 0), 16);
-    assert_int_equal(size_with(1, 0, 1, 8, 0, 1), 55);
+    assert_int_equal(size_with(1, 0, 1, 8, 0, DETAILS), 55);
+    assert_int_equal(size_with(1, 0, 0, 8, 0, SLIP_CYCLES), 29);
+    assert_int_equal(size_with(1, 0, 1, 8, 0, SLIP_CYCLES), 55);
+    assert_int_equal(size_with(1, 0, 1, 8, 1, SLIP_CYCLES), 16);
     assert_int_equal(restitute_contact_law_state_size(NULL), 0);
 }
 
@@ -422,15 +426,16 @@ static void many_steps_are_single_steps(void **unused)
     static const struct {
         double g_inf, eta;
         size_t n;
-        int elements, frictionless, details;
+        int elements, frictionless, with;
     } kinds[] = {{1, 0, 0, 8, 0, 0},    {1, 0.02, 0, 8, 0, 0}, {1, 0, 1, 8, 0, 0},  {1, 0, 3, 8, 0, 0},
                  {0, 0, 1, 8, 0, 1},    {1, 0, 1, 8, 1, 0},    {1, 0, 0, 8, 1, 1},  {1, 0, 3, 8, 0, 1},
-                 {1, 0.02, 2, 8, 0, 1}, {1, 0, 1, 16, 0, 0},   {1, 0, 0, 32, 0, 1}, {0, 0.02, 3, 32, 0, 1}};
+                 {1, 0.02, 2, 8, 0, 1}, {1, 0, 1, 16, 0, 0},   {1, 0, 0, 32, 0, 1}, {0, 0.02, 3, 32, 0, 1},
+                 {1, 0, 0, 8, 0, 2},    {1, 0.02, 3, 16, 0, 3}};
     (void)unused;
     restitute_contact_law *other = standard_law(0.3);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         restitute_contact_law *law = law_with(kinds[i].g_inf, kinds[i].eta, kinds[i].n, kinds[i].elements,
-                                              kinds[i].frictionless, kinds[i].details);
+                                              kinds[i].frictionless, kinds[i].with);
         compare_crowd(law, other, kinds[i].frictionless ? all_refusals - 1 : all_refusals);
         restitute_contact_law_destroy(law);
     }

@@ -10,7 +10,7 @@ static restitute_contact_law *elastic_law(int elements)
 {
     restitute_material *material;
     assert_int_equal(restitute_material_elastic(1, nu, &material, NULL), 0);
-    restitute_contact_law *law = law_of(material, elements, 1);
+    restitute_contact_law *law = law_of(material, elements, DETAILS | SLIP_CYCLES);
     restitute_material_destroy(material);
     return law;
 }
@@ -103,7 +103,7 @@ static void cycles_of_any_size_follow_mindlin_and_deresiewicz(void **unused)
     const double tau = 1e6, g = 0.7;
     restitute_material *material;
     assert_int_equal(restitute_material_prony(1 - g, 0, 1, &tau, &g, nu, &material, NULL), 0);
-    restitute_contact_law *laws[] = {elastic_law(8), elastic_law(16), law_of(material, 8, 0)};
+    restitute_contact_law *laws[] = {elastic_law(8), elastic_law(16), law_of(material, 8, SLIP_CYCLES)};
     check_cycles(laws[0], "8 elements", 0.007);
     check_cycles(laws[1], "16 elements", 0.002);
     check_cycles(laws[2], "8 elements, not relaxed", 0.007);

@@ -76,7 +76,7 @@ static void no_drive_gains_work(void **unused)
     for (uint64_t i = 0; i < 10000; i++) {
         uint64_t seed = i;
         restitute_material *material = random_material(&seed);
-        restitute_contact_law *law = law_of(material, 8, 0);
+        restitute_contact_law *law = law_of(material, 8, i % 2 ? SLIP_CYCLES : 0);
         const double size = random_log(&seed, 1e-6, 1e-2);
         struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
         drive_at_random(&d, &seed, size, NULL, i);
@@ -91,9 +91,8 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
-/* In these coarse steps many elements leave at once, with what their tangential springs held: the
- * energies miss up to 15 % and 1.1 % in the mean. With steps of an eighth and 32 elements it is 1.8 %
- * and 0.1 %. */
+/* In these coarse steps many elements leave at once, with what their springs held: the energies miss
+ * up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and 0.1 %. */
 static void losses_never_fall(void **unused)
 {
     (void)unused;
@@ -101,7 +100,7 @@ static void losses_never_fall(void **unused)
     for (uint64_t i = 0; i < 2000; i++) {
         uint64_t seed = i;
         restitute_material *material = random_material(&seed);
-        restitute_contact_law *law = law_of(material, 8, 1);
+        restitute_contact_law *law = law_of(material, 8, i % 2 ? DETAILS | SLIP_CYCLES : DETAILS);
         const double size = random_log(&seed, 1e-6, 1e-2);
         struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
         struct losses l = {0};
@@ -116,7 +115,7 @@ static void losses_never_fall(void **unused)
         restitute_material_destroy(material);
     }
     print_message("energies beside work: off by at most %.3g, mean %.3g\n", worst, mean);
-    CHECK(worst < 0.2 && mean < 0.015, "energies are off by up to %.3g, mean %.3g", worst, mean);
+    CHECK(worst < 0.25 && mean < 0.012, "energies are off by up to %.3g, mean %.3g", worst, mean);
 }
 
 int main(void)

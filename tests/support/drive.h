@@ -19,7 +19,9 @@ struct drive {
     double largest_force;           /* so far, N */
 };
 
-static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int details)
+enum { DETAILS = 1, SLIP_CYCLES = 2 };
+
+static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int with)
 {
     restitute_contact_law *law;
     restitute_contact_law_options options;
@@ -27,7 +29,8 @@ static inline restitute_contact_law *law_of(const restitute_material *material, 
     restitute_contact_law_options_init(&options);
     options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     options.elements = elements;
-    options.details = details;
+    options.details = with & DETAILS;
+    options.slip_cycles = with & SLIP_CYCLES;
     CHECK(restitute_contact_law_create(material, &options, &law, &error) == 0, "%s", error.message);
     return law;
 }

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { spheres = 45, walls = 5, doubles = 62 }; /* doubles: of a standard solid, with details */
+enum { spheres = 45, walls = 5, doubles = 55 }; /* doubles: of a standard solid, with details */
 static const double radius = 0.005, density = 1100, friction = 0.4, gravity = 9.81, width = 0.04, duration = 0.25;
 static const double wall[walls][4] = {{0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, -1}, {0, 1, 0, 0}, {0, -1, 0, -1}};
 

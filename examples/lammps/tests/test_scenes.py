@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The same impact in other words: units, Newton's third law, moving walls, wide cylinders; and a
 sphere held fast. Spheres that fixes create during a run meet as others do. Spheres that overlap are
-separated as contacts.md says."""
+separated as the page on contacts says."""
 import math
 import os
 import random
@@ -120,7 +120,7 @@ for fix in (POUR, DEPOSIT):
 
 
 def packing(separation):
-    """60 spheres in random places; their largest speed after 2000 steps, and what the run reports."""
+    """60 spheres in random places; their largest speed after 2000 steps."""
     scene = Scene(half_width=0.02, boundary="p p p", screen="log.txt")
     draw = random.Random(3)
     for _ in range(60):
