@@ -23,7 +23,7 @@ static int is_unit(const double v[3])
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *b, int n)
 {
     const double per_step = 1 / step, mobility = largest_mobility * per_step;
-    int good = 1;
+    int good = 1, wide[rst_lanes], some = 0;
     for (int l = 0; l < n; l++) {
         const double r = b->radius[l], fastest = r * per_step, nx = b->normal[0][l], ny = b->normal[1][l],
                      nz = b->normal[2][l], ax = b->axis[0][l], ay = b->axis[1][l], az = b->axis[2][l];
@@ -35,9 +35,13 @@ int rst_all_good(const restitute_contact_law *law, double step, const struct rst
         good &= (b->inverse_mass[0][l] >= 0) & (b->inverse_mass[0][l] <= mobility) & (b->inverse_mass[1][l] >= 0) &
                 (b->inverse_mass[1][l] <= mobility) & (b->friction[l] >= 0) & (b->friction[l] <= largest_friction);
         good &= (fabs(unit - 1) <= 1e-6) & (ax * ax + ay * ay + az * az - out * out >= least_in_plane);
+        const double approach = nx * b->velocity[0][l] + ny * b->velocity[1][l] + nz * b->velocity[2][l];
+        some |= wide[l] = rst_rests_wide(step, approach, b->overlap[l], r, b->width[l]);
     }
     for (int l = 0; l < n; l++)
         good &= rst_is_own(law, b->state[l]);
+    for (int l = 0; l < n && good && some; l++)
+        good = !wide[l] || !rst_contact_may_shrink(&law->kernel, b->overlap[l], b->radius[l], b->state[l]);
     return good;
 }
 

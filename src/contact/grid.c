@@ -1,6 +1,6 @@
 /* The nodes of a contact and the integral over its radius of what is linear in y = x^2 between
  * them: exact for the elastic force, for any number of nodes (docs/contact.md). Their width when a
- * contact begins, and when it outgrows them.
+ * contact begins, when it outgrows them, and when it rests shallow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -30,15 +30,17 @@ void rst_law_grid(struct rst_law *law)
     }
 }
 
-/* Values on a grid that is sqrt(ratio) times as wide, linear in y; beyond the old one: 0. */
-static void resample(int n, const double *y, double ratio, double *values)
+/* Values at places `ratio` times y of the grid, from those of `old` at `from`, linear in y; beyond:
+ * 0. */
+static void resample(const struct rst_law *law, const double *from, const double *old, double ratio, double *values)
 {
-    for (int j = 0, i = 0; j < n; j++) { /* the values read lie at or behind j: ratio > 1 */
-        const double place = fmin(1, ratio * y[j]);
-        while (i < n - 1 && y[i + 1] < place)
+    const int n = law->n;
+    for (int j = 0, i = 0; j < n; j++) {
+        const double place = fmin(from[n], ratio * law->y[j]);
+        while (i < n - 1 && from[i + 1] < place)
             i++;
-        const double outer = i < n - 1 ? values[i + 1] : 0, share = (place - y[i]) / (y[i + 1] - y[i]);
-        values[j] = (1 - share) * values[i] + share * outer;
+        const double outer = i < n - 1 ? old[i + 1] : 0, share = (place - from[i]) / (from[i + 1] - from[i]);
+        values[j] = (1 - share) * old[i] + share * outer;
     }
 }
 
@@ -50,9 +52,47 @@ void rst_contact_stretch(const struct rst_law *law, double area, double *state)
     while (area > ratio * width * (ratio * width))
         ratio *= step;
     for (double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n)
-        resample(law->n, law->y, ratio * ratio, values);
+        resample(law, law->y, values, ratio * ratio, values); /* reads at or behind j */
     if (law->turns) state[rst_at_turn(law) + turn_y] /= ratio * ratio;
     state[at_width] = ratio * width;
+}
+
+/* The first element outside a contact that ends at y = `edge`. */
+static int first_outside(const struct rst_law *law, double edge)
+{
+    int j = 1;
+    while (j < law->n && law->y[j] < edge)
+        j++;
+    return j;
+}
+
+int rst_contact_may_shrink(const struct rst_law *law, double overlap, double radius, const double *state)
+{
+    static const double nothing = 1e-6; /* of the overlap; the sphere slides by friction times it */
+    const int out = first_outside(law, overlap * radius / (state[at_width] * state[at_width]));
+    for (const double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n)
+        for (int j = out; j < law->n; j++)
+            if (!(fabs(values[j]) <= nothing * overlap)) return 0;
+    return 1;
+}
+
+/* Values are linear in y up to the last element in contact, and from there to zero at the edge: so
+ * no energy is gained. */
+void rst_contact_shrink(const struct rst_law *law, double area, double *state)
+{
+    static const double margin = 1.5; /* of width^2: far from outgrown, and from what shrinks */
+    const double width = state[at_width], edge = area / (width * width), ratio = margin * edge;
+    const int out = first_outside(law, edge);
+    double y[rst_most_nodes + 1], old[rst_most_nodes];
+    for (int j = 0; j <= law->n; j++)
+        y[j] = j < out ? law->y[j] : edge + (j - out);
+    for (double *values = state + at_arrays; values < state + rst_at_turn(law); values += law->n) {
+        for (int j = 0; j < law->n; j++)
+            old[j] = j < out ? values[j] : 0;
+        resample(law, y, old, ratio, values);
+    }
+    if (law->turns) state[rst_at_turn(law) + turn_y] /= ratio;
+    state[at_width] = sqrt(margin * area);
 }
 
 int rst_contact_begin(const struct rst_law *law, double step, const restitute_contact_motion *m, double *state)

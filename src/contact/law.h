@@ -3,6 +3,8 @@
 #ifndef RST_CONTACT_LAW_H
 #define RST_CONTACT_LAW_H
 
+#include <math.h>
+
 #include <restitute/contact.h>
 
 #include "contact/kernel.h"
@@ -46,6 +48,22 @@ int rst_contact_begin(const struct rst_law *law, double step, const restitute_co
 
 /* A contact of radius^2 `area` has outgrown its grid: a wider one, and what there is on it. */
 void rst_contact_stretch(const struct rst_law *law, double area, double *state);
+
+/* A contact has come to rest, shallow on a wide grid: the grid would be narrower with as much
+ * accuracy. In an impact the overlap changes by some v step in a step, so that one of less than 50
+ * 000 steps does not rest; below three widths of contact slip has too few elements. */
+static inline int rst_rests_wide(double step, double approach, double overlap, double radius, double width)
+{
+    static const double part = 1 / 3.0, slow = 1e-4, least_overlap = 1e-30; /* widths are not to underflow */
+    return (overlap * radius < part * (width * width)) & (fabs(approach) * step < slow * overlap) &
+           (overlap > least_overlap * radius);
+}
+
+/* ... and outside the contact its surface is relaxed. */
+int rst_contact_may_shrink(const struct rst_law *law, double overlap, double radius, const double *state);
+
+/* Then, a narrower grid. */
+void rst_contact_shrink(const struct rst_law *law, double area, double *state);
 
 /* The kernel can advance the first n contacts of a batch. */
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *batch, int n);

@@ -20,13 +20,14 @@ static int check_rates(const restitute_contact_law *law, const restitute_contact
     return RESTITUTE_OK;
 }
 
-/* A contact that the kernel cannot take as it is: one that begins or outgrows its grid is made
- * ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
+/* A contact that the kernel cannot take as it is: one that begins, outgrows its grid or rests
+ * shallow is made ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
 static int prepare(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *m, double *state, restitute_contact_force *force, int *status,
                    restitute_error *error)
 {
     const double *n = m->normal, *v = m->velocity, area = m->overlap * m->radius;
+    const double approach = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
     *status = rst_check_motion(rates->step, m, error);
     if (!*status) *status = rst_check_state(law, state, error);
     if (!*status && !rst_is_new(state)) *status = rst_check_turn(n, state, error);
@@ -39,10 +40,13 @@ static int prepare(const restitute_contact_law *law, const restitute_contact_rat
         *status = rst_report(error, RESTITUTE_ERROR_DOMAIN,
                              "step = %g s: a contact that begins with %g m/s would last less than ten steps; see "
                              "restitute_contact_time_step_limit",
-                             rates->step, n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+                             rates->step, approach);
         return 0;
     }
     if (area > state[at_width] * state[at_width]) rst_contact_stretch(&law->kernel, area, state);
+    if (rst_rests_wide(rates->step, approach, m->overlap, m->radius, state[at_width]) &&
+        rst_contact_may_shrink(&law->kernel, m->overlap, m->radius, state))
+        rst_contact_shrink(&law->kernel, area, state);
     rst_mark(law, &state[at_width]);
     return 1;
 }

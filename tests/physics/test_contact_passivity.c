@@ -91,6 +91,60 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
+/* Work of sliding alone, and what the trapezoid of it may be off by. Tangential springs take
+ * nothing from normal ones, so sliding alone may gain nothing. */
+struct sliding {
+    double work, trapezoid;
+};
+
+static void slide_steps(struct drive *d, int n, double approach, double x, double y, struct sliding *s)
+{
+    for (int i = 0; i < n; i++) {
+        const double *const now = d->force.tangential, *const change = d->change.tangential, way[2] = {x / n, y / n};
+        const double before[2] = {now[0], now[1]}, last[2] = {change[0], change[1]};
+        drive_by(d, approach / n, way[0], way[1]);
+        for (int k = 0; k < 2; k++) {
+            s->work -= 0.5 * way[k] * (before[k] + now[k]);
+            s->trapezoid += 0.125 * fabs(way[k] * (change[k] - last[k]));
+        }
+    }
+}
+
+/* Pressed deep, brought back and slid; a rest, in which the grid shrinks under the tangential
+ * force; slid back, again and again. With elements beyond the edge interpolated, too, 4 of these
+ * drives gained work, with the last value kept up to the edge 208. Solids that relax are in the
+ * other drives. */
+static void grids_that_shrink_gain_no_work(void **unused)
+{
+    (void)unused;
+    long shrinks = 0;
+    for (uint64_t i = 0; i < 3000; i++) {
+        uint64_t seed = i;
+        restitute_material *material = solid_of(1, 0, 0, NULL, NULL);
+        restitute_contact_law *law = law_of(material, 8, i % 2 ? SLIP_CYCLES : 0);
+        const double size = 1e-6;
+        struct drive d = drive_of(law, 1, random_log(&seed, 0.01, 3));
+        struct sliding s = {0};
+        for (int leg = 0; leg < 12; leg++) {
+            const double deep = size * random_log(&seed, 3, 100), shallow = size * random_in(&seed, 0.5, 1);
+            const double x = shallow * random_in(&seed, -1, 1), y = shallow * random_in(&seed, -1, 1);
+            slide_steps(&d, 1, deep - d.motion.overlap, 0, 0, &s);
+            slide_steps(&d, 10, shallow - d.motion.overlap, 0, 0, &s);
+            slide_steps(&d, 10, 0.01 * shallow, x, y, &s); /* too fast to be a rest */
+            const double width = d.state[0];
+            slide_steps(&d, 1, 0, 0, 0, &s);
+            shrinks += d.state[0] < width;
+            slide_steps(&d, 10, 0.01 * shallow, -x, -y, &s);
+        }
+        slide_steps(&d, 10, -2 * d.motion.overlap, 0, 0, &s);
+        const double scale = d.largest_force * size, gain = -s.work - s.trapezoid - 1e-12 * scale;
+        CHECK(gain <= 0, "drive %llu: gained %.3g of %.3g J", (unsigned long long)i, gain, s.trapezoid);
+        restitute_contact_law_destroy(law);
+        restitute_material_destroy(material);
+    }
+    CHECK(shrinks == 12 * 3000, "only %ld grids have shrunk", shrinks);
+}
+
 /* In these coarse steps many elements leave at once, with what their springs held: the energies
  * miss up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and
  * 0.1 %. */
@@ -121,6 +175,8 @@ static void losses_never_fall(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_drive_gains_work), cmocka_unit_test(losses_never_fall)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_drive_gains_work),
+                                       cmocka_unit_test(grids_that_shrink_gain_no_work),
+                                       cmocka_unit_test(losses_never_fall)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
