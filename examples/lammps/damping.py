@@ -20,29 +20,29 @@ HEAD_ON = [(10 ** (-3 + k / 4), 0) for k in range(15)]
 OBLIQUE = [(speed, angle) for speed in (0.001, 0.1) for angle in (2, *range(5, 90, 5))]
 
 
-def library(cases):
-    bead = dict(material=BEAD, partner="same", radius1_m=RADIUS, radius2_m=RADIUS, density1_kg_m3=DENSITY,
+def library(cases, radius=RADIUS):
+    bead = dict(material=BEAD, partner="same", radius1_m=radius, radius2_m=radius, density1_kg_m3=DENSITY,
                 density2_kg_m3=DENSITY, friction=FRICTION)
     return library_pairs([bead | dict(speed_m_s=speed, angle_deg=angle) for speed, angle in cases])
 
 
-def impact(speed, angle, time, style):
+def impact(speed, angle, time, style, radius=RADIUS):
     """(ez, ex) of LAMMPS, 200 steps in the contact time."""
     normal, along = speed * math.cos(math.radians(angle)), speed * math.sin(math.radians(angle))
     scene = Scene()
-    scene.add((0, 0, 0), (normal, along, 0), radius=RADIUS, density=DENSITY)
-    scene.add((2 * RADIUS * (1 + 1e-9), 0, 0), (0, 0, 0), radius=RADIUS, density=DENSITY)
+    scene.add((0, 0, 0), (normal, along, 0), radius=radius, density=DENSITY)
+    scene.add((2 * radius * (1 + 1e-9), 0, 0), (0, 0, 0), radius=radius, density=DENSITY)
     scene.run(f"{style}\ntimestep {time / 200!r}\nfix move all nve/sphere\nrun 600")
     v, spin = scene.all("v"), scene.all("omega")
     scene.close()
-    sliding = v[2][1] - v[1][1] - RADIUS * (spin[1][2] + spin[2][2])
+    sliding = v[2][1] - v[1][1] - radius * (spin[1][2] + spin[2][2])
     return (v[2][0] - v[1][0]) / normal, sliding / along if angle else 0
 
 
-def damped():
-    """pair_style granular, fitted to a head-on impact at 1 m/s. Where it is small, the
+def damped(radius=RADIUS, friction=FRICTION):
+    """Words of pair_style granular, fitted to a head-on impact at 1 m/s. Where it is small, the
     coefficient of restitution that LAMMPS is given is not what comes out, so it is searched for."""
-    answer, = library([(1, 0)])
+    answer, = library([(1, 0)], radius)
     with open(BEAD) as file:
         bead = json.load(file)
     time, tau = answer["contact_time"] / 2.94, bead["viscosity_pa_s"] / bead["modulus2_pa"]
@@ -50,18 +50,27 @@ def damped():
     low, high = 0, 1
     while high - low > 1e-4:
         tried = (low + high) / 2
-        normal, tangential = f"hertz/material {modulus!r} {tried!r} {NU}", f"mindlin NULL 1.0 {FRICTION}"
-        style = f"pair_style granular\npair_coeff * * {normal} tangential {tangential} damping tsuji"
-        low, high = (tried, high) if impact(1, 0, answer["contact_time"], style)[0] < answer["ez"] else (low, tried)
-    return style
+        normal, tangential = f"hertz/material {modulus!r} {tried!r} {NU}", f"mindlin NULL 1.0 {friction}"
+        words = f"{normal} tangential {tangential} damping tsuji"
+        style = "pair_style granular\npair_coeff * * " + words
+        found, _ = impact(1, 0, answer["contact_time"], style, radius)
+        low, high = (tried, high) if found < answer["ez"] else (low, tried)
+    return words
 
 
-styles = (f"pair_style restitute\npair_coeff * * {BEAD} friction {FRICTION}", damped())
-with open("damping.csv", "w") as out:
-    out.write("speed_m_s,angle_deg,ez_library,ex_library,ez_restitute,ex_restitute,ez_damping,ex_damping\n")
-    for n, cases in enumerate((HEAD_ON, OBLIQUE)):
-        if n:
-            out.write("\n\n")
-        for (speed, angle), answer in zip(cases, library(cases)):
-            found = [value for style in styles for value in impact(speed, angle, answer["contact_time"], style)]
-            out.write(",".join(f"{value:.6g}" for value in (speed, angle, answer["ez"], answer["ex"], *found)) + "\n")
+def main():
+    styles = (f"pair_style restitute\npair_coeff * * {BEAD} friction {FRICTION}",
+              "pair_style granular\npair_coeff * * " + damped())
+    with open("damping.csv", "w") as out:
+        out.write("speed_m_s,angle_deg,ez_library,ex_library,ez_restitute,ex_restitute,ez_damping,ex_damping\n")
+        for n, cases in enumerate((HEAD_ON, OBLIQUE)):
+            if n:
+                out.write("\n\n")
+            for (speed, angle), answer in zip(cases, library(cases)):
+                found = [value for style in styles for value in impact(speed, angle, answer["contact_time"], style)]
+                row = (speed, angle, answer["ez"], answer["ex"], *found)
+                out.write(",".join(f"{value:.6g}" for value in row) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -206,8 +206,8 @@ void FixWallRestitute::apply(int of_batch)
     if (vflag_either) v_tally(i, virial);
 }
 
-/* As LAMMPS's `contacts`: 1, force on the sphere (3), contact point (3), radius. Of several contacts
- * the forces are added, and the point is that of the largest. */
+/* As LAMMPS's `contacts`: 1, force on the sphere (3), contact point (3), radius. Of several
+ * contacts the forces are added, and the point is that of the largest. */
 void FixWallRestitute::show()
 {
     const Batch &b = *batch;

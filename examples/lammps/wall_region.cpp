@@ -103,8 +103,9 @@ void RegionWall::touch(const double *x, double distance, std::vector<WallPoint> 
     if (points.size() > before && !contains(region, false, x)) points.resize(before);
 }
 
-/* LAMMPS looks between an ellipsoid and one whose axes are shorter or longer by as much as it is told
- * to look. Where they are oblique to the surface that is less far: by a fifth for axes of 1 to 4. */
+/* LAMMPS looks between an ellipsoid and one whose axes are shorter or longer by as much as it is
+ * told to look. Where they are oblique to the surface that is less far: by a fifth for axes of 1 to
+ * 4. */
 static double reach(const Region *region, double distance)
 {
     return strcmp(region->style, "ellipsoid") ? distance : 2 * distance;
@@ -148,9 +149,9 @@ static void cross(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* LAMMPS's radius is that of the mean curvature of a sphere and of a cylinder, for which it is twice
- * its radius, and 0 for flat faces. For an ellipsoid it is not set. For a cone it does not depend on
- * its angle, and has the wrong sign outside: both count as flat. */
+/* LAMMPS's radius is that of the mean curvature of a sphere and of a cylinder, for which it is
+ * twice its radius, and 0 for flat faces. For an ellipsoid it is not set. For a cone it does not
+ * depend on its angle, and has the wrong sign outside: both count as flat. */
 static double curvature(const Region &region, const Region::Contact &contact)
 {
     const bool is_known = !strcmp(region.style, "sphere") || !strcmp(region.style, "cylinder");

@@ -26,7 +26,8 @@ class RegionWall : public WallShape
     }
 
   private:
-    /* A region that is no union or intersection. Only these have a place and motion of their own. */
+    /* A region that is no union or intersection. Only these have a place and motion of their
+     * own. */
     struct Part {
         Region *region;
         int first_label;

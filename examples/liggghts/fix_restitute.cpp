@@ -4,20 +4,17 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "fix_contact_history_mesh.h"
-#include "fix_mesh_surface.h"
+#include "fix_contact_history.h"
 #include "force.h"
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_gran.h"
-#include "tri_mesh.h"
 #include "update.h"
 #include "variable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <map>
@@ -26,13 +23,7 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using restitute_dem::Body;
-using restitute_dem::Contact;
-using restitute_dem::ContactModel;
 using restitute_dem::Record;
-
-/* Behind the state of a contact: the step that computed it last, and at a wall the normal then. */
-enum { LAST_STEP = 0, NORMAL = 1, NUMBERS_OF_PAIRS = 1, NUMBERS_OF_WALLS = 4 };
 
 FixRestitute::FixRestitute(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
@@ -73,11 +64,6 @@ void FixRestitute::print(const std::string &text) const
 {
     for (FILE *file : {screen, logfile})
         if (comm->me == 0 && file) fputs(text.c_str(), file);
-}
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* ---- input script */
@@ -123,7 +109,7 @@ void FixRestitute::read_laws()
             const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
             Model &its = made[line];
             try {
-                if (!its) models.push_back(its = std::make_shared<ContactModel>(words, in_si));
+                if (!its) models.push_back(its = std::make_shared<Law>(words, in_si));
             } catch (const std::invalid_argument &problem) {
                 refuse(types(i, j) + ": " + problem.what());
             }
@@ -195,112 +181,7 @@ void FixRestitute::reset_dt()
         if (const char *problem = its->set_step(update->dt)) refuse(problem);
 }
 
-/* ---- a time step */
-
-Body FixRestitute::sphere(int i) const
-{
-    return {atom->x[i], atom->v[i], atom->omega[i], atom->radius[i], atom->mask[i] & frozen ? 0 : 1 / atom->rmass[i]};
-}
-
-/* Is the point of contact the nearest of the mesh around it, not only of its triangle? LIGGGHTS
- * computes a second contact with a convex edge. It is not a separate one: its point is on the first
- * triangle, too. */
-static bool is_nearest(const FixRestitute::Meeting &met, double *center, const Contact &now)
-{
-    TriMesh *mesh = met.mesh;
-    double face[3], point[3], unused[3], bary[3];
-    int sign;
-    mesh->surfaceNorm(met.j, face);
-    if (std::fabs(dot(face, now.normal)) > 1 - 1e-12) return true; /* not on an edge */
-    for (int k = 0; k < 3; k++)
-        point[k] = center[k] + (met.radi - now.overlap) * now.normal[k];
-    const double rounding = 1e-12 * met.radi;
-    for (int k = 0; k < mesh->nNeighs(met.j); k++) {
-        const int other = mesh->map(mesh->neighFaces(met.j, k), 0);
-        const auto distance = [&](double *from) {
-            return mesh->resolveTriSphereContactBary(met.i, other, 0, from, unused, bary, sign, false);
-        };
-        if (other >= 0 && distance(point) < rounding && distance(center) < met.radi - now.overlap - rounding)
-            return false;
-    }
-    return true;
-}
-
-/* Body 1 is the sphere at a wall, or that with the smaller tag: in every list, on every process. */
-void FixRestitute::compute(const Meeting &met, int offset, double f[3])
-{
-    static const double still[3] = {};
-    const int i = met.i, j = met.j, *tag = atom->tag;
-    const bool swapped = !met.is_wall && tag[j] < tag[i];
-    double point[3], *history = met.contact_history + offset, *extra = history + states;
-    Contact now;
-    std::fill_n(f, 3, 0.0);
-    for (int k = 0; k < 3; k++)
-        point[k] = atom->x[i][k] - met.delta[k];
-    const Body other = met.is_wall ? Body{point, met.v_j, still, 0, 0} : sphere(j);
-    if (!(swapped ? touching(other, sphere(i), now) : touching(sphere(i), other, now))) return;
-    if (met.is_wall && met.mesh && !is_nearest(met, atom->x[i], now)) return;
-    const bool moves = met.computeflag && met.shearupdate;
-    const bool on_record = met.is_wall || j < atom->nlocal || !swapped; /* the owner of j computes the contact, too */
-    const char *problem = moves ? advance(met, now, on_record, offset, f)
-                                : model(met.itype, met.jtype)->repeat(now, history, f);
-    if (problem) {
-        const std::string its = met.is_wall ? "a wall of type " + std::to_string(met.jtype) : std::to_string(tag[j]);
-        const std::string text = "restitute: sphere " + std::to_string(tag[i]) + " and " + its + " at step " +
-                                 std::to_string(update->ntimestep) + ": " + problem;
-        fprintf(stderr, "ERROR: %s\n", text.c_str()); /* what LIGGGHTS prints is lost when it aborts */
-        error->one(FLERR, text.c_str());
-    }
-    if (met.computeflag) extra[LAST_STEP] = update->ntimestep;
-    if (met.computeflag && met.is_wall) std::copy_n(now.normal, 3, extra + NORMAL);
-    if (swapped) std::transform(f, f + 3, f, std::negate<double>());
-}
-
-/* LIGGGHTS does not report when two spheres separate, and keeps the history while they are
- * neighbors. The stored step shows it. */
-const char *FixRestitute::advance(const Meeting &met, const Contact &now, bool on_record, int offset, double f[3])
-{
-    ContactModel &its = *model(met.itype, met.jtype);
-    double *history = met.contact_history + offset;
-    if (history[states + LAST_STEP] != update->ntimestep - 1) std::fill_n(history, states, 0.0);
-    if (met.is_wall && met.mesh && !follow_mesh(met, now, offset, history)) return nullptr;
-    if (met.is_wall && history[0] != 0) {
-        const double *before = history + states + NORMAL;
-        const bool jumped = dot(before, now.normal) < 0.999; /* 2.6 degrees; the law itself follows smaller turns */
-        if (const char *problem = jumped ? its.turn(before, now.normal, history) : nullptr) return problem;
-    }
-    const auto density = [this](int i) { return atom->rmass[i] / (4.1887902047863910 * std::pow(atom->radius[i], 3)); };
-    const double first = history[0] == 0 ? density(met.i) : 0;
-    const double denser = first == 0 || met.is_wall ? first : std::max(first, density(met.j));
-    return its.advance(now, denser, on_record, history, f);
-}
-
-/* Several triangles of a mesh at one sphere:
- * - On an edge both triangles may claim the sphere, with one normal. The first takes the contact.
- * - When a sphere slides over an edge, its memory is that of the triangle that it leaves. A contact
- *   that begins with a deeper overlap than one step can give takes this memory: that of the contact
- *   of the last step with the nearest normal. Between triangles of one plane LIGGGHTS itself passes it.
- * Returns false if another triangle has the contact. */
-bool FixRestitute::follow_mesh(const Meeting &met, const Contact &now, int offset, double *history)
-{
-    FixContactHistoryMesh *contacts = met.fix_mesh->contactHistory();
-    const double in_a_step = update->dt * std::max(0.0, dot(now.velocity, now.normal));
-    const bool begins_deep = history[0] == 0 && now.overlap > 2 * in_a_step;
-    double nearest = 0.5; /* 60 degrees */
-    for (int k = 0; k < contacts->nneighs(met.i); k++) {
-        const double *other = contacts->contacthistory(met.i, k) + offset;
-        if (contacts->partner(met.i, k) < 0 || other == history || other[0] == 0) continue;
-        const double along = dot(other + states + NORMAL, now.normal), last = other[states + LAST_STEP];
-        if (last == update->ntimestep && along > 1 - 1e-10) {
-            std::fill_n(history, states, 0.0);
-            return false;
-        }
-        if (!begins_deep || last != update->ntimestep - 1 || along < nearest) continue;
-        nearest = along;
-        std::copy_n(other, states + NUMBERS_OF_WALLS, history);
-    }
-    return true;
-}
+/* ---- record of a run */
 
 void FixRestitute::end_of_step()
 {
@@ -315,8 +196,6 @@ void FixRestitute::end_of_step()
             fprintf(stderr, "WARNING: %s\n", text.c_str()); /* LIGGGHTS gives other processes no screen */
     }
 }
-
-/* ---- record of a run, and restarts */
 
 Record FixRestitute::own_record() const
 {
@@ -357,6 +236,8 @@ double FixRestitute::compute_vector(int n)
                              all.beyond[restitute_dem::SPEED]};
     return values[n];
 }
+
+/* ---- restarts */
 
 /* The hashes of the laws of all pairs of types; LIGGGHTS writes the states of contacts. */
 void FixRestitute::write_restart(FILE *file)

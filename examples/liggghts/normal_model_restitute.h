@@ -46,7 +46,9 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
             if (k == 0) offset = place;
         }
         is_wall = c->is_wall();
-        if (!is_wall) laws->make_long_history(static_cast<PairGran *>(host));
+        if (is_wall) return;
+        pair = static_cast<PairGran *>(host);
+        laws->make_long_history(pair);
     }
 
     void connectToProperties(PropertyRegistry &)
@@ -62,6 +64,7 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
     {
         double f[3];
         if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
+        if (waits) return laws->collect(contact, offset);
         laws->compute(contact, offset, f);
         contact.Fn = f[0] * contact.en[0] + f[1] * contact.en[1] + f[2] * contact.en[2];
         contact.kn = contact.deltan > 0 ? contact.Fn / contact.deltan : 0; /* for rolling friction */
@@ -77,14 +80,24 @@ template <> class NormalModel<RESTITUTE> : public NormalModelBase
     void registerSettings(Settings &) {}
     double stressStrainExponent() { return 1.5; }
     void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &) {}
-    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
-    void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
     /* clang-format on */
+
+    /* LIGGGHTS calls these two for pairs only, not for walls. */
+    void beginPass(SurfacesIntersectData &, ForceData &, ForceData &)
+    {
+        waits = laws->begin_pass(pair);
+    }
+
+    void endPass(SurfacesIntersectData &, ForceData &, ForceData &)
+    {
+        if (waits) laws->end_pass();
+    }
 
   private:
     FixRestitute *laws = nullptr;
+    PairGran *pair = nullptr; /* NULL at a wall */
     int offset = 0, size = 0;
-    bool is_wall = false;
+    bool is_wall = false, waits = false;
 };
 
 } // namespace LIGGGHTS::ContactModels

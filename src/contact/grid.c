@@ -1,6 +1,6 @@
-/* The nodes of a contact and the integral over its radius of what is linear in y = x^2 between them:
- * exact for the elastic force, for any number of nodes (docs/contact.md). Their width when a contact
- * begins, when it outgrows them, and when it rests shallow.
+/* The nodes of a contact and the integral over its radius of what is linear in y = x^2 between
+ * them: exact for the elastic force, for any number of nodes (docs/contact.md). Their width when a
+ * contact begins, when it outgrows them, and when it rests shallow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -32,7 +32,8 @@ void rst_law_grid(struct rst_law *law)
     }
 }
 
-/* Values at places `ratio` times y of the grid, from those of `old` at `from`, linear in y; beyond: 0. */
+/* Values at places `ratio` times y of the grid, from those of `old` at `from`, linear in y; beyond:
+ * 0. */
 static void resample(const struct rst_law *law, const double *from, const double *old, double ratio, double *values)
 {
     const int n = law->n;
@@ -67,8 +68,8 @@ static int first_outside(const struct rst_law *law, double edge)
     return j;
 }
 
-/* `change`: of the overlap in the step. An elastic impact of N steps that is as shallow as this changes its
- * overlap by more than 8/N in a step. */
+/* `change`: of the overlap in the step. An elastic impact of N steps that is as shallow as this
+ * changes its overlap by more than 8/N in a step. */
 int rst_contact_may_shrink(const struct rst_law *law, double change, double overlap, double radius, const double *state)
 {
     static const double slow = 1e-4;    /* over the overlap; impacts have less than 80 000 steps */
@@ -82,8 +83,8 @@ int rst_contact_may_shrink(const struct rst_law *law, double change, double over
     return 1;
 }
 
-/* Values are linear in y up to the last element in contact, and from there to zero at the edge: so no
- * energy is gained. */
+/* Values are linear in y up to the last element in contact, and from there to zero at the edge: so
+ * no energy is gained. */
 void rst_contact_shrink(const struct rst_law *law, double area, double *state)
 {
     static const double margin = 1.5; /* of width^2: far from outgrown, and from what shrinks */

@@ -25,14 +25,15 @@ struct rst_law {
     double bit[rst_most_nodes];      /* 2^j */
 };
 
-/* One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement even over the step; by a unit change
- * of velocity from the mean of the step to its end. */
+/* One Maxwell arm over a step: what is left of its elongation; elongation by a unit displacement
+ * even over the step; by a unit change of velocity from the mean of the step to its end. */
 struct rst_arm {
     double decay, gain, bend;
 };
 struct rst_arm rst_arm_of(double step, double tau);
 
-/* What depends on the time step alone: a displacement du, even over the step, makes w <- decay w + gain du. */
+/* What depends on the time step alone: a displacement du, even over the step, makes w <- decay w +
+ * gain du. */
 struct rst_rates {
     double compliance; /* displacement, even over the step, by a unit force: 1/(G_inf + eta/step + sum g gain) */
     double viscosity;  /* force of a change of velocity until the end of the step: eta + sum g bend */
@@ -40,7 +41,8 @@ struct rst_rates {
     double spent[rst_most_terms][3]; /* in the dashpot of an arm: by w^2, w du and du^2 */
 };
 
-/* Up to rst_lanes contacts and their motion in a step, checked: none begins, outgrows its grid or turns too far. */
+/* Up to rst_lanes contacts and their motion in a step, checked: none begins, outgrows its grid or
+ * turns too far. */
 struct rst_batch {
     double overlap[rst_lanes], normal[3][rst_lanes], velocity[3][rst_lanes], turn[rst_lanes];
     double inverse_mass[2][rst_lanes]; /* normal, tangential */
@@ -50,16 +52,16 @@ struct rst_batch {
     double force[rst_lanes], tangential[3][rst_lanes]; /* on body 1 */
 };
 
-/* Header of a state: width of the grid (0: virgin contact), overlap after the last step, last force (normal, two tangential
- * components), first tangential axis. Then the arrays. */
+/* Header of a state: width of the grid (0: virgin contact), overlap after the last step, last force
+ * (normal, two tangential components), first tangential axis. Then the arrays. */
 enum { at_width, at_overlap, at_force, at_axis = at_force + 3, at_arrays = at_axis + 3 };
 
-/* A turning point: where the slip annulus began when slip turned to stick. Its y in that of the grid, 0: none; the tangential force
- * density there then; u and w[2][terms] as of an element. */
+/* A turning point: where the slip annulus began when slip turned to stick. Its y in that of the
+ * grid, 0: none; the tangential force density there then; u and w[2][terms] as of an element. */
 enum { turn_y, turn_q, turn_u = turn_q + 2, turn_w = turn_u + 2 };
 
-/* Where the arrays of a state begin: w_z[terms][n], u[2][n], w[2][terms][n], surface[n]; then the work of the bodies on the
- * contact and what friction took of it. */
+/* Where the arrays of a state begin: w_z[terms][n], u[2][n], w[2][terms][n], surface[n]; then the
+ * work of the bodies on the contact and what friction took of it. */
 static inline int rst_at_u(const struct rst_law *law)
 {
     return at_arrays + law->n * law->n_terms;
@@ -81,14 +83,16 @@ static inline int rst_at_details(const struct rst_law *law)
     return rst_at_turn(law) + (turn_w + 2 * law->n_terms) * law->turns;
 }
 
-/* How many numbers of details there are: work, friction, viscous, their powers, contact and stick radius. */
+/* How many numbers of details there are: work, friction, viscous, their powers, contact and stick
+ * radius. */
 enum { rst_details = 7 };
 
 typedef void rst_kernel(const struct rst_law *law, const struct rst_rates *rates, double step, struct rst_batch *batch);
 
 rst_kernel rst_step_one, rst_step_lanes, rst_step_one_avx2, rst_step_lanes_avx2;
 
-/* One contact and rst_lanes of them, for the widest vectors of this machine. All kernels give the same bits. */
+/* One contact and rst_lanes of them, for the widest vectors of this machine. All kernels give the
+ * same bits. */
 void rst_choose_kernels(rst_kernel **one, rst_kernel **lanes);
 
 #endif

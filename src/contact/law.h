@@ -47,14 +47,14 @@ int rst_contact_begin(const struct rst_law *law, double step, const restitute_co
 /* A contact of radius^2 `area` has outgrown its grid: a wider one, and what there is on it. */
 void rst_contact_stretch(const struct rst_law *law, double area, double *state);
 
-/* A contact of radius^2 `area` has less than a third of the area of its grid: then slip has too few
- * elements. */
+/* A contact of radius^2 `area` has less than a third of the area of its grid: then slip has too
+ * few elements. */
 static inline int rst_is_wide(double area, double width)
 {
     return 3 * area < width * width;
 }
 
-/* ... and is at rest, relaxed outside the contact: a narrower grid loses nothing. */
+/* ... and is at rest, and relaxed outside the contact: its grid may be narrowed. */
 int rst_contact_may_shrink(const struct rst_law *law, double change, double overlap, double radius,
                            const double *state);
 void rst_contact_shrink(const struct rst_law *law, double area, double *state);

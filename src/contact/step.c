@@ -20,8 +20,8 @@ static int check_rates(const restitute_contact_law *law, const restitute_contact
     return RESTITUTE_OK;
 }
 
-/* A contact that the kernel cannot take as it is: one that begins, outgrows its grid or rests shallow
- * is made ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
+/* A contact that the kernel cannot take as it is: one that begins, outgrows its grid or rests
+ * shallow is made ready. 0: it is refused, and nothing has changed, or it is not yet a contact. */
 static int prepare(const restitute_contact_law *law, const restitute_contact_rates *rates,
                    const restitute_contact_motion *m, double *state, restitute_contact_force *force, int *status,
                    restitute_error *error)

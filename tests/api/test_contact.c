@@ -187,7 +187,8 @@ static void steps_too_long_are_refused(void **unused)
     restitute_material_destroy(material);
 }
 
-/* Of an elastic impact it is d/v, d from (24). The limit is a fiftieth of the contact time of any law. */
+/* Of an elastic impact it is d/v, d from (24). The limit is a fiftieth of the contact time of any
+ * law. */
 static void time_scale_is_the_largest_overlap_over_speed(void **unused)
 {
     (void)unused;
@@ -272,8 +273,8 @@ static void least_overlap_spoils_nothing(void **unused)
 
 enum { most_contacts = 17, all_refusals = 13 };
 
-/* Contacts of one law, by single steps and in batches. States of the batch lie in a larger array, in
- * another order. */
+/* Contacts of one law, by single steps and in batches. States of the batch lie in a larger array,
+ * in another order. */
 struct crowd {
     const restitute_contact_law *law;
     restitute_contact_rates rates;
@@ -299,9 +300,9 @@ static void assemble(struct crowd *c, restitute_contact_law *law, restitute_cont
     }
 }
 
-/* Approach at 1e-4 m/s and faster retreat, again and again, of some contacts later. Two thirds have a
- * mass that stops within some 1e-5 m, a part of the largest overlap, so that grids are outgrown. One
- * rests after the retreat, so that its grid shrinks. */
+/* Approach at 1e-4 m/s and faster retreat, again and again, of some contacts later. Two thirds have
+ * a mass that stops within some 1e-5 m, a part of the largest overlap, so that grids are outgrown.
+ * One rests after the retreat, so that its grid shrinks. */
 enum { resting = 4 };
 
 static void move_contact(restitute_contact_motion *m, int i, int step)
@@ -318,8 +319,8 @@ static void move_contact(restitute_contact_motion *m, int i, int step)
     m->inverse_tangential_mass = 3.5 * m->inverse_mass;
 }
 
-/* Each kind of refusal, the last only with friction: without it a corrupt state has no force. Returns
- * the state to step. */
+/* Each kind of refusal, the last only with friction: without it a corrupt state has no force.
+ * Returns the state to step. */
 static double *spoil(struct crowd *c, int kind, int i, restitute_contact_motion *m, double *state)
 {
     memset(c->young, 0, sizeof c->young);
@@ -428,7 +429,8 @@ static int compare_crowd(restitute_contact_law *law, restitute_contact_law *othe
     return shrunk;
 }
 
-/* The same bits as one by one, in any order, of any number, and beside contacts that are refused. */
+/* The same bits as one by one, in any order, of any number, and beside contacts that are
+ * refused. */
 static void many_steps_are_single_steps(void **unused)
 {
     static const struct {

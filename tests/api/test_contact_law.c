@@ -224,6 +224,7 @@ static int draw_law(uint64_t *random, int number, restitute_contact_law **law)
     o.shortest = draw_any(random, window);
     o.longest = random_below(random, 2) ? draw_any(random, window) : 1e3 * o.shortest;
     o.details = random_below(random, 2);
+    o.slip_cycles = random_below(random, 2);
     int status;
     NEVER_TRAPS(status, restitute_contact_law_create(material, &o, law, NULL), number);
     restitute_material_destroy(material);

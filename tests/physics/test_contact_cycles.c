@@ -1,5 +1,5 @@
-/* Contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter; loaded
- * again.
+/* Contacts under prescribed motion: Hertz, Mindlin and Deresiewicz; directions do not matter;
+ * loaded again.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/drive.h"
 
@@ -53,9 +53,9 @@ struct cycle {
     double worst, loss, exact_loss;
 };
 
-/* Load to the peak, unload to its opposite, reload, in a contact that was pressed deeper before: its
- * radius^2 is the part `rim` of that of its grid, or a little less. Forces over mu F_z, displacements
- * over that of gross slip. */
+/* Load to the peak, unload to its opposite, reload, in a contact that was pressed deeper before:
+ * its radius^2 is the part `rim` of that of its grid, or a little less. Forces over mu F_z,
+ * displacements over that of gross slip. */
 static struct cycle run_cycle(restitute_contact_law *law, double rim, double peak)
 {
     struct drive d = drive_of(law, 1e-3, friction);
@@ -95,8 +95,8 @@ static void check_cycles(restitute_contact_law *law, const char *name, double wo
 }
 
 /* The law remembers where slip turned, so the loss is exact up to the gross slip itself: there the
- * stick zone falls within the innermost cell. With 8 elements this costs 0.62 % of mu F_z at rim 0.35
- * and a fourth of that with 16. A solid that has not begun to relax is elastic. */
+ * stick zone falls within the innermost cell. With 8 elements this costs 0.62 % of mu F_z at rim
+ * 0.35 and a fourth of that with 16. A solid that has not begun to relax is elastic. */
 static void cycles_of_any_size_follow_mindlin_and_deresiewicz(void **unused)
 {
     (void)unused;
@@ -218,9 +218,9 @@ static double error_of_turn(restitute_contact_law *law, const double axis[3], in
     return worst;
 }
 
-/* A step turns the bodies by d about an axis whose cosine with the normal is c. The law projects its
- * first tangential axis onto the new tangential plane, which misses up to (1 - c^2) d^2/4 about the
- * normal, and turns it by atan(c d) about the normal, which misses (c d)^3/3. */
+/* A step turns the bodies by d about an axis whose cosine with the normal is c. The law projects
+ * its first tangential axis onto the new tangential plane, which misses up to (1 - c^2) d^2/4 about
+ * the normal, and turns it by atan(c d) about the normal, which misses (c d)^3/3. */
 static void force_turns_with_the_bodies(void **unused)
 {
     (void)unused;
@@ -319,10 +319,10 @@ static void press_again(int elements, double recovery, double forces[800])
     restitute_material_destroy(material);
 }
 
-/* A surface that has not recovered meets the sphere between two elements. The law finds the place from
- * the gaps of the next two. It is off by part of a cell where the surface bends, at the rim of the
- * contact before: 9.4 % of the largest force here with 8 elements, 4.0 % with 16. With the rim at the
- * next element they were 17 % and 6 %. */
+/* A surface that has not recovered meets the sphere between two elements. The law finds the place
+ * from the gaps of the next two. It is off by part of a cell where the surface bends, at the rim of
+ * the contact before: 9.4 % of the largest force here with 8 elements, 4.0 % with 16. With the rim
+ * at the next element they were 17 % and 6 %. */
 static void dashpot_solids_are_loaded_again(void **unused)
 {
     (void)unused;

@@ -15,9 +15,10 @@ static struct drive after_depth(restitute_contact_law *law, double factor)
     return d;
 }
 
-/* A rest narrows the grid, so the load to gross slip is that of a contact that never was deep. On the wide
- * grid it was off by 3 % of the limit at a factor of 9 and by 15 % at 25; a contact of 0.67 of its grid's
- * area differs from one of another part by the error of 8 elements, which is largest at gross slip. */
+/* A rest narrows the grid, so the load to gross slip is that of a contact that never was deep. On
+ * the wide grid it was off by 3 % of the limit at a factor of 9 and by 15 % at 25; a contact of
+ * 0.67 of its grid's area differs from one of another part by the error of 8 elements, which is
+ * largest at gross slip. */
 static void shallow_rest_gives_the_resolution_back(void **unused)
 {
     (void)unused;
@@ -49,8 +50,8 @@ static void shallow_rest_gives_the_resolution_back(void **unused)
     restitute_material_destroy(damped);
 }
 
-/* A grid that narrows under a tangential force cuts the kink between stick and slip. So the force drops,
- * by up to 6.9 % of the limit with these 8 elements, 1.6 % in the mean, and does not rise. */
+/* A grid that narrows under a tangential force cuts the kink between stick and slip. So the force
+ * drops, by up to 6.9 % of the limit with these 8 elements, 1.6 % in the mean. It does not rise. */
 static void narrower_grid_keeps_most_of_the_tangential_force(void **unused)
 {
     (void)unused;
@@ -83,8 +84,8 @@ static void narrower_grid_keeps_most_of_the_tangential_force(void **unused)
     restitute_material_destroy(material);
 }
 
-/* Kelvin-Voigt: what is outside the contact recovers as exp(-t G/eta). The grid, the first number of the
- * state, is kept until that is below 1e-6 of the overlap. */
+/* Kelvin-Voigt: what is outside the contact recovers as exp(-t G/eta). The grid, the first number
+ * of the state, is kept until that is below 1e-6 of the overlap. */
 static void surface_that_has_not_recovered_keeps_its_grid(void **unused)
 {
     (void)unused;

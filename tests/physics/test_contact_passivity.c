@@ -91,8 +91,8 @@ static void no_drive_gains_work(void **unused)
                   allowed);
 }
 
-/* Work of sliding alone, and what the trapezoid of it may be off by. Tangential springs take nothing from
- * normal ones, so sliding alone may gain nothing. */
+/* Work of sliding alone, and what the trapezoid of it may be off by. Tangential springs take
+ * nothing from normal ones, so sliding alone may gain nothing. */
 struct sliding {
     double work, trapezoid;
 };
@@ -110,9 +110,9 @@ static void slide_steps(struct drive *d, int n, double approach, double x, doubl
     }
 }
 
-/* Pressed deep, brought back and slid; a rest, in which the grid shrinks under the tangential force; slid
- * back, again and again. Where the last value was kept up to the edge of the contact, 224 of these drives
- * gained work. Solids that relax shrink in the other drives. */
+/* Pressed deep, brought back and slid; a rest, in which the grid shrinks under the tangential
+ * force; slid back, again and again. Where the last value was kept up to the edge of the contact,
+ * 224 of these drives gained work. Solids that relax shrink in the other drives. */
 static void grids_that_shrink_gain_no_work(void **unused)
 {
     (void)unused;
@@ -144,8 +144,9 @@ static void grids_that_shrink_gain_no_work(void **unused)
     CHECK(shrinks == 12 * 3000, "only %ld grids have shrunk", shrinks);
 }
 
-/* In these coarse steps many elements leave at once, with what their springs held: the energies miss
- * up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and 0.1 %. */
+/* In these coarse steps many elements leave at once, with what their springs held: the energies
+ * miss up to 19 % and 0.8 % in the mean. With steps of an eighth and 32 elements it was 1.8 % and
+ * 0.1 %. */
 static void losses_never_fall(void **unused)
 {
     (void)unused;

@@ -12,8 +12,8 @@ struct drive {
     restitute_contact_force force;
     double state[most_state];
     double work; /* done on the contact so far, by the trapezoid, J */
-    /* what that may be off by: where a force bends once in a step, 1/8 of its second difference times
-     * the way */
+    /* what that may be off by: where a force bends once in a step, 1/8 of its second difference
+     * times the way */
     double trapezoid;
     restitute_contact_force change; /* of the force in the last step */
     double largest_force;           /* so far, N */

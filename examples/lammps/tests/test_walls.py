@@ -59,7 +59,7 @@ def turned(axes, m):
     return tuple(tuple(a["xyz".index(k)] for k in axes) for a in m)
 
 
-# ---- shapes. LAMMPS gives distances from faces: rounding of the contact point, grown in the impact.
+# ---- shapes. LAMMPS gives distances from faces: rounding of the contact point grows.
 ROUNDING = 1e-9
 plane = motion("xplane 0 NULL")
 for region in ("block 0 0.4 -0.3 0.3 -0.3 0.3", "block -0.4 0 -0.3 0.3 -0.3 0.3 side out", "plane 0 0 0 1 0 0",
@@ -92,8 +92,8 @@ near("a nested union",
             "region c sphere 0.3 0 0 0.1 units box\nregion d union 2 b c\nregion r union 2 a d\nregion r"),
      plane, ROUNDING)
 
-# A wedge of two planes, whose normals form an angle of 126.9 degrees. The sphere is outside, but the
-# point of the first plane that is nearest to it is not.
+# A wedge of two planes, whose normals form an angle of 126.9 degrees. The sphere is outside, but
+# the point of the first plane that is nearest to it is not.
 wedge = Scene()
 wedge.add((0.99 * RADIUS, 0, 0), (-SPEED, 0, 0), (0, 0, 0), RADIUS, 2000)
 wedge.run(f"""
@@ -296,8 +296,8 @@ check(all(abs(a - b) <= ROUNDING * max(told[1]) for a, b in zip(*told)), "energi
 check(min(told[1][:3] + told[1][4:]) > 0 and told[1][3] == 0, "energies of a pair")
 
 # Energy of motion, stored and lost, in a corner of a narrow bowl and two planes. The work is summed
-# by the trapezoidal rule, losses by another one: they meet within a percent. With LAMMPS's energy of
-# fixes the potential energy is what the contacts store.
+# by the trapezoidal rule, losses by another one: they meet within a percent. With LAMMPS's energy
+# of fixes the potential energy is what the contacts store.
 its = scene(f"""
     region bowl sphere 0 0 0 {2 * RADIUS + 1e-7} units box
     region half plane 0 {-RADIUS - 1e-7} 0 0 1 0

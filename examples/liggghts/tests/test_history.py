@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The memory of contacts: a new run, a restart in their middle and two ranks change no motion;
-the same spheres may meet again, and the call counter says that our law ran."""
+"""The memory of contacts: a new run, a restart in their middle and two ranks change no motion, nor
+does it matter whether pairs are computed in batches; the same spheres may meet again, and the call
+counter says that our law ran."""
 import random
 import re
 
+from scenes import MOTION as MOTION_OF_SPHERES
 from scenes import STYLE, WALL, box, check, dump, law, liggghts, material, mesh, motions, sphere
 
 RUBBER = material("rubber", model="standard_solid", modulus1_pa=1e8, modulus2_pa=2e8, viscosity_pa_s=3e3)
@@ -72,3 +74,33 @@ two, ((contacts_of_two, calls_of_two),) = finish("two", split + dump("two", STEP
 # Sums of forces round in another order, and impacts multiply differences.
 compare("two ranks", two, whole, 1e-8)
 check((contacts_of_two, calls_of_two) == (contacts, calls), f"two ranks count {contacts_of_two}, {calls_of_two}")
+
+EARLY = 50
+
+
+def early(name, more=""):
+    """Early, when many touch: what spheres do, forces and torques of pairs by tags, virial."""
+    text = liggghts(START + more + f"""
+        compute pairs all pair/gran/local id force torque
+        compute virial all pressure thermo_temp virial
+        thermo_style custom step c_virial[1] c_virial[2] c_virial[3] c_virial[4] c_virial[5] c_virial[6]
+        thermo_modify format float %.17g
+        dump pairs all local {EARLY} pairs.txt {" ".join(f"c_pairs[{k}]" for k in range(1, 10))}
+        dump_modify pairs format "%g %g %g{" %.17g" * 6}"
+        """ + dump(name, EARLY, MOTION_OF_SPHERES + " f_sums" * bool(more)) + f"run {EARLY}")
+    virial = re.findall(rf"^ +{EARLY} (.*)$", text, re.MULTILINE)[0].split()
+    with open("pairs.txt") as file:
+        rows = [line.split() for line in file.read().split("ITEM: ENTRIES")[-1].splitlines()[1:]]
+    pairs = {tuple(row[:2]): dict(enumerate(map(float, row[3:]))) for row in rows}
+    return motions(name, MOTION_OF_SPHERES + " f_sums" * bool(more))[-1], pairs, {0: dict(enumerate(map(float, virial)))}
+
+
+# What stores sums of normal forces needs the force of each contact at once.
+batches = early("batches")
+singles = early("singles", "fix sums all property/atom sum_normal_force_ scalar yes no no 0.0\n")
+sums = [its.pop("f_sums") for its in singles[0].values()]
+forces = sum(any(force.values()) for force in batches[1].values())
+print(f"{forces} pairs with a force; sums of normal forces up to {max(sums):.0f} N")
+check(forces > 10 and max(sums) > 100, "the forces of pairs are missing")
+for what, one, other in zip(("motions", "forces of pairs", "virial"), batches, singles):
+    compare(f"batches, {what}", one, other, 1e-12)  # the parts of a force add up in another order

@@ -55,3 +55,17 @@ for rolling in ("", " rolling_friction cdt"):
 lost = 0.1 * 9.81 * 5 / 7 * 0.05
 print(f"a rolling ball loses {0.1 - left['']:.1e} m/s, with friction {0.1 - left[rolling]:.4f}, wanted {lost:.4f}")
 check(abs(0.1 - left[""]) < 1e-3 * lost and abs(0.1 - left[rolling] - lost) < 0.05 * lost, "rolling friction is off")
+
+# Two balls of opposite spins meet head-on: they roll on each other, without slip.
+liggghts(box() + law(f"{SCRIPTS}/rubber.json friction 0.4") + """
+    fix roll all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
+    """ + sphere(1, (0, 0, 0), (0.1, 0, 0), (0, 0, 20)) + sphere(2, (0.01001, 0, 0), (-0.1, 0, 0), (0, 0, -20)) +
+         STYLE.replace("\n    pair_coeff", " rolling_friction cdt\npair_coeff") + """
+    timestep 5e-6
+    fix move all nve/sphere
+    """ + dump("balls", 500) + "run 500")
+before, after = ((step[1]["vx"], step[1]["omegaz"]) for step in motions("balls"))
+# The torque mu_r F R/2 turns a sphere of 0.4 m R^2 while F changes m v.
+wanted = 0.1 * (before[0] - after[0]) / (0.8 * 0.005)
+print(f"balls that roll on each other lose {before[1] - after[1]:.6f} rad/s, wanted {wanted:.6f}")
+check(after[0] < 0 < after[1] and abs(before[1] - after[1] - wanted) < 1e-9 * wanted, "pairs feel no rolling friction")

@@ -1,0 +1,96 @@
+/* One step of LANES contacts (docs/contact.md): vectors over the elements of a contact for what
+ * there is one of an element, over the lanes for what there is one of a contact. Branches are
+ * selections, and no sum runs across lanes, so that a contact has the same bits in every lane,
+ * batch and width of vectors.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "contact/details.h"
+#include "contact/normal.h"
+#include "contact/tangential.h"
+
+/* The heads of the states. The first tangential axis turns with the bodies about the normal and is
+ * brought back into the tangential plane. */
+INLINE void open_states(const struct call c, struct work *s)
+{
+    for (int l = 0; l < LANES; l++)
+        s->before[l] = c.in->state[l][at_overlap];
+    EACH_LANE
+    {
+        const double nx = c.in->normal[0][l], ny = c.in->normal[1][l], nz = c.in->normal[2][l],
+                     turn = c.step * c.in->turn[l];
+        double ax = c.in->axis[0][l], ay = c.in->axis[1][l], az = c.in->axis[2][l];
+        const double bx = ny * az - nz * ay, by = nz * ax - nx * az, bz = nx * ay - ny * ax;
+        ax += turn * bx;
+        ay += turn * by;
+        az += turn * bz;
+        const double out = nx * ax + ny * ay + nz * az;
+        ax -= out * nx;
+        ay -= out * ny;
+        az -= out * nz;
+        const double per = 1 / sqrt(ax * ax + ay * ay + az * az);
+        s->axis[0][l] = ax * per;
+        s->axis[1][l] = ay * per;
+        s->axis[2][l] = az * per;
+        s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
+        s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
+        s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
+        s->width[l] = c.in->width[l];
+        s->scale[l] = s->width[l] * s->width[l] / c.in->radius[l];
+        s->approach[l] = nx * c.in->velocity[0][l] + ny * c.in->velocity[1][l] + nz * c.in->velocity[2][l];
+    }
+}
+
+INLINE void close_states(const struct call c, struct work *s)
+{
+    for (int l = 0; l < LANES; l++) {
+        double *const state = c.in->state[l];
+        if (c.at.details) keep_details(c, l, s);
+        state[at_overlap] = c.in->overlap[l];
+        state[at_force] = s->force[l];
+        for (int d = 0; d < 2; d++)
+            state[at_force + 1 + d] = s->total[d][l];
+        for (int i = 0; i < 3; i++)
+            state[at_axis + i] = s->axis[i][l];
+    }
+    EACH_LANE
+    {
+        c.in->force[l] = s->force[l];
+        for (int i = 0; i < 3; i++)
+            c.in->tangential[i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
+    }
+}
+
+INLINE void advance(const struct call c)
+{
+    struct work s;
+    for (int k = 0; k < c.at.terms; k++)
+        for (int i = 0; i < c.at.n; i++) {
+            s.even.decay[k][i] = c.r->decay[k];
+            s.even.gain[k][i] = c.r->gain[k];
+        }
+    open_states(c, &s);
+    press(c, &s);
+    if (c.at.slips)
+        shear(c, &s);
+    else
+        EACH_LANE s.total[0][l] = s.total[1][l] = s.move[0][l] = s.move[1][l] = s.slipped[l] = 0;
+    close_states(c, &s);
+}
+
+/* The usual shapes are compiled on their own. */
+void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
+          struct rst_batch *restrict batch)
+{
+    struct call c = {
+        law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->turns, law->details}};
+    const int kind = c.at.n == 8 && c.at.slips && !c.at.turns && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
+    if (kind == 0)
+        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0, 0}});
+    else if (kind == 10)
+        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0, 0}});
+    else if (kind == 1)
+        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0, 0}});
+    else if (kind == 3)
+        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0, 0}});
+    else
+        advance(c);
+}
