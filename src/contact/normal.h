@@ -25,6 +25,9 @@ RARE void enter(const struct rst_law *restrict law, double step, const struct ar
     }
 }
 
+/* In a sum of bits, counts elements that are reached within the step. */
+static const double entry = 0x1p40;
+
 /* The outermost element whose bit is in the sum. */
 INLINE int outermost(double bits)
 {
@@ -62,10 +65,11 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
         pressed[i] = overlap - y - u[i] - loose;
         moved[i] = loose + larger(pressed[i], 0);
         row->touch[i] = if_so(pressed[i] > 0);
-        part[i] = row->touch[i] * smaller(gap[i], 0);
+        part[i] = row->touch[i] * (c.law->bit[i] + entry * if_so(gap[i] < 0));
     }
     row->arms = &s->even;
-    if (sum_of(part, n) < 0) enter(c.law, c.step, &s->even, gap, pressed, row);
+    const double bits = sum_of(part, n);
+    if (bits >= entry) enter(c.law, c.step, &s->even, gap, pressed, row);
     EACH_ELEMENT f[i] = c.law->g_inf * (u[i] + moved[i]) + dashpot;
     if (c.at.surface) EACH_ELEMENT surface[i] = u[i] + moved[i];
     if (c.at.details) EACH_ELEMENT row->spent[i] = c.law->eta / c.step * moved[i] * moved[i];
@@ -91,8 +95,7 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
         part[i] = c.law->weight[i] * row->f[i];
     }
     s->sum[l] = sum_of(part, n);
-    EACH_ELEMENT part[i] = c.law->bit[i] * if_so(pressed[i] > 0);
-    s->last[l] = outermost(sum_of(part, n));
+    s->last[l] = outermost(bits);
 }
 
 /* What the rim needs of the last element of a contact, and whether the next one has ever been
