@@ -177,16 +177,16 @@ INLINE void slide(const struct call c, int viscous, int l, struct work *s)
 }
 
 /* The integral over the contact radius. */
-INLINE void close_slide(const struct call c, int viscous, struct work *s)
+INLINE void close_slide(const struct call c, struct work *s)
 {
     hold_rim(c, s);
     for (int l = 0; l < LANES; l++) {
         s->front[l] = s->known[l] = 0;
-        if (c.at.turns && !viscous) follow_turn(c, l, s);
+        if (c.at.turns) follow_turn(c, l, s);
         add_kinks(c, l, s);
     }
     add_kink_at_rim(s);
-    for (int l = 0; l < LANES && c.at.turns && !viscous; l++)
+    for (int l = 0; l < LANES && c.at.turns; l++)
         keep_turn(c, l, s);
 }
 
@@ -209,8 +209,8 @@ INLINE void shear(const struct call c, struct work *s)
         stick(c, per_step, l, s);
         slide(c, viscous, l, s);
     }
-    close_slide(c, viscous, s);
-    if (viscous) {
+    if (viscous) { /* the velocity answers to a force without kinks, which are a small part of it */
+        hold_rim(c, s);
         lanes change[2];
         EACH_LANE
         {
@@ -229,8 +229,8 @@ INLINE void shear(const struct call c, struct work *s)
             feel_end_slide(c, (const double[]){change[0][l], change[1][l]}, l, s);
             slide(c, 0, l, s);
         }
-        close_slide(c, 0, s);
     }
+    close_slide(c, s);
     EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit; its square may underflow */
     {
         const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
