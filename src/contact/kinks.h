@@ -14,7 +14,7 @@ INLINE double lacking(double margin, double behind, double x_in, double y_in, do
 {
     const double change = behind - margin;
     const bool extrapolates = (margin > 0) & (change > 0);
-    const double divisor = extrapolates ? change : 1, y = y_in + margin * (y_in - y_behind) / divisor;
+    const double divisor = or_one(extrapolates, change), y = y_in + margin * (y_in - y_behind) / divisor;
     const double kept = if_so(extrapolates) * if_so((y_out - y) * (y_out - y_in) > 0) * if_so(y > 0);
     *front = kept * y;
     return kept * margin * (weight - weight_of(x_in, sqrt(larger(y, 0))));
@@ -58,7 +58,7 @@ INLINE void add_kink_at_rim(struct work *s)
         const double qx = s->q_last[0][l], qy = s->q_last[1][l], px = s->q_before[0][l], py = s->q_before[1][l];
         const double bx = qx + reach * (qx - px), by = qy + reach * (qy - py), size = sqrt(bx * bx + by * by);
         const bool slips = (s->both_stick[l] > 0) & (reach > 0) & (size > limit) & (s->known[l] == 0);
-        const double length = slips ? size : 1, x = bx / length, y = by / length;
+        const double length = or_one(slips, size), x = bx / length, y = by / length;
         const double margin = s->limit_ratio[l] * s->f_last[l] - (x * qx + y * qy);
         const double behind = s->limit_ratio[l] * s->f_before[l] - (x * px + y * py);
         double front;

@@ -90,6 +90,20 @@ INLINE double if_so(bool is)
     return is ? 1.0 : 0.0;
 }
 
+/* A divisor that is 1 where it does not matter. Of a selection of doubles compilers may make one of
+ * quotients, and so divide by 0 in vain: hosts trap that. */
+INLINE double or_one(bool matters, double value)
+{
+    const double one = 1;
+    const uint64_t mask = -(uint64_t)matters;
+    uint64_t bits, bits_of_one;
+    memcpy(&bits, &value, sizeof bits);
+    memcpy(&bits_of_one, &one, sizeof one);
+    bits = (bits & mask) | (bits_of_one & ~mask);
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 /* The sum over elements, in an order that suits every width of vectors. */
 INLINE double sum_of(const double *p, int n)
 {

@@ -126,7 +126,7 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
                         out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
     const double fall = pressed[last] - out;
     const bool apart = (pressed[last] < 0) & (fall > 0);
-    const double meets = c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / (apart ? fall : 1);
+    const double meets = c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / or_one(apart, fall);
     if (apart) s->meets[l] = larger(s->y[l], meets);
 }
 
@@ -166,7 +166,7 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
         const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
         const double fall = slope > 0 ? slope : soft;
         const bool ends = (f < fall * (free - y)) & !grows;
-        const double divisor = ends ? fall : 1, reached = y + f / divisor, place = ends ? reached : free;
+        const double divisor = or_one(ends, fall), reached = y + f / divisor, place = ends ? reached : free;
         const double risen = larger(0, rise[l]), held = larger(0, f - slope * (free - y)) * several * if_so(!ends);
         const double here = grows ? risen : held,
                      there = larger(0, f - slope * (next - y)) * several * if_so(place > next);

@@ -235,8 +235,8 @@ INLINE void shear(const struct call c, struct work *s)
     {
         const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
         const double x = scale * s->total[0][l], y = scale * s->total[1][l], one = larger(fabs(x), fabs(y));
-        const double safe = one > 0 ? one : 1, px = x / safe, py = y / safe, size = one * sqrt(px * px + py * py);
-        const double most = larger(size, limit), kept = limit / (most > 0 ? most : 1);
+        const double safe = or_one(one > 0, one), px = x / safe, py = y / safe, size = one * sqrt(px * px + py * py);
+        const double most = larger(size, limit), kept = limit / or_one(most > 0, most);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
         s->slipped[l] += (s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l]) * s->back[0][l] +

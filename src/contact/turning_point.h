@@ -70,7 +70,7 @@ INLINE double front_of(const struct place *p, const double *q, const double *the
     const double margin = p->limit - (along[0] * q[0] + along[1] * q[1]);
     const double margin_at_edge = at_edge - moved - cosine * (at_edge - (p->limit - was));
     const bool begins = (margin > 0) & (margin_at_edge < 0);
-    return begins ? p->y + (edge - p->y) * margin / (begins ? margin - margin_at_edge : 1) : 0;
+    return begins ? p->y + (edge - p->y) * margin / or_one(begins, margin - margin_at_edge) : 0;
 }
 
 /* A turning point is put where slip begins: u and w, as of an element near by with the force
