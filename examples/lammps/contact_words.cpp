@@ -30,9 +30,21 @@ static double not_negative(const std::string &word)
     return value;
 }
 
+static int whole(const std::string &word)
+{
+    const double value = number(word);
+    if (value != std::floor(value) || std::fabs(value) > 1e6)
+        throw std::invalid_argument("'" + word + "': must be a whole number");
+    return (int)value;
+}
+
+/* Without the library's name of the struct: its members are words of the script. */
 static void demand(int status, const restitute_error &error)
 {
-    if (status < 0) throw std::invalid_argument(error.message);
+    if (status >= 0) return;
+    std::string text = error.message;
+    if (text.compare(0, 8, "options.") == 0) text.erase(0, 8);
+    throw std::invalid_argument(text);
 }
 
 ContactModel::ContactModel(const std::vector<std::string> &words, const Units &units) : words(words)
@@ -87,9 +99,9 @@ void ContactModel::read(const Units &units, restitute_contact_law_options &optio
         else if (word == "partner")
             partner = next();
         else if (word == "elements")
-            options.elements = (int)number(next());
+            options.elements = whole(next());
         else if (word == "terms")
-            options.terms = (int)number(next());
+            options.terms = whole(next());
         else if (word == "window")
             options.shortest = number(next()), options.longest = number(next());
         else if (word == "rolling")
@@ -104,7 +116,7 @@ void ContactModel::read(const Units &units, restitute_contact_law_options &optio
         else if (word == "speed")
             speed = not_negative(next());
         else if (word == "limits")
-            limits[RADIUS] = number(next()), limits[SPEED] = number(next());
+            limits[RADIUS] = not_negative(next()), limits[SPEED] = not_negative(next());
         else
             throw std::invalid_argument("'" + word +
                                         "': must be friction, partner, elements, terms, window, rolling, twisting, "

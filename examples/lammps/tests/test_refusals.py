@@ -36,6 +36,9 @@ refused("a word that is none", ["'fricton'"], f"pair_style restitute\npair_coeff
 refused("a number that is none", ["'0.3x'"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3x")
 refused("a word without value", ["'elements'"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 elements")
 refused("7 elements", ["elements = 7"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 elements 7")
+refused("a part of an element", ["'8.7'", "whole number"],
+        f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 elements 8.7")
+refused("a negative limit", ["'-1'"], f"pair_style restitute\npair_coeff * * {rubber} friction 0.3 limits -1 0.1")
 refused("30 terms without a window", ["30 terms"],
         f"pair_style restitute\npair_coeff * * {MATERIALS}/polyisobutylene.json friction 0.3")
 refused("one term for five decades", ["terms = 1", "longest = 1 s", "misses G(t)", "at most 50 %"],
