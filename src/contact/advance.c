@@ -76,21 +76,41 @@ INLINE void advance(const struct call c)
     close_states(c, &s);
 }
 
-/* The usual shapes are compiled on their own. */
+INLINE void advance_shape(struct call c, int terms, int surface, int turns)
+{
+    c.at = (struct shape){8, terms, surface, 1, turns, 0};
+    advance(c);
+}
+
+/* The usual shapes are compiled on their own: eight elements with friction, elastic, standard
+ * solid, three terms, Kelvin-Voigt, the first two also with a turning point. */
 void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
           struct rst_batch *restrict batch)
 {
-    struct call c = {
+    const struct call c = {
         law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->turns, law->details}};
-    const int kind = c.at.n == 8 && c.at.slips && !c.at.turns && !c.at.details ? 10 * c.at.surface + c.at.terms : -1;
-    if (kind == 0)
-        advance((struct call){law, rates, batch, step, {8, 0, 0, 1, 0, 0}});
-    else if (kind == 10)
-        advance((struct call){law, rates, batch, step, {8, 0, 1, 1, 0, 0}});
-    else if (kind == 1)
-        advance((struct call){law, rates, batch, step, {8, 1, 0, 1, 0, 0}});
-    else if (kind == 3)
-        advance((struct call){law, rates, batch, step, {8, 3, 0, 1, 0, 0}});
-    else
+    const int kind =
+        c.at.n == 8 && c.at.slips && !c.at.details ? 100 * c.at.turns + 10 * c.at.surface + c.at.terms : -1;
+    switch (kind) {
+    case 0:
+        advance_shape(c, 0, 0, 0);
+        break;
+    case 1:
+        advance_shape(c, 1, 0, 0);
+        break;
+    case 3:
+        advance_shape(c, 3, 0, 0);
+        break;
+    case 10:
+        advance_shape(c, 0, 1, 0);
+        break;
+    case 100:
+        advance_shape(c, 0, 0, 1);
+        break;
+    case 101:
+        advance_shape(c, 1, 0, 1);
+        break;
+    default:
         advance(c);
+    }
 }

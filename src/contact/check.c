@@ -8,7 +8,6 @@
 
 /* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
 static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 2e30, largest_friction = 1e6;
-static const double least_step = 1e-60, largest_step = 1e60;
 
 /* Of the square of the first tangential axis, what must be in the tangential plane: the normal may
  * have turned by 60 degrees towards it. */
@@ -56,10 +55,6 @@ int rst_check_motion(double step, const restitute_contact_motion *m, restitute_e
 {
     const int status = RST_CHECK(contact_motion, m, error);
     if (status) return status;
-    if (!(step >= least_step && step <= largest_step))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "rates.step = %g s: must be in [%g, %g]; restitute_contact_rates_set fills rates", step,
-                          least_step, largest_step);
     const double r = m->radius, fastest = r / step, mobility = largest_mobility / step, *v = m->velocity;
     const struct {
         const char *name;
@@ -92,10 +87,12 @@ int rst_check_turn(const double n[3], const double *state, restitute_error *erro
 
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error)
 {
-    if (rst_is_own(law, state)) return RESTITUTE_OK;
+    if (rst_is_new(state)) return RESTITUTE_OK;
+    if (rst_is_own(law, state) && state[at_width] > 0 && isfinite(state[at_width]) && isfinite(state[at_overlap]))
+        return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                      "state[0] = %.17g: is of another law than the one with hash %016llx, or has lost digits",
-                      state[0], (unsigned long long)law->hash);
+                      "state[0] = %.17g: is of another law than the one with hash %016llx, or damaged", state[0],
+                      (unsigned long long)law->hash);
 }
 
 int rst_check_unit(const double *v, const char *name, restitute_error *error)

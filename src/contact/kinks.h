@@ -67,7 +67,7 @@ INLINE void add_kink_at_rim(struct work *s)
         const double more = larger(lacks, 0) * if_so(slips), outer = s->outer[l] * if_so(more > 0);
         s->total[0][l] += more * x + outer * (limit * x - s->rim[0][l]);
         s->total[1][l] += more * y + outer * (limit * y - s->rim[1][l]);
-        s->front[l] = more > 0 ? front : (s->last_sticks[l] > 0) & (s->known[l] == 0) ? 0 : s->front[l];
+        s->front[l] = more > 0 ? front : ((s->last_sticks[l] > 0) & (s->known[l] == 0)) ? 0 : s->front[l];
         s->front_along[0][l] = more > 0 ? x : s->front_along[0][l];
         s->front_along[1][l] = more > 0 ? y : s->front_along[1][l];
     }

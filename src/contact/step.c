@@ -14,6 +14,10 @@ static int check_rates(const restitute_contact_law *law, const restitute_contact
 {
     if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
     if (!RST_IS_SIZED(contact_rates, rates)) return RST_CHECK(contact_rates, rates, error);
+    if (!(rates->step >= 1e-60 && rates->step <= 1e60))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "rates.step = %g s: must be in [1e-60, 1e+60]; restitute_contact_rates_set fills rates",
+                          rates->step);
     if (rates->law != law->hash)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                           "rates: are of another law; make them with restitute_contact_rates_set");
@@ -72,9 +76,11 @@ static int take(const struct rst_batch *batch, int lane, restitute_contact_force
 {
     const restitute_contact_force found = {
         batch->force[lane], {batch->tangential[0][lane], batch->tangential[1][lane], batch->tangential[2][lane]}};
-    if (!(fabs(found.normal) + fabs(found.tangential[0]) + fabs(found.tangential[1]) + fabs(found.tangential[2]) <=
+    if (!(found.normal >= 0) ||
+        !(fabs(found.normal) + fabs(found.tangential[0]) + fabs(found.tangential[1]) + fabs(found.tangential[2]) <=
           DBL_MAX))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "state: is corrupt, the force that it gives is negative or not finite");
     *force = found;
     return RESTITUTE_OK;
 }

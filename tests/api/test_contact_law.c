@@ -243,6 +243,23 @@ static void check_force(const restitute_contact_force *f, double friction, int n
           limit);
 }
 
+/* Eight copies of a contact in a batch. */
+static void step_side_by_side(const restitute_contact_law *law, const restitute_contact_rates *rates,
+                              const restitute_contact_motion *motion, const double *state, int number)
+{
+    enum { n = 8 };
+    static double states[n][most_state];
+    restitute_contact_motion motions[n];
+    restitute_contact_force forces[n];
+    double *places[n];
+    int status;
+    for (int i = 0; i < n; i++) {
+        memcpy(places[i] = states[i], state, sizeof states[i]);
+        motions[i] = *motion;
+    }
+    NEVER_TRAPS(status, restitute_contact_step_many(law, rates, n, motions, places, forces, NULL, NULL), number);
+}
+
 static void press_and_rub(uint64_t *random, const restitute_contact_law *law, int number)
 {
     restitute_contact_rates rates;
@@ -270,6 +287,7 @@ static void press_and_rub(uint64_t *random, const restitute_contact_law *law, in
         m.velocity[2] = or_next_to_nothing(random, 0.5 * (m.overlap - before) / step);
         for (int k = 0; k < 2; k++)
             m.velocity[k] = or_next_to_nothing(random, m.radius * slide * random_in(random, -1, 1) / step);
+        step_side_by_side(law, &rates, &m, state, number);
         NEVER_TRAPS(status, restitute_contact_step(law, &rates, &m, state, &force, NULL), number);
         if (status) return; /* a step too long */
         check_force(&force, m.friction, number);

@@ -53,15 +53,16 @@ typedef struct restitute_contact_law_options {
     int terms;          /**< most Prony terms kept, 1 to 8; default 4. A material with more is
                              reduced to so many, which meet G(t) from `shortest` to `longest` */
     int slip_cycles;    /**< nonzero: the law remembers where slip turned, so that cycles far below
-                             gross slip lose what they should (docs/contact.md, Accuracy); 5 + 2
-                             terms more doubles, and half as much time again; default 0 */
+                             gross slip lose what they should (docs/contact.md, Accuracy); 5 more
+                             doubles and 2 more for each term, and up to twice the time; default
+                             0 */
     /** s, 1e-60 <= shortest < longest <= 1e60: the time step of the host and the longest contact
      *  time of interest. Required if terms are reduced, else not read; default 0 */
     double shortest;
     double longest;     /**< see `shortest` */
     int frictionless;   /**< nonzero: no tangential force, no states for it; default 0 */
-    int details;        /**< nonzero: seven more doubles a contact, for @ref
-                             restitute_contact_details_get; default 0 */
+    int details;        /**< nonzero: seven more doubles a contact and up to twice the time, for
+                             @ref restitute_contact_details_get; default 0 */
 } restitute_contact_law_options;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, contact_law_options)
@@ -175,13 +176,14 @@ typedef struct restitute_contact_force {
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of
  *          another law; a new contact of less than ten steps; a normal that has turned by 60
  *          degrees towards the stored axis, see @ref restitute_contact_turn. State and force are
- *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is not finite; the state
+ *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is negative or not finite; the state
  *          is spoilt then, `force` is untouched */
 RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
     const restitute_contact_rates *rates, const restitute_contact_motion *motion, double *state,
     restitute_contact_force *force, restitute_error *error);
 
-/** Advance n contacts of one law; n may be 0. Faster than n single steps, with the same bits.
+/** Advance n contacts of one law; n may be 0. About twice as fast as n single steps if most of
+ *  them go on from the step before, with the same bits but for the sign of a zero.
  *
  *  @param states    n states, each as in @ref restitute_contact_step and no two of them the same
  *  @param statuses  optional: n statuses. A contact that fails stops no other
