@@ -239,9 +239,13 @@ INLINE void shear(const struct call c, struct work *s)
         const double most = larger(size, limit), kept = limit / or_one(most > 0, most);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
+    }
+    if (!c.at.details) return;
+    EACH_LANE
+    {
         s->slipped[l] += (s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l]) * s->back[0][l] +
                          (s->inner[l] * s->q_last[1][l] + s->outer[l] * s->rim[1][l]) * s->back[1][l];
-        s->slipped[l] *= scale * s->touches[l];
+        s->slipped[l] *= c.law->tangential * s->width[l] * s->touches[l];
     }
 }
 
