@@ -8,7 +8,7 @@
  *  contact may also rest, slide in any direction, turn and be loaded again. Link
  *  restitute::contact (CMake) or restitute-contact (pkg-config). No other library is needed.
  *
- *  Five lines a contact and step:
+ *  In short:
  *
  *      restitute_contact_law *law;
  *      restitute_contact_rates rates; restitute_contact_rates_init(&rates);
@@ -174,10 +174,11 @@ typedef struct restitute_contact_force {
  *  @param state  of the caller, restitute_contact_law_state_size(law) doubles; all zeros is a new
  *                contact
  *  @return ERROR_NULL, ERROR_STRUCT_SIZE; ERROR_DOMAIN: a value out of its range; rates or state of
- *          another law; a new contact of less than ten steps; a normal that has turned by 60
- *          degrees towards the stored axis, see @ref restitute_contact_turn. State and force are
- *          untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is negative or not finite; the state
- *          is spoilt then, `force` is untouched */
+ *          another law, or a damaged state; a new contact of less than ten steps; a normal that has
+ *          turned too far since the last step (some 60 degrees), see @ref restitute_contact_turn.
+ *          State and force are untouched then. Also ERROR_DOMAIN: a corrupt state, whose force is
+ *          negative or not finite; the state is spoilt then, `force` is untouched. A state that is
+ *          damaged elsewhere may pass */
 RESTITUTE_SINCE_0_1 int restitute_contact_step(const restitute_contact_law *law,
     const restitute_contact_rates *rates, const restitute_contact_motion *motion, double *state,
     restitute_contact_force *force, restitute_error *error);
