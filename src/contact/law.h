@@ -102,4 +102,22 @@ static inline int rst_is_own(const restitute_contact_law *law, const double *sta
     return rst_is_new(state) || ((rst_bits_of(state[0]) ^ law->hash) & rst_mark_bits) == 0;
 }
 
+/* A contact and its motion as a lane of a batch. */
+static inline void rst_put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
+{
+    for (int i = 0; i < 3; i++) {
+        batch->normal[i][lane] = m->normal[i];
+        batch->velocity[i][lane] = m->velocity[i];
+        batch->axis[i][lane] = state[at_axis + i];
+    }
+    batch->overlap[lane] = m->overlap;
+    batch->turn[lane] = m->spin;
+    batch->inverse_mass[0][lane] = m->inverse_mass;
+    batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
+    batch->radius[lane] = m->radius;
+    batch->friction[lane] = m->friction;
+    batch->width[lane] = state[at_width];
+    batch->state[lane] = state;
+}
+
 #endif

@@ -54,23 +54,6 @@ static int prepare(const restitute_contact_law *law, const restitute_contact_rat
     return 1;
 }
 
-static void put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
-{
-    for (int i = 0; i < 3; i++) {
-        batch->normal[i][lane] = m->normal[i];
-        batch->velocity[i][lane] = m->velocity[i];
-        batch->axis[i][lane] = state[at_axis + i];
-    }
-    batch->overlap[lane] = m->overlap;
-    batch->turn[lane] = m->spin;
-    batch->inverse_mass[0][lane] = m->inverse_mass;
-    batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
-    batch->radius[lane] = m->radius;
-    batch->friction[lane] = m->friction;
-    batch->width[lane] = state[at_width];
-    batch->state[lane] = state;
-}
-
 /* The force, if it is finite: within their ranges all motions give a finite one. */
 static int take(const struct rst_batch *batch, int lane, restitute_contact_force *force, restitute_error *error)
 {
@@ -109,10 +92,10 @@ static int advance(const restitute_contact_law *law, const restitute_contact_rat
 {
     struct rst_batch batch;
     int status;
-    put(motion, state, 0, &batch);
+    rst_put(motion, state, 0, &batch);
     if (!rst_all_good(law, rates->step, &batch, 1)) {
         if (!prepare(law, rates, motion, state, force, &status, error)) return status;
-        put(motion, state, 0, &batch);
+        rst_put(motion, state, 0, &batch);
     }
     law->step_one(&law->kernel, kernel_rates(rates), rates->step, &batch);
     return take(&batch, 0, force, error);
@@ -134,7 +117,7 @@ static int advance_lanes(const restitute_contact_law *law, const restitute_conta
                          const restitute_contact_motion *motions, double *const *states, struct rst_batch *batch)
 {
     for (int l = 0; l < rst_lanes; l++)
-        put(rst_at(motions, (size_t)l), states[l], l, batch);
+        rst_put(rst_at(motions, (size_t)l), states[l], l, batch);
     if (!rst_all_good(law, rates->step, batch, rst_lanes)) return 0;
     law->step_lanes(&law->kernel, kernel_rates(rates), rates->step, batch);
     return 1;

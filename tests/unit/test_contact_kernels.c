@@ -8,30 +8,13 @@
 
 static rst_kernel *wide_one, *wide_lanes;
 
-static void put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
-{
-    for (int i = 0; i < 3; i++) {
-        batch->normal[i][lane] = m->normal[i];
-        batch->velocity[i][lane] = m->velocity[i];
-        batch->axis[i][lane] = state[at_axis + i];
-    }
-    batch->overlap[lane] = m->overlap;
-    batch->turn[lane] = m->spin;
-    batch->inverse_mass[0][lane] = m->inverse_mass;
-    batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
-    batch->radius[lane] = m->radius;
-    batch->friction[lane] = m->friction;
-    batch->width[lane] = state[at_width];
-    batch->state[lane] = state;
-}
-
 /* Copies of the states after a step of all lanes. */
 static void run_lanes(rst_kernel *kernel, struct drive *drives, const double *states, size_t size, double *after)
 {
     struct rst_batch batch;
     memcpy(after, states, rst_lanes * size * sizeof *after);
     for (int l = 0; l < rst_lanes; l++)
-        put(&drives[l].motion, after + (size_t)l * size, l, &batch);
+        rst_put(&drives[l].motion, after + (size_t)l * size, l, &batch);
     kernel(&drives[0].law->kernel, (const struct rst_rates *)drives[0].rates.values, drives[0].rates.step, &batch);
 }
 
@@ -40,7 +23,7 @@ static void run_one(rst_kernel *kernel, struct drive *drives, const double *stat
     struct rst_batch batch;
     memcpy(after, states, rst_lanes * size * sizeof *after);
     for (int l = 0; l < rst_lanes; l++) {
-        put(&drives[l].motion, after + (size_t)l * size, 0, &batch);
+        rst_put(&drives[l].motion, after + (size_t)l * size, 0, &batch);
         kernel(&drives[0].law->kernel, (const struct rst_rates *)drives[0].rates.values, drives[0].rates.step, &batch);
     }
 }
