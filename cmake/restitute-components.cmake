@@ -107,6 +107,15 @@ restitute_decide(RESTITUTE_FIT "the component fit" RESTITUTE_WITH_FIT #
                  GSL_FOUND "GSL 2.7 (Debian: libgsl-dev, found by pkg-config)" #
                  Threads_FOUND "POSIX threads")
 
+# The first Python that has what the package needs: the one of the path may be another than Debian's.
+if(RESTITUTE_PYTHON)
+  include(restitute-python)
+endif()
+restitute_decide(RESTITUTE_PYTHON "the Python package" RESTITUTE_WITH_PYTHON #
+                 BUILD_SHARED_LIBS "shared libraries (BUILD_SHARED_LIBS)" #
+                 RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
+                 RESTITUTE_PYTHON_FOUND "Python 3.9 with NumPy and cffi (Debian: python3-numpy, python3-cffi)")
+
 if(RESTITUTE_COMMAND)
   restitute_find_pkg_config_library(POPT popt)
 endif()

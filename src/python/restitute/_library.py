@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The shared libraries: loading, calls whose failures are exceptions, structs.
+
+    from restitute import _library
+    scene = _library.struct("scene", radius1=0.005)
+    _library.call(_library.core.restitute_scene_numbers, scene, numbers)
+
+Every component is loaded when it is first named: `core`, `cvode`, `table`, `table_files`, `bem`,
+`files`, `contact`, `fit`.
+"""
+import os
+import warnings
+
+from restitute import errors
+from restitute._binding import ffi
+from restitute._places import LIBRARIES
+
+__all__ = ["array_type", "call", "ffi", "string", "struct", "text"]
+_COMPONENTS = ("core", "cvode", "table", "table_files", "bem", "files", "contact", "fit")
+_HOME = {"scene": "core", "body": "core", "collision": "core"}
+
+
+def __getattr__(name):
+    if name not in _COMPONENTS:
+        raise AttributeError(f"module 'restitute._library' has no attribute '{name}'")
+    globals()[name] = library = _load(name)
+    return library
+
+
+def _load(component):
+    path = LIBRARIES.get(component)
+    if path is None:
+        raise errors.MissingComponent(f"the component {component} is not installed with this package")
+    if component != "core":
+        __getattr__("core")  # first, so that the component finds it loaded
+    return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
+
+
+def available(component):
+    """Whether a component is installed with this package."""
+    return component in LIBRARIES
+
+
+def text(chars):
+    """A string of C."""
+    return ffi.string(chars).decode("utf-8", "replace")
+
+
+def string(value):
+    """A string for C, e.g. a path."""
+    return ffi.new("char[]", os.fsencode(value))
+
+
+def exception(status, message):
+    """The exception for a failed call."""
+    kinds = {core.RESTITUTE_ERROR_DOMAIN: errors.DomainError, core.RESTITUTE_ERROR_FORMAT: errors.FormatError,
+             core.RESTITUTE_ERROR_FILE: errors.FileError}
+    if status == core.RESTITUTE_ERROR_MEMORY:
+        return MemoryError(message)
+    if status == core.RESTITUTE_ERROR_INTERRUPTED:
+        return KeyboardInterrupt(message)
+    error = kinds.get(status, errors.SolverError)(message)
+    error.status = status
+    return error
+
+
+def call(function, *arguments):
+    """Call a function whose last argument is an error.
+
+    Returns
+    -------
+    status : int
+        0 or a positive remark.
+    message : str
+        The remarks, or an empty text.
+    """
+    error = ffi.new("restitute_error *")
+    status = function(*arguments, error)
+    message = text(error.message)
+    if status < 0:
+        raise exception(status, message or text(core.restitute_status_text(status)))
+    return status, message
+
+
+def struct(name, component="core", **members):
+    """A new struct restitute_NAME with its defaults, and these members set."""
+    value = ffi.new(f"restitute_{name} *")
+    library = globals().get(component) or __getattr__(component)
+    getattr(library, f"restitute_{name}_init_sized")(value, ffi.sizeof(value[0]))
+    for member, content in members.items():
+        setattr(value, member, content)
+    return value
+
+
+def array_type(name):
+    """The NumPy dtype of restitute_NAME: fields at the offsets that C gives them."""
+    import numpy as np
+
+    kind = ffi.typeof(f"restitute_{name}")
+    names, formats, offsets = [], [], []
+    for member, field in kind.fields:
+        names.append(member)
+        offsets.append(field.offset)
+        formats.append(_format(field.type))
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(kind)})
+
+
+def _format(kind):
+    """What a member is in NumPy; pointers are integers of their size."""
+    if kind.kind == "array":
+        return (_format(kind.item), (kind.length,))
+    if kind.kind == "pointer":
+        return "u8" if ffi.sizeof(kind) == 8 else "u4"
+    letter = "f" if kind.cname in ("double", "float") else "u" if kind.cname.startswith("u") or kind.cname == "size_t" else "i"
+    return "S1" if kind.cname == "char" else f"{letter}{ffi.sizeof(kind)}"
+
+
+def structs(name, count, component="core"):
+    """`count` structs restitute_NAME with their defaults, as a NumPy array of records, whose memory C can be given
+    by `pointer`."""
+    import numpy as np
+
+    first = struct(name, component)
+    record = np.frombuffer(ffi.buffer(first), array_type(name))
+    return np.repeat(record, count)
+
+
+def pointer(array, kind=None):
+    """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default its dtype."""
+    kind = kind or {"f8": "double[]", "i4": "int[]", "i8": "int64_t[]"}[array.dtype.str[1:]]
+    return ffi.from_buffer(kind, array)
+
+
+def warn(message, category, level=3):
+    """A warning that points at the caller of the package."""
+    warnings.warn(message, category, stacklevel=level)
