@@ -31,7 +31,8 @@ ruff)
     [ -x $ruff ] || { "$PYTHON" -m venv tools && tools/bin/python -m pip install --quiet \
         --disable-pip-version-check "$(grep '^ruff==' "$SOURCE_DIR/tests/python/requirements.txt")"; } ||
         skip "ruff cannot be installed from PyPI"
-    exec $ruff check --quiet --output-format concise --no-cache --config "$settings" "$SOURCE_DIR/src/python" "$SOURCE_DIR/tests/python" \
-        "$SOURCE_DIR/examples/python"
+    exec $ruff check --quiet --output-format concise --no-cache --config "$settings" \
+        "$SOURCE_DIR/src/python" "$SOURCE_DIR/tests/python" \
+        $(find "$SOURCE_DIR/examples" -name '*.py' -path '*/python/*')
     ;;
 esac
