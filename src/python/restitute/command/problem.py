@@ -347,9 +347,9 @@ def _is_file(text):
 
 def names():
     """The materials that are known by name."""
-    from restitute import material
+    from restitute import material_names
 
-    return getattr(material, "names", list)()
+    return material_names()
 
 
 _read = {}
