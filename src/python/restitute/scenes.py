@@ -214,6 +214,10 @@ class Impacts:
                 _library.core.restitute_scene_numbers(scene + i, number + i, _library.ffi.NULL)
         return Columns(values.reshape(self.shape))
 
+    def describe(self) -> str:
+        """The scene in words; see `describe`."""
+        return describe(self)
+
     def __repr__(self):
         return f"<restitute.Impacts ({self.kind}) of shape {self.shape}>"
 
