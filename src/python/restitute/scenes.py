@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From keywords to impacts that the library solves: broadcasting, masses, materials."""
+from __future__ import annotations
+
+import difflib
+import os
+from typing import Any
+
+import numpy as np
+
+from restitute import _library, errors
+from restitute.materials import Material
+from restitute.materials import material as material_of
+
+__all__ = ["DIMENSIONLESS", "SCENE", "Columns", "Impacts", "describe"]
+
+#: Keywords of an impact in the numbers of the paper, and in SI units.
+DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
+SCENE = ("radius", "density", "mass", "inertia", "radius2", "density2", "mass2", "inertia2",
+         "partner", "friction", "speed", "angle", "normal_speed", "tangential_speed", "spin",
+         "spin2", "rotation_blocked", "time_shift", "wave_density")
+
+# What the library never sees as such: above the first, below the second, in words.
+_RANGES = {"speed": (0, np.inf, "must be finite and > 0"),
+           "density": (0, np.inf, "must be finite and > 0"),
+           "angle": (-5e-324, 90, "must be in [0, 90)")}
+
+
+class Columns:
+    """Records of a struct of the library: each member is an array of the common shape."""
+
+    _hidden: tuple = ("struct_size",)
+
+    def __init__(self, records: np.ndarray):
+        self._records = records
+
+    @property
+    def shape(self) -> tuple:
+        """Shape of every member."""
+        return self._records.shape
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name in self._hidden or name not in self._records.dtype.names:
+            raise AttributeError(f"'{name}' is not one of {', '.join(dir(self))}")
+        return self._records[name][()]
+
+    def __dir__(self):
+        members = [name for name in self._records.dtype.names if name not in self._hidden]
+        return members + [name for name in vars(self) if not name.startswith("_")]
+
+    def __repr__(self):
+        return f"<restitute.{type(self).__name__} of shape {self.shape}>"
+
+
+class Impacts:
+    """Impacts ready to be solved, from the keywords of `restitute.pair`.
+
+    Can be pickled. `impacts[10:20]` are some of them, in flat order.
+
+    Attributes
+    ----------
+    kind : str
+        "scene" (SI units) or "impact" (numbers of the paper).
+    shape : tuple
+        That of all keywords broadcast.
+    records : ndarray
+        restitute_scene or restitute_impact in flat order; `material` is the place in `solids`.
+    solids : list of Material
+    refused : dict of int to str
+        Flat index and reason of those whose keywords are out of range.
+
+    Raises
+    ------
+    TypeError
+        Keywords that are unknown, missing or of both kinds.
+
+    Examples
+    --------
+    >>> ball = Impacts(Material.elastic(1e6), radius=[1e-3, 2e-3], density=1100, speed=0.1)
+    >>> ball.shape, ball.numbers().chi.round(3)
+    ((2,), array([1.167, 1.167]))
+    """
+
+    def __init__(self, material: Any = None, **values: Any):
+        values = {name: value for name, value in values.items() if value is not None}
+        self.kind = _kind(material, values)
+        self.solids: list[Material] = []
+        self._checks: list[tuple] = []
+        columns = (self._impact_columns(values) if self.kind == "impact"
+                   else self._scene_columns(material, values))
+        self.shape = broadcast(columns)
+        self.records = _library.structs(self.kind, int(np.prod(self.shape)))
+        for name, column in columns.items():
+            self.records.reshape(self.shape)[name] = column
+        self.refused: dict[int, str] = {}
+        for bad, text in self._checks:
+            for i in np.flatnonzero(np.broadcast_to(bad, self.shape)):
+                self.refused.setdefault(int(i), text(lambda v, i=i: np.broadcast_to(v, self.shape).flat[i]))
+        del self._checks
+
+    def _in_range(self, name, value, low, high, words):
+        bad = ~((value > low) & (value < high))
+        if np.any(bad):
+            self._checks.append((bad, lambda at: f"{name} = {at(value):.15g}: {words}"))
+
+    def _impact_columns(self, values):
+        columns = {name: _numbers(name, value) for name, value in values.items()}
+        if "psi" not in columns:
+            raise TypeError("psi is missing: must be in [0, 1e12] (inf: no friction)")
+        if "delta2" in columns:
+            known = [name for name in ("gamma", "delta1") if name in columns]
+            if len(known) != 1:
+                raise TypeError("delta2 needs delta1 or gamma beside it, one of them")
+            value, delta2 = columns[known[0]], columns.pop("delta2")
+            self._in_range(known[0], value, 0, np.inf, "must be finite and > 0 beside delta2")
+            self._in_range("delta2", delta2, 0, np.nextafter(1e12, 2e12), "must be in (0, 1e12]")
+            with np.errstate(all="ignore"):  # (25): delta2 = delta1 sqrt(gamma)
+                if known[0] == "gamma":
+                    columns["delta1"] = delta2 / np.sqrt(value)
+                else:
+                    columns["gamma"] = (delta2 / value) ** 2
+        elif "gamma" not in columns and np.any(columns.get("delta1", 0) > 0):
+            raise TypeError("gamma is missing: delta1 > 0 needs gamma (0: Kelvin-Voigt) or delta2")
+        return columns
+
+    def _scene_columns(self, material, values):
+        for name, value in (("material", material), ("radius", values.get("radius"))):
+            if value is None:
+                raise TypeError(f"{name} is missing")
+        partner, shift = values.pop("partner", "rigid"), values.pop("time_shift", 1.0)
+        self.solids, place, deformable = combine(material, partner, shift)
+        number = {name: _numbers(name, value) for name, value in values.items()}
+        for name in _RANGES.keys() & number.keys():
+            self._in_range(name, number[name], *_RANGES[name])
+        own = ("radius2", "inertia2", "friction", "spin2", "rotation_blocked", "wave_density")
+        columns = {name: number[name] for name in own if name in number}
+        for name in ("radius", "inertia", "spin"):
+            if name in number:
+                columns[f"{name}1"] = number[name]
+        if "rotation_blocked" in number:
+            columns["rotation_blocked"] = number["rotation_blocked"] != 0
+        if "wave_density" not in number:
+            known = [m.density if m.density > 0 else 0 for m in self.solids]
+            columns["wave_density"] = np.array(known)[place]
+        columns.update(_speeds(number), material=place, deformable=deformable)
+        columns["mass1"] = self._mass(number, "", place, deformable)
+        if "radius2" in number and np.any(np.isfinite(number["radius2"])):
+            columns["mass2"] = np.where(np.isinf(number["radius2"]), np.inf,
+                                        self._mass(number, "2", place, deformable))
+        else:
+            for name in ("mass2", "density2", "inertia2", "spin2"):
+                if np.any(np.isfinite(number.get(name, 0)) & (number.get(name, 0) != 0)):
+                    raise TypeError(f"{name} needs a partner sphere, radius2")
+                columns.pop(name, None)
+        return columns
+
+    def _mass(self, number, body, place, deformable):
+        """Of a mass, a density, or the density of the material where the body is sure to be of it."""
+        mass, density, radius = f"mass{body}", f"density{body}", number[f"radius{body}"]
+        if mass in number and density in number:
+            raise TypeError(f"{mass} and {density} are both given: one determines the other")
+        if mass in number:
+            return number[mass]
+        value = number.get(density)
+        if value is None:
+            known = [(m.parts or (m, m))[body == "2"].density for m in self.solids]
+            sure = (deformable == 2) | np.array([bool(m.parts) for m in self.solids])[place]
+            value = np.where(sure, np.array(known)[place], np.nan)
+            none = " (the material has none)"
+            self._checks.append((np.isnan(value) & np.isfinite(radius), lambda at: (
+                f"{density} or {mass} is missing: must be > 0{none if at(sure) else ''}")))
+        with np.errstate(all="ignore"):
+            return 4 / 3 * np.pi * radius**3 * value
+
+    def __len__(self):
+        return len(self.records)
+
+    def __getitem__(self, part: slice) -> Impacts:
+        some = object.__new__(Impacts)
+        some.kind, some.solids, some.records = self.kind, self.solids, self.records[part]
+        some.shape, some.refused = some.records.shape, {}
+        return some
+
+    def bound(self, begin: int = 0, end: int | None = None) -> np.ndarray:
+        """Records for C, with the addresses of materials; valid as long as these impacts are."""
+        records = self.records[begin:end].copy()
+        if self.solids:
+            addresses = np.array([solid.address for solid in self.solids], np.uint64)
+            records["material"] = addresses[records["material"].astype(np.int64)]
+        return records
+
+    def numbers(self) -> Columns:
+        """Dimensionless numbers and, of scenes, their scales: `restitute_numbers` of the library.
+
+        Returns
+        -------
+        Columns
+            chi, psi, delta1, gamma, delta2, radius, mass, modulus, length_z, length_x, time, force;
+            nan where they have no meaning. One call a scene: for some, not for millions.
+        """
+        values = _library.structs("numbers", len(self))
+        for name in values.dtype.names[1:]:
+            values[name] = np.nan
+        if self.kind == "impact":
+            for name in DIMENSIONLESS[:4]:
+                values[name] = self.records[name]
+            elastic = self.records["delta1"] == 0
+            gamma = np.where(elastic, 0, self.records["gamma"])
+            values["delta2"] = self.records["delta1"] * np.sqrt(gamma)
+        else:
+            scene = _library.pointer(self.bound(), "restitute_scene[]")
+            number = _library.pointer(values, "restitute_numbers[]")
+            for i in range(len(self)):
+                _library.core.restitute_scene_numbers(scene + i, number + i, _library.ffi.NULL)
+        return Columns(values.reshape(self.shape))
+
+    def describe(self) -> str:
+        """The scene in words; see `describe`."""
+        return describe(self)
+
+    def __repr__(self):
+        return f"<restitute.Impacts ({self.kind}) of shape {self.shape}>"
+
+
+def _kind(material, values):
+    known = SCENE + DIMENSIONLESS
+    for name in values:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1, 0.7)
+            hint = f"; did you mean {near[0]}?" if near else f": {', '.join(known)}"
+            raise TypeError(f"'{name}' is no keyword of an impact{hint}")
+    pure = [name for name in DIMENSIONLESS if name in values]
+    physical = [name for name in SCENE if name in values] + ["material"] * (material is not None)
+    if pure and physical:
+        raise TypeError(f"numbers of the paper ({', '.join(pure)}) and SI units "
+                        f"({', '.join(physical)}) are both given: use one kind")
+    if not pure and not physical:
+        raise TypeError("no impact is described: give psi, delta1, gamma or a material, radius, "
+                        "speed")
+    return "impact" if pure else "scene"
+
+
+def broadcast(columns: dict) -> tuple:
+    """The common shape of columns."""
+    try:
+        return np.broadcast_shapes(*(np.shape(column) for column in columns.values()))
+    except ValueError:
+        shapes = (f"{name} {np.shape(c)}" for name, c in columns.items() if np.ndim(c))
+        raise errors.DomainError(f"shapes do not broadcast: {', '.join(shapes)}") from None
+
+
+def _numbers(name, value):
+    try:
+        return np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise errors.DomainError(f"{name} = {value!r}: must be a number or an array") from None
+
+
+def _speeds(number):
+    parts = {name: number[name] for name in ("normal_speed", "tangential_speed") if name in number}
+    good = "normal_speed" in parts and "angle" not in number
+    if not (not parts if "speed" in number else good):
+        raise TypeError("give speed, or speed and angle, or normal_speed, or normal_speed and "
+                        "tangential_speed")
+    if "speed" not in number:
+        return parts
+    angle = np.radians(number.get("angle", 0.0))
+    return {"normal_speed": number["speed"] * np.cos(angle),
+            "tangential_speed": number["speed"] * np.sin(angle)}
+
+
+def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material], Any, Any]:
+    """Solids of arrays of materials and partners: each combination once, in which place of the
+    list the solid of each case is, and its restitute_deformable."""
+    solids: list[Material] = []
+    places: dict[tuple, int] = {}
+    opened: dict[Any, Material] = {}
+
+    def opening(name, value):
+        if not isinstance(value, (str, os.PathLike, Material)):
+            raise TypeError(f"{name} = {value!r}: must be a Material, its name or a file")
+        if isinstance(value, Material):
+            return value
+        if value not in opened:
+            opened[value] = material_of(value)
+        return opened[value]
+
+    def solid(one, other, shift):
+        word = isinstance(other, str) and other in ("rigid", "same")
+        key = (opening("material", one).address, word or opening("partner", other).address, shift)
+        if key not in places:
+            if not 0 < shift < np.inf:
+                raise errors.DomainError(f"time_shift = {shift:g}: must be finite and > 0")
+            if not word and shift != 1:
+                raise TypeError("time_shift beside a partner's own material: take "
+                                "Material.shifted for each")
+            found = opening("material", one).shifted(shift)
+            places[key] = len(solids)
+            solids.append(found if word else Material.effective(found, opening("partner", other)))
+        return places[key], 2 if word and other == "same" else 1
+
+    found = np.frompyfunc(solid, 3, 2)(_objects(material), _objects(partner),
+                                       _numbers("time_shift", time_shift).astype(object))
+    return (solids, *(np.asarray(part).astype(np.int64) for part in found))
+
+
+def _objects(value) -> np.ndarray:
+    """An array of Materials or words."""
+    array = np.empty((), object)
+    array[()] = value
+    return np.asarray(value, object) if isinstance(value, (list, tuple, np.ndarray)) else array
+
+
+def _span(values: Any, unit: str, scale: float = 1.0) -> str:
+    """"5 mm", or "1 to 5 mm"."""
+    ends = dict.fromkeys(f"{float(end) * scale:.4g}" for end in (np.min(values), np.max(values)))
+    return f"{' to '.join(ends)}{unit}"
+
+
+def _length(values: Any) -> str:
+    most = float(np.max(values))
+    return _span(values, *((" m", 1.0) if most >= 1 else (" mm", 1e3) if most >= 1e-4 else (" um", 1e6)))
+
+
+def _names(solids: list[Material]) -> str:
+    names = list(dict.fromkeys(m.name or m.model.replace("_", " ") for m in solids))
+    return names[0] if len(names) == 1 else f"{len(names)} materials"
+
+
+def describe(impacts: Any = None, **keywords: Any) -> str:
+    """The scene in words, from Impacts or from the keywords of `restitute.pair`.
+
+    Examples
+    --------
+    >>> rubber = Material.elastic(1e6, name="rubber")
+    >>> describe(material_of("steel"), partner=rubber, radius=0.005, speed=1, friction=0.3)
+    'sphere of Structural steel, R = 5 mm, on a wall of rubber: 1 m/s, 0 degrees, friction 0.3'
+    >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30)
+    'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees, friction 0'
+    """
+    if not isinstance(impacts, Impacts):
+        impacts = Impacts(impacts, **keywords)
+    r = impacts.records
+    if impacts.kind == "impact":
+        return ", ".join(f"{name} = {_span(r[name], '')}" for name in DIMENSIONLESS[:4])
+    used = [impacts.solids[i] for i in np.unique(r["material"]).astype(int)]
+    wall = np.isinf(r["radius2"])
+    other = "a wall" if wall.all() else "a sphere or a wall" if wall.any() else "a sphere"
+    first, second, rigid = "", "", ""
+    if all(m.parts for m in used):
+        first, second = (f" of {_names([m.parts[k] for m in used])}" for k in (0, 1))
+    elif (r["deformable"] == 2).all():
+        first, second = f" of {_names(used)}", " of the same"
+    else:
+        rigid = f", one of them of {_names(used)}, the other rigid"
+    if not wall.any():
+        second += f", R2 = {_length(r['radius2'])}"
+    speed = np.hypot(r["normal_speed"], r["tangential_speed"])
+    angle = np.degrees(np.arctan2(np.abs(r["tangential_speed"]), r["normal_speed"]))
+    return (f"sphere{first}, R = {_length(r['radius1'])}, on {other}{second}{rigid}: "
+            f"{_span(speed, ' m/s')}, {_span(angle, ' degrees')}, friction {_span(r['friction'], '')}"
+            f"{', rotation blocked' if (r['rotation_blocked'] != 0).all() else ''}")
